@@ -1,4 +1,4 @@
-//! What is to be done: a file and where its output goes.
+//! Assets: files with the places of their outputs.
 
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
@@ -6,19 +6,19 @@ use std::path::{Component, Path, PathBuf};
 use super::list_error::ListError;
 use unwrapd_files::document::OutputFormat;
 
-/// One input file and the place of its output.
+/// An input file and the place of its output.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Asset {
-    /// The file that is read.
+    /// Path of the input.
     pub input: PathBuf,
-    /// Its name in messages and tables: the path within the folder, or as the manifest has it.
+    /// Name in messages and tables: the path within the folder, or as given in the manifest.
     pub name: String,
     /// Path of the output within the output folder.
     pub output: PathBuf,
 }
 
 impl Asset {
-    /// An asset whose output is named like the input, with the extension of `format`.
+    /// Creates an asset whose output is named like the input, with the extension of `format`.
     pub(super) fn mirrored(root: &Path, path: &Path, format: OutputFormat) -> Self {
         let is_inside = is_inside(path);
         let within = if is_inside {
@@ -34,19 +34,19 @@ impl Asset {
     }
 }
 
-/// A path without `.` in it.
+/// Returns a path without `.` components.
 pub(super) fn plain(path: &Path) -> PathBuf {
     let is_name = |part: &Component| *part != Component::CurDir;
     path.components().filter(is_name).collect()
 }
 
-/// Whether a path stays within the folder that it counts from.
+/// Returns whether a relative path stays within its folder.
 pub(super) fn is_inside(path: &Path) -> bool {
     let is_plain = |part: Component| matches!(part, Component::Normal(_) | Component::CurDir);
     path.components().all(is_plain)
 }
 
-/// Refuses assets that would share an output, and outputs that would replace an input.
+/// Rejects assets that would share an output, and outputs that would replace an input.
 pub(super) fn check(assets: &[Asset], to: &Path) -> Result<(), ListError> {
     let mut by_output: BTreeMap<&Path, &Asset> = BTreeMap::new();
     for asset in assets {

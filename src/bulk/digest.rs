@@ -1,17 +1,17 @@
-//! What an output follows from, as one digest.
+//! Digests of everything that determines an output.
 
 use super::worker::Extra;
 use unwrapd_files::document::Upload;
 use unwrapd_pipeline::{Options, Workers};
 use unwrapd_server::jobs::Digest;
 
-/// What all assets of a run have in common.
+/// Digest of the settings shared by all assets of a run.
 #[derive(Clone, Debug)]
 pub(super) struct Recipe(Digest);
 
 impl Recipe {
-    /// The version of what works, the options, and what is written beside the output. The number of
-    /// threads does not count: the output does not depend on it.
+    /// Creates the digest of a worker's version, the options, and the extra files. The number of threads does not
+    /// count, because outputs do not depend on it.
     pub fn new(version: &str, options: &Options, extras: &[Extra]) -> serde_json::Result<Self> {
         let options = Options {
             workers: Workers::default(),
@@ -26,7 +26,7 @@ impl Recipe {
         Ok(Self(digest))
     }
 
-    /// The digest of an asset.
+    /// Returns the digest of an asset.
     pub fn with(&self, upload: &Upload) -> String {
         let mut digest = self.0.clone();
         digest.add(upload.name.as_bytes());

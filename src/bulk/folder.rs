@@ -1,4 +1,4 @@
-//! The meshes in a folder.
+//! Listing of the meshes in a folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,20 +8,20 @@ use super::list_error::ListError;
 use unwrapd_files::document::OutputFormat;
 use unwrapd_files::io::{Content, Format};
 
-/// The assets of a folder, sorted by path.
+/// Assets of a folder, sorted by path.
 #[derive(Debug, Default)]
 pub struct Listing {
-    /// What is to be done.
+    /// Assets to process.
     pub assets: Vec<Asset>,
-    /// Links to folders, which are not followed: they may lead around in circles.
+    /// Links to folders, which are not followed because they may form cycles.
     pub links: Vec<PathBuf>,
 }
 
-/// Lists the meshes of a folder and its subfolders, by their extensions. Hidden files and folders are
-/// left out, and so is the output folder.
+/// Lists the meshes of a folder and its subfolders by their extensions. Skips hidden files and folders, and the
+/// output folder.
 ///
 /// # Errors
-/// If a folder cannot be read, nothing is found, or outputs are in each other's way.
+/// Fails if a folder cannot be read, nothing is found, or outputs conflict.
 pub fn assets_in(root: &Path, to: &Path, format: OutputFormat) -> Result<Listing, ListError> {
     let mut walk = Walk {
         root,
@@ -45,14 +45,14 @@ pub fn assets_in(root: &Path, to: &Path, format: OutputFormat) -> Result<Listing
 
 struct Walk<'a> {
     root: &'a Path,
-    /// The output folder.
+    /// Canonical path of the output folder.
     apart: Option<PathBuf>,
     files: Vec<PathBuf>,
     links: Vec<PathBuf>,
 }
 
 impl Walk<'_> {
-    /// A folder with all below it. Paths are those within the root.
+    /// Visits a folder and everything below it. Paths are relative to the root.
     fn folder(&mut self, first: PathBuf) -> Result<(), ListError> {
         let mut open = vec![first];
         while let Some(folder) = open.pop() {
@@ -90,7 +90,7 @@ impl Walk<'_> {
     }
 }
 
-/// Whether the extension of a name is that of a mesh.
+/// Returns whether a file has the extension of a mesh.
 fn is_mesh(path: &Path) -> bool {
     let format = Format::of_name(&path.to_string_lossy());
     format.is_some_and(|format| format.holds(Content::Surface))

@@ -1,32 +1,32 @@
-//! Why there is no list of assets.
+//! Errors of asset lists.
 
 use std::path::PathBuf;
 
-/// Why there is no list of assets.
+/// Reason why the list of assets is invalid.
 #[derive(Debug, thiserror::Error)]
 pub enum ListError {
     /// A folder or a manifest cannot be read.
     #[error("{}: {error}", path.display())]
     Unreadable {
-        /// Which.
+        /// Path of the folder or manifest.
         path: PathBuf,
-        /// Why.
+        /// Cause.
         error: std::io::Error,
     },
     /// There is nothing to do.
     #[error("{0} names no mesh: .glb, .gltf, .obj, .off, .ply or .stl")]
     NoAssets(String),
-    /// A line of a manifest is wrong.
+    /// A line of a manifest is invalid.
     #[error("{manifest}, line {number}: {cause}")]
     Line {
         /// Name of the manifest.
         manifest: String,
         /// Number of the line, from 1.
         number: usize,
-        /// What is wrong.
+        /// Cause.
         cause: String,
     },
-    /// Two assets would be written to one file.
+    /// Two assets have the same output.
     #[error(
         "{first} and {second} would both be written to {}: name their outputs in a manifest",
         output.display()
@@ -34,7 +34,7 @@ pub enum ListError {
     SameOutput {
         /// The first asset.
         first: String,
-        /// The second.
+        /// The second asset.
         second: String,
         /// Their output, within the output folder.
         output: PathBuf,
@@ -45,7 +45,7 @@ pub enum ListError {
 }
 
 impl ListError {
-    /// The exit status of the command line: 2 usage, 3 unusable input.
+    /// Returns the exit status of the command line: 2 usage, 3 unusable input.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Unreadable { .. } | Self::NoAssets(_) | Self::Line { .. } => 3,

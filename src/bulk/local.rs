@@ -1,4 +1,4 @@
-//! Work done by child processes on this machine.
+//! Worker that computes in child processes on this machine.
 
 use std::time::Duration;
 
@@ -9,9 +9,9 @@ use unwrapd_server::jobs::Contained;
 /// Unwraps each asset in a child process.
 #[derive(Clone, Debug)]
 pub struct Local {
-    /// What contains it.
+    /// Settings of the child processes.
     pub contained: Contained,
-    /// How it is unwrapped.
+    /// Options of unwrapping.
     pub options: serde_json::Value,
 }
 

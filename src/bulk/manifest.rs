@@ -1,4 +1,4 @@
-//! Assets that a file lists.
+//! Assets listed in a file.
 
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
@@ -9,12 +9,12 @@ use super::asset::{self, Asset, is_inside, plain};
 use super::list_error::ListError;
 use unwrapd_files::document::OutputFormat;
 
-/// The assets of a manifest, in its order. Each line is the path of an input, counted from `root`,
-/// and, after a tab, the path of its output within the output folder. Without one the output is named
-/// like the input, and an input from elsewhere only by its file name. Empty lines do not count.
+/// Parses a manifest into assets, in its order. Each line is the path of an input, relative to `root`, optionally
+/// followed by a tab and the path of its output within the output folder. By default the output is named like the
+/// input; for an input outside of `root`, only its file name counts. Empty lines are skipped.
 ///
 /// # Errors
-/// If a line is wrong, none names a mesh, or outputs are in each other's way.
+/// Fails if a line is invalid, the manifest is empty, or outputs conflict.
 pub fn assets_of(
     (name, bytes): (&str, &[u8]),
     root: &Path,

@@ -1,23 +1,22 @@
 //! Many files through one command, without a queue of our own.
 //!
-//! A run is a stateless task over a list of assets, or over one shard of it, so that whatever starts
-//! processes can drive it: a shell, HyperQueue, Ray, Slurm, a Kubernetes Indexed Job. What it needs to
-//! know lies beside the outputs:
+//! A run is a stateless task over a list of assets, or over one shard of it, so that any launcher of processes can
+//! drive it: a shell, HyperQueue, Ray, Slurm, a Kubernetes Indexed Job. Its state lies beside the outputs:
 //!
-//! - **Complete or absent.** A file is written under another name, synced, and renamed into place,
-//!   the main output last.
-//! - **Nothing twice.** After its files an asset gets a [`Record`] in `DIR/.unwrapd`, which names the
-//!   digest of input, options and version. A run keeps what has a record of its digest and all its
-//!   files. A kill between the files and the record costs that asset's time again, and changes nothing.
-//! - **No coordination.** Each asset has a record of its own, so that shards share nothing. Two
-//!   processes that do the same asset write the same bytes.
-//! - **One bad mesh is one row.** Assets are computed in child processes with limits, like the jobs of
-//!   the service; whatever happens to one ends as a row of the summary with its code.
+//! - **Complete or absent.** A file is written under another name, synced, and renamed into place, the main output
+//!   last.
+//! - **Nothing twice.** After its files an asset gets a [`Record`] in `DIR/.unwrapd`, which contains the digest of
+//!   input, options and version. A run keeps assets that have a record of their digest and all their files. A kill
+//!   between the files and the record costs that asset's time again, and changes nothing.
+//! - **No coordination.** Each asset has a record of its own, so shards share nothing. Two processes that do the same
+//!   asset write the same bytes.
+//! - **One bad mesh is one row.** Assets are computed in child processes with limits, like the jobs of the service;
+//!   whatever happens to one ends as a row of the summary with its code.
 //!
-//! The summary is made from the rows of a run, kept ones included. So a run without a shard after all
-//! shards does what is missing and summarizes everything.
+//! The summary is made from the rows of a run, including kept ones. So a run without a shard after all shards does
+//! what is missing and summarizes everything.
 //!
-//! The work itself is a [`Worker`]: a child process ([`Local`]), or a service ([`Remote`]).
+//! The work itself is done by a [`Worker`]: a child process ([`Local`]), or a service ([`Remote`]).
 
 mod asset;
 mod digest;

@@ -1,4 +1,4 @@
-//! One asset of a run: read, looked up, done, published, recorded.
+//! One asset of a run: read, looked up, processed, published, recorded.
 
 use std::fs;
 use std::io;
@@ -18,10 +18,11 @@ use super::worker::{Task, Worker};
 use unwrapd_api::Failure;
 use unwrapd_files::document::{Upload, with_references};
 
-/// Does an asset unless that was done before.
+/// Processes an asset unless an earlier run did. Returns its row.
 pub(super) async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) -> (Row, Fate) {
     let (begin, asset) = (Instant::now(), &order.assets[index]);
     let row = |seconds, status| Row::new(asset, seconds, status);
+    // Read the input and look for a record of the same work.
     let upload = match block_in_place(|| read(asset)) {
         Ok(upload) => upload,
         Err(error) => {
@@ -43,6 +44,7 @@ pub(super) async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) ->
         } = same.row.clone();
         return (row(seconds, status), Fate::Kept);
     }
+    // Do the work, and record how it ended.
     let attempt = same.map_or(0, Record::next_attempt);
     let work = (&upload, digest.as_str(), attempt);
     let made = done(order, worker, index, work, old.as_ref()).await;
@@ -63,7 +65,7 @@ pub(super) async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) ->
     (record.row, Fate::Done)
 }
 
-/// The outputs of an asset, in their places.
+/// Does the work on an asset and publishes its outputs.
 async fn done<W: Worker>(
     order: &Order,
     worker: &W,
@@ -88,8 +90,7 @@ async fn done<W: Worker>(
     made
 }
 
-/// Records what became of an asset. An output of another input, or made with other options, does not
-/// outlive the failure of this one.
+/// Records how an asset ended. If it failed, removes an output of another input or other options.
 fn settle(order: &Order, asset: &Asset, record: &Record, old: Option<&Record>) -> io::Result<()> {
     let is_outdated = old.is_some_and(|old| old.digest != record.digest && !old.has_failed());
     if is_outdated && record.has_failed() {
@@ -98,8 +99,8 @@ fn settle(order: &Order, asset: &Asset, record: &Record, old: Option<&Record>) -
     record.store(&order.place, asset)
 }
 
-/// The files of an asset. The main one is named like the output, since files that belong to an
-/// output are named after its input.
+/// Reads the files of an asset. The main file gets the stem of the output, because files that belong to an output are
+/// named after its input.
 fn read(asset: &Asset) -> io::Result<Upload> {
     let bytes = read_regular(&asset.input)?;
     let stem = asset.output.file_stem().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! What a run does.
+//! Settings of a run.
 
 use std::io;
 
@@ -9,37 +9,37 @@ use super::scratch::Scratch;
 use super::worker::Extra;
 use unwrapd_pipeline::Options;
 
-/// What a run does.
+/// Settings of a run.
 pub struct Order {
-    /// The assets, of this shard only.
+    /// Assets of this shard.
     pub assets: Vec<Asset>,
-    /// Where outputs go.
+    /// Output folder.
     pub place: Place,
-    /// Where they are made.
+    /// Folder for temporary files.
     pub scratch: Scratch,
-    /// What is written beside outputs.
+    /// Files to write beside outputs.
     pub extras: Vec<Extra>,
-    /// Whether assets that failed for good are done again.
+    /// Set to retry assets that failed permanently.
     pub retries: bool,
-    /// Assets in work at once.
+    /// Maximum number of assets in progress.
     pub concurrency: usize,
     pub(super) recipe: Recipe,
 }
 
-/// How a run came to a row.
+/// Origin of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
     /// An earlier run did the work.
     Kept,
-    /// This one did it.
+    /// This run did the work.
     Done,
 }
 
 impl Order {
-    /// One asset at a time, by a worker of this version.
+    /// Creates a run of one asset at a time, by a worker of this version.
     ///
     /// # Errors
-    /// If the options cannot be written as JSON.
+    /// Fails if the scratch folder cannot be created, or the options cannot be written as JSON.
     pub fn new(
         assets: Vec<Asset>,
         place: Place,

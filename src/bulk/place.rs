@@ -8,21 +8,20 @@ use std::time::{Duration, SystemTime};
 use super::asset::Asset;
 use super::whole::write_whole;
 
-/// What is older was left by a process that was killed.
+/// Age above which an unfinished file was left by a killed process.
 const PART_AGE: Duration = Duration::from_hours(24);
 
-/// An output folder, with what runs know of it in `.unwrapd`.
+/// An output folder, with the state of runs in `.unwrapd`.
 #[derive(Clone, Debug)]
 pub struct Place {
     root: PathBuf,
 }
 
 impl Place {
-    /// Uses a folder, and makes it if need be. Unfinished files that a killed process left a day ago
-    /// are removed.
+    /// Opens a folder, and creates it if needed. Removes unfinished files that a killed process left a day ago.
     ///
     /// # Errors
-    /// If nothing can be written there.
+    /// Fails if nothing can be written there.
     pub fn open(root: &Path) -> io::Result<Self> {
         let place = Self {
             root: root.to_path_buf(),
@@ -44,29 +43,29 @@ impl Place {
         Ok(place)
     }
 
-    /// A path within the folder.
+    /// Returns the path of a file within the folder.
     pub fn path(&self, within: &Path) -> PathBuf {
         self.root.join(within)
     }
 
-    /// Where the record of an asset lies within the folder.
+    /// Returns the path of an asset's record within the folder.
     pub(super) fn record(asset: &Asset) -> PathBuf {
         let mut path = Path::new(".unwrapd/records").join(&asset.output);
         path.as_mut_os_string().push(".json");
         path
     }
 
-    /// Writes a file whole, with the folders that it needs.
+    /// Writes a file atomically, and creates its folders.
     ///
     /// # Errors
-    /// If it cannot be written; then an old one is as it was.
+    /// Fails if it cannot be written; an existing file is then unchanged.
     pub fn write(&self, within: &Path, content: &[u8]) -> io::Result<()> {
         let path = self.path(within);
         fs::create_dir_all(path.parent().unwrap_or(&self.root))?;
         write_whole(&path, &self.part(), content)
     }
 
-    /// Removes a file if it is there.
+    /// Removes a file if it exists.
     pub(super) fn remove(&self, within: &Path) -> io::Result<()> {
         match fs::remove_file(self.path(within)) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
@@ -78,7 +77,7 @@ impl Place {
         self.root.join(".unwrapd/parts")
     }
 
-    /// A name that no other process uses, on any machine.
+    /// Returns a path for an unfinished file that no other process uses, on any machine.
     fn part(&self) -> PathBuf {
         self.parts().join(uuid::Uuid::now_v7().to_string())
     }

@@ -1,4 +1,4 @@
-//! What was made of an asset, moved to where it belongs.
+//! Publication of outputs: moving them into place.
 
 use std::fs;
 use std::io;
@@ -14,10 +14,10 @@ use super::trouble::{Trouble, unwritten};
 use super::worker::Extra;
 use unwrapd_api::{Failure, output_file};
 
-/// What outputs are worth, and the paths and sizes of what was written.
+/// Quality figures, and the paths and sizes of the written files.
 pub(super) type Published = (Figures, Vec<(PathBuf, u64)>);
 
-/// Moves what was made to where it belongs, the main output last.
+/// Moves the files made for an asset into place, the main output last.
 pub(super) fn published(
     order: &Order,
     asset: &Asset,
@@ -29,6 +29,7 @@ pub(super) fn published(
     forgotten.map_err(|error| unwritten(&error))?;
     let mut figures = None;
     let mut files = Vec::new();
+    // The main output has index 0, so it comes last.
     for (index, role) in made.iter().enumerate().rev() {
         let content = fs::read(folder.join(output_file(index))).map_err(|e| unwritten(&e))?;
         if role == Extra::Report.role() {
@@ -47,8 +48,8 @@ pub(super) fn published(
     Ok((figures, files))
 }
 
-/// Writes a file, unless it is there already. One with another content may be somebody else's:
-/// several outputs can have a picture in common.
+/// Writes a file, unless it already has this content. A file with different content may belong to another asset:
+/// several outputs can share a picture.
 fn put(place: &Place, path: &Path, content: &[u8], is_own: bool) -> Result<(), Failure> {
     match read_regular(&place.path(path)) {
         Ok(there) if there == content => Ok(()),
@@ -66,14 +67,14 @@ fn put(place: &Place, path: &Path, content: &[u8], is_own: bool) -> Result<(), F
     }
 }
 
-/// Whether a file is named after an output, so that no other asset has it.
+/// Returns whether a file is named after an output, so that no other asset has it.
 fn is_named_like(path: &Path, output: &Path) -> bool {
     let name = |path: &Path| path.file_name().unwrap_or_default().to_os_string();
     let stem = output.file_stem().unwrap_or_default().as_encoded_bytes();
     path == output || name(path).as_encoded_bytes().starts_with(stem)
 }
 
-/// Where a file belongs within the output folder; `None` if nobody asked for it.
+/// Returns the path of a file within the output folder; `None` if it was not requested.
 fn destination(order: &Order, asset: &Asset, role: &str) -> Result<Option<PathBuf>, Failure> {
     if role == "result" {
         return Ok(Some(asset.output.clone()));

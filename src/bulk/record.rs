@@ -1,4 +1,4 @@
-//! What a run leaves about an asset for later runs.
+//! Records of assets for later runs.
 
 use std::fs;
 use std::io;
@@ -12,26 +12,25 @@ use super::regular::read_regular;
 use super::row::{Row, Status};
 use super::trouble::Trouble;
 
-/// What became of an asset, and of what that holds. It is written after the files that it lists.
+/// Outcome for an asset, and the digest that it holds for. It is written after the files that it lists.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// Digest of input, options and version.
     pub(super) digest: String,
-    /// How often the work on that has failed before.
+    /// Number of earlier failures with this digest.
     #[serde(default)]
     pub(super) attempt: u32,
-    /// Seconds that the work had, if they are known.
+    /// Time limit of the work in seconds, if known.
     #[serde(default)]
     pub(super) time_limit: Option<f64>,
-    /// Path within the output folder, and size, of each file that was written.
+    /// Path within the output folder, and size in bytes, of each written file.
     pub(super) files: Vec<(PathBuf, u64)>,
-    /// What became of it.
+    /// Outcome.
     #[serde(flatten)]
     pub(super) row: Row,
 }
 
-/// Codes of the service that another run may not meet: they are not those of the input and its
-/// options.
+/// Codes of temporary failures: they are not about the input and its options, so another run may succeed.
 const PASSING: [&str; 12] = [
     "conflict",
     "crashed",
@@ -48,18 +47,18 @@ const PASSING: [&str; 12] = [
 ];
 
 impl Record {
-    /// The record of an asset, if there is one that can be read.
+    /// Loads the record of an asset; `None` if there is no readable one.
     pub(super) fn load(place: &Place, asset: &Asset) -> Option<Self> {
         let bytes = read_regular(&place.path(&Place::record(asset))).ok()?;
         serde_json::from_slice(&bytes).ok()
     }
 
-    /// Writes it.
+    /// Writes the record.
     pub(super) fn store(&self, place: &Place, asset: &Asset) -> io::Result<()> {
         place.write(&Place::record(asset), &serde_json::to_vec_pretty(self)?)
     }
 
-    /// Whether all the files are there, as far as their sizes tell.
+    /// Returns whether all the files exist with the recorded sizes.
     pub(super) fn is_whole(&self, place: &Place) -> bool {
         let is_there = |(path, bytes): &(PathBuf, u64)| {
             fs::metadata(place.path(path)).is_ok_and(|of| of.len() == *bytes)
@@ -67,7 +66,7 @@ impl Record {
         self.files.iter().all(is_there)
     }
 
-    /// Whether doing it again may end otherwise.
+    /// Returns whether a retry may succeed because the failure was temporary.
     pub(super) fn may_pass(&self) -> bool {
         match &self.row.status {
             Status::Failed { code, .. } => {
@@ -77,7 +76,7 @@ impl Record {
         }
     }
 
-    /// Whether it ended before it was done, and may get further in more time than it had.
+    /// Returns whether it ended early, and may get further with a longer time limit.
     pub(super) fn was_cut_short(&self, time_limit: Option<f64>) -> bool {
         let has_more = self
             .time_limit
@@ -86,7 +85,7 @@ impl Record {
         matches!(&self.row.status, Status::Written(figures) if figures.ended_early) && has_more
     }
 
-    /// The number of the next attempt. What failed before or after the work itself is not one more.
+    /// Returns the number of the next attempt. Failures before or after the work itself do not count.
     pub(super) fn next_attempt(&self) -> u32 {
         match &self.row.status {
             Status::Failed { code, .. } if is_of_work(code) => self.attempt + 1,
@@ -94,13 +93,13 @@ impl Record {
         }
     }
 
-    /// Whether it ended without an output.
+    /// Returns whether it ended without an output.
     pub(super) fn has_failed(&self) -> bool {
         !matches!(self.row.status, Status::Written(_))
     }
 }
 
-/// Whether the work itself has failed, so that it is over.
+/// Returns whether a code means that the work itself failed.
 fn is_of_work(code: &str) -> bool {
     code != "storage_full" && Trouble::of(code).is_none_or(|it| it == Trouble::Cancelled)
 }

@@ -1,18 +1,18 @@
-//! Files that end: regular ones of a bounded size.
+//! Reading of regular files of bounded size.
 
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Bytes of a file at most, that lengths in a GLB can count: 4 GiB.
+/// Maximum size of a file in bytes, as far as lengths in a GLB can count: 4 GiB.
 pub const MOST_BYTES: u64 = 1 << 32;
 
-/// Reads a regular file, or what a link to one leads to.
+/// Reads a regular file, or the target of a link to one.
 ///
-/// A pipe may never have a writer and a device never end, so neither is opened.
+/// A pipe may never have a writer, and a device may never end, so neither is opened.
 ///
 /// # Errors
-/// If it cannot be read, is not a regular file, or has more than [`MOST_BYTES`].
+/// Fails if it cannot be read, is not a regular file, or has more than [`MOST_BYTES`].
 pub fn read_regular(path: &Path) -> io::Result<Vec<u8>> {
     check(&std::fs::metadata(path)?)?;
     let file = File::open(path)?;
@@ -24,7 +24,7 @@ pub fn read_regular(path: &Path) -> io::Result<Vec<u8>> {
 /// Reads a stream to its end.
 ///
 /// # Errors
-/// If it cannot be read, or has more bytes than `most`.
+/// Fails if it cannot be read, or has more bytes than `most`.
 pub fn read_bounded(stream: impl Read, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     stream

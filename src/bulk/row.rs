@@ -1,4 +1,4 @@
-//! What became of an asset: one line of the summary.
+//! Rows of the summary, one per asset.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use super::asset::Asset;
 use unwrapd_api::{Failure, Worth};
 use unwrapd_server::jobs::Gates;
 
-/// What became of an asset.
+/// Outcome for an asset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Name of the input.
@@ -15,53 +15,53 @@ pub struct Row {
     pub output: String,
     /// Seconds from reading the input to having the output in place.
     pub seconds: f64,
-    /// How it ended.
+    /// Outcome.
     #[serde(flatten)]
     pub status: Status,
 }
 
-/// How an asset ended.
+/// Status of a processed asset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "status", rename_all = "snake_case")]
 pub enum Status {
-    /// There is an output.
+    /// It has an output.
     Written(Figures),
-    /// There is none, for a reason.
+    /// It has no output, for this reason.
     Failed {
-        /// Stable snake_case word.
+        /// Stable code in snake_case.
         code: String,
-        /// One line.
+        /// Description in one line.
         detail: String,
     },
-    /// No run has recorded anything of it.
+    /// No run has recorded it.
     Missing,
 }
 
-/// What an output is worth.
+/// Quality figures of an output.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
-    /// Whether everything requested is proven.
+    /// Set if everything requested is proven.
     pub certified: bool,
-    /// Triangles.
+    /// Number of triangles.
     pub faces: u64,
-    /// Charts of all atlases.
+    /// Number of charts of all atlases.
     pub charts: u64,
     /// Mean symmetric Dirichlet energy of the worst atlas; an isometry has 4.
     pub distortion: Option<f64>,
     /// 99th percentile of the stretch of the worst atlas; an isometry has 1.
     pub stretch: Option<f64>,
-    /// Warnings in the report.
+    /// Number of warnings in the report.
     pub warnings: u64,
-    /// Whether a limit ended it before it was done.
+    /// Set if a limit ended the work early.
     #[serde(default)]
     pub ended_early: bool,
-    /// True if textures or colors were not resampled as requested. `unwrap` ends with 7 then.
+    /// Set if textures or colors were not resampled as requested, in which case `unwrap` exits with 7.
     #[serde(default)]
     pub partly_done: bool,
 }
 
 impl Row {
-    /// The row of an asset.
+    /// Creates the row of an asset.
     pub(super) fn new(asset: &Asset, seconds: f64, status: Status) -> Self {
         Self {
             input: asset.name.clone(),
@@ -73,7 +73,7 @@ impl Row {
 }
 
 impl Row {
-    /// Whether the asset meets all gates. One without an output meets none.
+    /// Returns whether the asset passes all gates. One without an output passes none.
     pub fn is_accepted(&self, gates: &Gates) -> bool {
         match &self.status {
             Status::Written(figures) => gates.accept(&figures.worth(), self.seconds),
@@ -88,7 +88,7 @@ impl From<Failure> for Status {
     }
 }
 
-/// What is read of a report.
+/// Part of a report that is read.
 #[derive(Deserialize)]
 struct ReportRead {
     certified: bool,
@@ -117,7 +117,7 @@ struct MeasuresRead {
 }
 
 impl Figures {
-    /// What gates judge of them.
+    /// Returns the figures that gates judge.
     fn worth(&self) -> Worth {
         Worth {
             certified: Some(self.certified),
@@ -127,7 +127,7 @@ impl Figures {
         }
     }
 
-    /// What a report says.
+    /// Reads the figures from a report.
     pub(super) fn of_report(report: &[u8]) -> serde_json::Result<Self> {
         let ReportRead {
             certified,

@@ -1,4 +1,4 @@
-//! A run over assets: what is recorded is kept, the rest is done, several at once.
+//! A run over assets: keeps recorded ones and processes the rest concurrently.
 
 use std::collections::HashMap;
 use std::pin::pin;
@@ -15,11 +15,11 @@ use super::row::{Row, Status};
 use super::worker::Worker;
 use unwrapd_api::Failure;
 
-/// Told of every row as it comes.
+/// Callback for every row as it is produced.
 pub type Seen<'a> = &'a mut (dyn FnMut(&Row, Fate) + Send);
 
-/// Does what an order asks for; the rows are in the order of the assets. `None` if `stop` ended first:
-/// then nothing is in work any more, and what was is not recorded.
+/// Runs an order. Returns the rows in the order of the assets, or `None` if `stop` completed first: then all work has
+/// stopped, and unfinished work is not recorded.
 pub async fn run<W: Worker>(
     order: Order,
     worker: W,
@@ -61,7 +61,7 @@ pub async fn run<W: Worker>(
     Some(rows.into_iter().flatten().collect())
 }
 
-/// The rows that earlier runs have recorded.
+/// Returns the rows that earlier runs have recorded.
 pub fn recorded(assets: &[Asset], place: &Place) -> Vec<Row> {
     let row = |asset| {
         let record = Record::load(place, asset).filter(|record| record.is_whole(place));
@@ -73,7 +73,7 @@ pub fn recorded(assets: &[Asset], place: &Place) -> Vec<Row> {
     assets.iter().map(row).collect()
 }
 
-/// A mistake of this program that one asset brought to light.
+/// Returns the failure of a task that panicked, which is a bug of this program.
 fn broken(error: &JoinError) -> Failure {
     Failure::new("crashed", format!("{error}, which is a bug"))
 }

@@ -1,4 +1,4 @@
-//! A folder for what is in the making, on a local disk.
+//! Temporary folder on a local disk.
 
 use std::fs::{self, File};
 use std::io;
@@ -7,19 +7,19 @@ use std::path::{Path, PathBuf};
 const PREFIX: &str = "unwrapd-bulk-";
 const LOCK: &str = "lock";
 
-/// A folder of this process among the temporary files (`TMPDIR`). Dropping it removes it.
+/// A folder of this process in the temporary folder (`TMPDIR`). It is removed on drop.
 #[derive(Debug)]
 pub struct Scratch {
     path: PathBuf,
-    /// Goes with the process.
+    /// Lock that the system releases when the process ends.
     _lock: File,
 }
 
 impl Scratch {
-    /// Makes a folder, and removes those of processes that were killed.
+    /// Creates a folder, and removes those of killed processes.
     ///
     /// # Errors
-    /// If it cannot be made.
+    /// Fails if it cannot be created.
     pub fn new() -> io::Result<Self> {
         let all = std::env::temp_dir();
         for entry in fs::read_dir(&all)?.filter_map(Result::ok) {
@@ -36,7 +36,7 @@ impl Scratch {
         Ok(Self { path, _lock: lock })
     }
 
-    /// Makes an empty folder within.
+    /// Creates an empty subfolder.
     pub(super) fn folder(&self, name: usize) -> io::Result<PathBuf> {
         let path = self.path.join(name.to_string());
         fs::create_dir(&path)?;
@@ -44,7 +44,7 @@ impl Scratch {
     }
 }
 
-/// Whether the process that made a folder has ended. One without a lock is just being made.
+/// Returns whether the process that made a folder has ended. A folder without a lock file is just being made.
 fn is_abandoned(folder: &Path) -> bool {
     File::open(folder.join(LOCK)).is_ok_and(|lock| lock.try_lock().is_ok())
 }

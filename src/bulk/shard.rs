@@ -1,74 +1,74 @@
-//! Which part of a list a process does.
+//! Shards of an asset list.
 
 use std::str::FromStr;
 
-/// One of several parts of a list, of equal size but for one asset.
+/// One of several parts of a list, whose sizes differ by at most one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
-    /// Its number, from 0.
+    /// Index, from 0.
     index: u64,
     count: u64,
 }
 
-/// The shard that was asked for: `I/N`, or `auto` and `auto/N`.
+/// Requested shard: `I/N`, `auto` or `auto/N`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShardChoice {
-    /// This one.
+    /// This shard.
     Fixed(Shard),
-    /// The one that the scheduler's environment tells, of so many if it does not tell that.
+    /// The shard given by the scheduler's environment. The number of shards is needed if the environment lacks it.
     Auto(Option<u64>),
 }
 
-/// Why there is no shard.
+/// Reason why the shard cannot be determined.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ShardError {
-    /// It is written in another way.
+    /// The text does not have the form of a shard.
     #[error("{0:?} is not a shard: expected I/N, auto or auto/N")]
     Form(String),
-    /// A number is none, or 0.
+    /// A number is malformed or 0.
     #[error("{0:?} is not a number from 1 on")]
     Number(String),
-    /// There are not so many.
+    /// The index exceeds the number of shards.
     #[error("there is no shard {index} of {count}")]
     Beyond {
-        /// The shard asked for, from 1.
+        /// Requested shard, from 1.
         index: u64,
-        /// How many there are.
+        /// Number of shards.
         count: u64,
     },
-    /// No scheduler told an index.
+    /// No scheduler provides an index.
     #[error("auto requires one of the variables {}", names().join(", "))]
     NoIndex,
-    /// A variable has no number.
+    /// A variable is not a number.
     #[error("{name} is {value:?}, not a number")]
     Variable {
-        /// Its name.
+        /// Name of the variable.
         name: &'static str,
-        /// Its value.
+        /// Value of the variable.
         value: String,
     },
-    /// The scheduler does not tell how many shards there are, or not all are there.
+    /// The scheduler does not provide the number of shards, or the array has gaps.
     #[error("{0} does not tell the number of shards: give it as auto/N")]
     NoCount(&'static str),
-    /// The index is not one of a shard; indices count from 0.
+    /// The index exceeds the number of shards; indices are counted from 0.
     #[error("{name} is {index}, but with {count} shards it must be less than {count}")]
     Index {
         /// Variable of the index.
         name: &'static str,
-        /// Its value.
+        /// Value of the variable.
         index: u64,
-        /// How many shards there are.
+        /// Number of shards.
         count: u64,
     },
 }
 
-/// How a scheduler tells its tasks apart.
+/// Environment variables of a scheduler.
 struct Scheduler {
     /// Variable of the index, from 0.
     index: &'static str,
     /// Variable of the number of tasks.
     count: Option<&'static str>,
-    /// Variables of the least and the greatest index: an array may have gaps.
+    /// Variables of the least and the greatest index, which reveal gaps in an array.
     range: Option<[&'static str; 2]>,
 }
 
@@ -95,23 +95,23 @@ fn names() -> Vec<&'static str> {
     SCHEDULERS.iter().map(|it| it.index).collect()
 }
 
-/// The variable by which a scheduler tells the tasks of an array apart, if this is one.
+/// Returns the index variable of the scheduler if this process is a task of an array.
 pub fn array_variable(variable: impl Fn(&str) -> Option<String>) -> Option<&'static str> {
     names().into_iter().find(|name| variable(name).is_some())
 }
 
 impl Shard {
-    /// Whether the asset at a place of the list belongs to this shard.
+    /// Returns whether the asset at this position of the list belongs to this shard.
     pub fn contains(self, place: usize) -> bool {
         place as u64 % self.count == self.index
     }
 
-    /// Its number, from 1.
+    /// Returns its number, from 1.
     pub fn number(self) -> u64 {
         self.index + 1
     }
 
-    /// How many there are.
+    /// Returns the number of shards.
     pub fn count(self) -> u64 {
         self.count
     }
@@ -142,7 +142,7 @@ impl FromStr for ShardChoice {
 }
 
 impl ShardChoice {
-    /// The shard, of which `variable` reads what the environment tells.
+    /// Determines the shard; `variable` reads the environment.
     pub fn resolved(self, variable: impl Fn(&str) -> Option<String>) -> Result<Shard, ShardError> {
         let given = match self {
             Self::Fixed(shard) => return Ok(shard),

@@ -1,4 +1,4 @@
-//! The rows of a run as a table, and their totals.
+//! The summary of a run: a table of rows, and totals.
 
 use serde::Serialize;
 
@@ -23,18 +23,18 @@ const HEADER: [&str; 14] = [
     "partly_done",
 ];
 
-/// How many assets ended how.
+/// Numbers of assets by outcome.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Totals {
-    /// All.
+    /// All assets.
     pub assets: usize,
-    /// Those with an output.
+    /// Assets with an output.
     pub written: usize,
-    /// Those without one, for a reason.
+    /// Failed assets.
     pub failed: usize,
-    /// Those of which nothing is known.
+    /// Assets without a record.
     pub missing: usize,
-    /// Those that meet the gates.
+    /// Assets that pass the gates.
     pub accepted: usize,
     /// Written assets whose textures or colors were not resampled as requested.
     pub partly_done: usize,
@@ -55,10 +55,10 @@ impl Totals {
     }
 }
 
-/// Rows as CSV (RFC 4180), with a line of names.
+/// Formats rows as CSV (RFC 4180) with a header.
 ///
 /// # Errors
-/// None that occurs: it is written to memory.
+/// Does not fail in practice, because it writes to memory.
 pub fn csv(rows: &[Row], gates: &Gates) -> std::io::Result<Vec<u8>> {
     let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record(HEADER)?;
@@ -68,7 +68,7 @@ pub fn csv(rows: &[Row], gates: &Gates) -> std::io::Result<Vec<u8>> {
     table.into_inner().map_err(csv::IntoInnerError::into_error)
 }
 
-/// A text without control characters: a table is also read in terminals and spreadsheets.
+/// Escapes control characters in a text, because tables are also read in terminals and spreadsheets.
 fn shown(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for c in text.chars() {

@@ -1,26 +1,25 @@
-//! What keeps an asset from its output beside the work itself. The other codes of a summary are those
-//! of the service.
+//! Failures outside of the work itself. The other codes of a summary are those of the service.
 
 use std::io;
 use unwrapd_api::Failure;
 
-/// Why there is no output although the work may have been done.
+/// Reason for a missing output although the work may have been done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Trouble {
-    /// Somebody cancelled the job.
+    /// The job was cancelled.
     Cancelled,
-    /// The input or a folder on its way cannot be read.
+    /// The input or a folder on its path cannot be read.
     InputUnreadable,
-    /// A file that would be written is there and belongs to another output.
+    /// A file to be written exists and belongs to another output.
     OutputConflict,
     /// A file cannot be written.
     OutputUnwritable,
-    /// The service does not answer, or not as it should.
+    /// The service does not respond, or not properly.
     ServerUnavailable,
 }
 
 impl Trouble {
-    /// Its code in summaries.
+    /// Returns its code in summaries.
     pub fn word(self) -> &'static str {
         match self {
             Self::Cancelled => "cancelled",
@@ -31,12 +30,12 @@ impl Trouble {
         }
     }
 
-    /// As the end of an asset.
+    /// Returns the failure of an asset.
     pub fn with(self, detail: impl Into<String>) -> Failure {
         Failure::new(self.word(), detail)
     }
 
-    /// Of a code.
+    /// Returns the variant with this code.
     pub fn of(code: &str) -> Option<Self> {
         let all = [
             Self::Cancelled,
@@ -49,7 +48,7 @@ impl Trouble {
     }
 }
 
-/// Why a file is not in its place.
+/// Returns the failure of a file that could not be written.
 pub(super) fn unwritten(error: &io::Error) -> Failure {
     match error.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {

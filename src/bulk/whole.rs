@@ -1,14 +1,13 @@
-//! Files that are complete or absent, also after a crash of the machine.
+//! Files that are complete or absent, even after a system crash.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Writes a file as `part` and moves it to `path`. The content reaches the disk before the name does,
-/// and the name before this returns.
+/// Writes a file as `part` and moves it to `path`. Syncs the content before the name, and the name before returning.
 ///
 /// # Errors
-/// If it cannot be written; then what was at `path` is as it was.
+/// Fails if it cannot be written; the file at `path` is then unchanged.
 pub(super) fn write_whole(path: &Path, part: &Path, content: &[u8]) -> io::Result<()> {
     let written = written(part, content).and_then(|()| fs::rename(part, path));
     if let Err(error) = written {

@@ -1,4 +1,4 @@
-//! Who does the work on an asset.
+//! Interface of the workers that process assets.
 
 use std::path::Path;
 use std::time::Duration;
@@ -6,7 +6,7 @@ use std::time::Duration;
 use unwrapd_api::Failure;
 use unwrapd_files::document::Upload;
 
-/// What is written beside an output if it is asked for.
+/// File that can be written beside an output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extra {
     /// The report as JSON.
@@ -18,7 +18,7 @@ pub enum Extra {
 }
 
 impl Extra {
-    /// Where it is found among the files that a job made.
+    /// Returns its role among the files of a job.
     pub(super) fn role(self) -> &'static str {
         match self {
             Self::Report => "report",
@@ -27,7 +27,7 @@ impl Extra {
         }
     }
 
-    /// What its name has in the place of the output's extension.
+    /// Returns the suffix that replaces the output's extension in its name.
     pub(super) fn suffix(self) -> &'static str {
         match self {
             Self::Report => "report.json",
@@ -37,28 +37,27 @@ impl Extra {
     }
 }
 
-/// One asset to work on.
+/// An asset to process.
 pub struct Task<'a> {
     /// Its files.
     pub upload: &'a Upload,
     /// Digest of the files, the options and the version.
     pub digest: &'a str,
-    /// How often it was worked on before without success, the digest being the same.
+    /// Number of earlier failures with the same digest.
     pub attempt: u32,
-    /// An empty folder for what is made of it.
+    /// Empty folder for the results.
     pub folder: &'a Path,
 }
 
 /// Unwraps assets.
 pub trait Worker: Send + Sync + 'static {
-    /// Version of what unwraps: outputs of another one are made again.
+    /// Returns the version of the unwrapping program: outputs of other versions are made again.
     fn version(&self) -> &str;
 
-    /// The time after which an asset ends with the map it has, if this worker sets it.
+    /// Returns the time after which an asset ends with its current map, if this worker sets it.
     fn time_limit(&self) -> Option<Duration>;
 
-    /// Unwraps an asset, and gives the roles of the files that it made. The n-th is left in the
-    /// task's folder as [`output_file`](unwrapd_api::output_file)`(n)`. Dropped before its end, it
-    /// stops.
+    /// Unwraps an asset, and returns the roles of its output files. Leaves the n-th one in the task's folder as
+    /// [`output_file`](unwrapd_api::output_file)`(n)`. Dropping the future stops the work.
     fn work(&self, task: Task<'_>) -> impl Future<Output = Result<Vec<String>, Failure>> + Send;
 }

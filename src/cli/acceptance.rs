@@ -1,4 +1,4 @@
-//! What a result has to be for exit status 0.
+//! Acceptance gates for exit status 0.
 
 use unwrapd_maps::certificate::Overlap;
 use unwrapd_pipeline::{Mirrored, Report};
@@ -25,7 +25,8 @@ pub(super) struct Acceptance {
 }
 
 impl Acceptance {
-    /// A failure if a result that took so many seconds misses a gate; it is written all the same.
+    /// Returns a failure if a result that took this many seconds misses a gate, or was only partly done. The result
+    /// is written in any case.
     pub(super) fn judge(&self, report: &Report, seconds: f64) -> Result<(), Failure> {
         let worth = worth_of(report);
         let missed: Vec<&Gate> = self.accept.missed(&worth, seconds).collect();

@@ -69,12 +69,12 @@ pub(super) fn run(args: &Args, program: Program) -> Result<(), Failure> {
     run_with(&args.bulk, args.concurrency(), worker, &runtime()?)
 }
 
-/// What tasks run on.
+/// Creates the async runtime.
 pub(super) fn runtime() -> Result<Runtime, Failure> {
     Runtime::new().map_err(|error| Failure::other(error.to_string()))
 }
 
-/// Does what the arguments ask for, by whatever worker.
+/// Runs a command over many files with any worker.
 pub(super) fn run_with<W: Worker>(
     args: &BulkArgs,
     concurrency: usize,
@@ -84,12 +84,14 @@ pub(super) fn run_with<W: Worker>(
     if args.quiet || args.json {
         console::direct(Lines::None);
     }
+    // Open the output folder.
     let options = args.options()?;
     let Work { assets, summary } = args.work()?;
     let to = &args.output;
     let unwritable = |error| Failure::other(format!("cannot write to {}: {error}", to.display()));
     let place = Place::open(to).map_err(unwritable)?;
     let mut display = BulkDisplay::new(assets.len(), &args.accept, args.quiet);
+    // Read the records, or do the work.
     let rows = if args.summary_only {
         bulk::recorded(&assets, &place)
     } else {
@@ -112,12 +114,13 @@ pub(super) fn run_with<W: Worker>(
             })
         })?
     };
+    // Summarize.
     let totals = Totals::of(&rows, &args.accept);
     display.finish(&totals);
     conclude(args, &place, (&rows, &totals), &summary)
 }
 
-/// Writes the summary and judges the whole.
+/// Writes the summary, and fails if assets are not accepted.
 fn conclude(
     args: &BulkArgs,
     place: &Place,
@@ -142,7 +145,7 @@ fn conclude(
     }
 }
 
-/// Ends with SIGTERM or SIGINT.
+/// Returns a future that completes on SIGTERM or SIGINT.
 fn stop_signal() -> Result<impl Future<Output = ()>, Failure> {
     let listen = |kind| signal(kind).map_err(|error| Failure::other(error.to_string()));
     let mut terminate = listen(SignalKind::terminate())?;

@@ -1,4 +1,4 @@
-//! What commands over many files have in common: which files, where to, what is accepted.
+//! Common arguments of commands over many files: inputs, outputs, gates.
 
 use std::path::{Path, PathBuf};
 
@@ -85,7 +85,7 @@ pub(super) struct BulkArgs {
     options: Options,
 }
 
-/// The assets of a run, and its place among others.
+/// Assets of a run, and the name of its summary.
 pub(super) struct Work {
     pub(super) assets: Vec<Asset>,
     /// Name of the summary.
@@ -93,7 +93,7 @@ pub(super) struct Work {
 }
 
 impl BulkArgs {
-    /// The options of every asset, checked.
+    /// Returns the options of every asset after checking them.
     pub(super) fn options(&self) -> Result<Options, Failure> {
         let options = Options {
             seams: self.seams.map(GivenSeams::Named),
@@ -104,7 +104,7 @@ impl BulkArgs {
         Ok(options)
     }
 
-    /// What is written beside outputs.
+    /// Returns the files to write beside outputs.
     pub(super) fn extras(&self) -> Vec<Extra> {
         let all = [
             (self.report, Extra::Report),
@@ -116,7 +116,7 @@ impl BulkArgs {
             .collect()
     }
 
-    /// What is to be done.
+    /// Lists the assets of this shard.
     pub(super) fn work(&self) -> Result<Work, Failure> {
         let variable = |name: &str| std::env::var(name).ok();
         let assets = self.assets()?;

@@ -1,4 +1,4 @@
-//! Progress over many files: a bar on a terminal, a line for each asset otherwise, both on standard error.
+//! Progress over many files on standard error: a bar on a terminal, otherwise a line per asset.
 
 use std::io::{IsTerminal, stderr};
 use std::time::Instant;
@@ -9,13 +9,13 @@ use super::console::{one_line, say};
 use crate::bulk::{Fate, Figures, Row, Status, Totals};
 use unwrapd_server::jobs::Gates;
 
-/// Shows how far a run is.
+/// Display of a run's progress.
 pub(super) struct BulkDisplay<'a> {
     gates: &'a Gates,
     n_assets: usize,
     n_kept: usize,
     n_done: usize,
-    /// Outputs of this run.
+    /// Number of outputs of this run.
     n_made: usize,
     begin: Instant,
     bar: Option<ProgressBar>,
@@ -44,7 +44,7 @@ impl<'a> BulkDisplay<'a> {
         }
     }
 
-    /// An asset is through.
+    /// Shows a finished asset.
     pub(super) fn see(&mut self, row: &Row, fate: Fate) {
         match fate {
             Fate::Kept => self.n_kept += 1,
@@ -74,7 +74,7 @@ impl<'a> BulkDisplay<'a> {
         }
     }
 
-    /// Takes the bar away and says what came of all.
+    /// Removes the bar and prints the totals.
     pub(super) fn finish(self, totals: &Totals) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();

@@ -1,4 +1,4 @@
-//! `unwrapd check`: records and files compared.
+//! `unwrapd check`: comparison of records and files.
 
 use serde::Serialize;
 
@@ -45,7 +45,7 @@ struct Printed {
     unknown: Vec<Unknown>,
 }
 
-/// Files without a job, and for how long they have been in quarantine.
+/// Files without a job, with their time in quarantine.
 #[derive(Serialize)]
 struct Unknown {
     job: String,

@@ -153,8 +153,7 @@ pub(super) enum Command {
     Man(man::Args),
 }
 
-/// The command that was typed, and how it was. Ends the process on a usage error, or after printing
-/// help.
+/// Parses the command line. Exits the process on a usage error, or after printing help.
 pub(super) fn typed(arguments: Vec<OsString>) -> (Command, ArgMatches) {
     let short = command().mut_subcommands(|command| command.mut_args(hidden_if_special));
     let matches = short.try_get_matches_from(arguments);
@@ -165,7 +164,7 @@ pub(super) fn typed(arguments: Vec<OsString>) -> (Command, ArgMatches) {
     (command, typed.map(|(_, typed)| typed).unwrap_or_default())
 }
 
-/// Ends the process as the error of a command line asks for, with a tip where programs of the same kind are called otherwise.
+/// Exits the process with a command line error. Adds a tip for the calling conventions of similar programs.
 fn refuse(mut error: clap::Error) -> ! {
     if let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidArg)
         && error.kind() == ErrorKind::UnknownArgument
@@ -185,8 +184,8 @@ fn refuse(mut error: clap::Error) -> ! {
     error.exit()
 }
 
-/// The program. Options accept negative numbers, so that the range check can name the option. Help
-/// shows option names as they are typed, and each option in the same layout.
+/// Returns the clap command. Options accept negative numbers, so that the range check can name the option. Help shows
+/// option names as they are typed, and all options in the same layout.
 pub(super) fn command() -> clap::Command {
     Cli::command().mut_subcommands(|command| as_people_type(command).next_line_help(true))
 }
@@ -218,7 +217,7 @@ fn with_negative_numbers(option: clap::Arg) -> clap::Arg {
     option.allow_negative_numbers(is_option)
 }
 
-/// The heading under which `-h` lists options too, beside those without one.
+/// Heading of options that `-h` lists, too, beside those without a heading.
 const SHORT: &str = "Files and messages";
 
 fn hidden_if_special(option: clap::Arg) -> clap::Arg {

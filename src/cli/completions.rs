@@ -1,4 +1,4 @@
-//! `unwrapd completions`: scripts for shells.
+//! `unwrapd completions`: shell completion scripts.
 
 use std::io::{self, Write};
 

@@ -1,4 +1,4 @@
-//! `unwrapd config`: what is in force for a service, and where each value comes from.
+//! `unwrapd config`: the settings of a service, and their sources.
 
 use std::collections::BTreeSet;
 
@@ -10,12 +10,12 @@ use super::console::{print, print_json, warn_of};
 use super::failure::Failure;
 use super::serve;
 
-/// What all variables of the program begin with.
+/// Prefix of all environment variables of the program.
 const PREFIX: &str = "UNWRAPD_";
-/// What stands for a secret.
+/// Placeholder for secrets.
 const HIDDEN: &str = "***";
 
-/// Variables by which S3 is set up, and whether they are secret.
+/// Environment variables of S3, and whether they are secret.
 const S3: [(&str, bool); 6] = [
     ("AWS_ENDPOINT_URL", false),
     ("AWS_ALLOW_HTTP", false),
@@ -36,7 +36,7 @@ pub(super) struct Args {
     serve: serve::Args,
 }
 
-/// An option of the service as it is in force.
+/// A setting of the service.
 #[derive(Serialize)]
 struct Row {
     option: String,
@@ -46,7 +46,7 @@ struct Row {
     variable: Option<String>,
 }
 
-/// Runs the command, whose arguments were typed as these matches.
+/// Runs the command; `typed` are the matches of its arguments.
 pub(super) fn run(args: &Args, program: &clap::Command, typed: &ArgMatches) -> Result<(), Failure> {
     let serve = program.find_subcommand("serve");
     let derived = args.serve.derived();
@@ -75,7 +75,7 @@ pub(super) fn run(args: &Args, program: &clap::Command, typed: &ArgMatches) -> R
 }
 
 impl Row {
-    /// A variable that no option stands for.
+    /// Creates the row of an environment variable without an option.
     fn of_s3((name, is_secret): (&str, bool)) -> Self {
         let value = std::env::var(name).ok();
         Self {
@@ -111,8 +111,8 @@ impl Row {
     }
 }
 
-/// A value without the secrets in it: the password of a URL, its parameters, and what is nothing but
-/// a secret.
+/// Returns a value without its secrets: the password and the parameters of a URL, and values that are entirely
+/// secret.
 fn shown(value: &str, is_secret: bool) -> String {
     let Some((scheme, rest)) = value.split_once("://") else {
         return if is_secret { HIDDEN } else { value }.to_owned();
@@ -134,7 +134,7 @@ fn shown(value: &str, is_secret: bool) -> String {
     format!("{scheme}://{authority}{path}{parameters}")
 }
 
-/// Variables of the environment that look like settings and are none, such as misspelled ones.
+/// Returns environment variables with the program's prefix that no option reads, such as misspelled ones.
 fn unknown(program: &clap::Command) -> BTreeSet<String> {
     let options = program.get_subcommands().flat_map(every_option);
     let known: BTreeSet<String> = options
@@ -146,7 +146,7 @@ fn unknown(program: &clap::Command) -> BTreeSet<String> {
         .collect()
 }
 
-/// The options of a command and of all below it.
+/// Returns the options of a command and of its subcommands.
 fn every_option(command: &clap::Command) -> Vec<&Arg> {
     let below = command.get_subcommands().flat_map(every_option);
     command.get_arguments().chain(below).collect()

@@ -1,5 +1,5 @@
-//! What a command says: lines about its result on standard output, or on standard error where that carries the result itself, and
-//! warnings on standard error.
+//! Output of commands: lines about the result on standard output, or on standard error if standard output carries the
+//! result itself, and warnings on standard error.
 
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -9,26 +9,26 @@ pub(super) use super::escaping::{escaped, one_line};
 use super::failure::Failure;
 use unwrapd_files::document::Warning;
 
-/// Where lines about a result go.
+/// Destination of lines about a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lines {
-    /// To standard output.
+    /// Standard output.
     Output,
-    /// To standard error: standard output carries the result.
+    /// Standard error, because standard output carries the result.
     Error,
     /// Nowhere.
     None,
 }
 
-/// The streams are the process's, and so is what goes where.
+/// Destination of lines, which is global like the streams.
 static LINES: AtomicU8 = AtomicU8::new(Lines::Output as u8);
 
-/// Says where lines go from now on.
+/// Sets the destination of lines.
 pub(super) fn direct(lines: Lines) {
     LINES.store(lines as u8, Ordering::Relaxed);
 }
 
-/// Prints a line about the result. That a reader has gone away, as `head` does, is no failure.
+/// Prints a line about the result. A reader that has gone away, like `head`, is not an error.
 pub(super) fn say(line: impl Display) {
     let line = line.to_string();
     let line = escaped(&line);
@@ -39,7 +39,7 @@ pub(super) fn say(line: impl Display) {
     }
 }
 
-/// Prints warnings on standard error, a line each.
+/// Prints warnings on standard error, one per line.
 pub(super) fn warn(warnings: &[Warning]) {
     for Warning { message, .. } in warnings {
         warn_of(message);
@@ -51,7 +51,7 @@ pub(super) fn warn_of(message: impl Display) {
     let _ = writeln!(io::stderr(), "warning: {}", escaped(&message.to_string()));
 }
 
-/// Prints what was asked for on standard output, whatever lines about it do.
+/// Prints requested output on standard output, regardless of the destination of lines.
 pub(super) fn print(text: impl Display) {
     // As with `say`, a reader may go away.
     let _ = writeln!(io::stdout(), "{}", escaped(&text.to_string()));
@@ -63,7 +63,7 @@ pub(super) fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Indented JSON.
+/// Formats a value as indented JSON.
 pub(super) fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
     serde_json::to_vec_pretty(value).map_err(|error| Failure::other(error.to_string()))
 }

@@ -1,4 +1,4 @@
-//! `unwrapd deform`: a mesh, a picture, a drawing or surfaces in a cage pulled by handles.
+//! `unwrapd deform`: deformation of a mesh, a picture, a drawing or surfaces in a cage by handles.
 
 use std::path::PathBuf;
 
@@ -33,7 +33,7 @@ pub(super) struct Args {
     options: DeformOptions,
 }
 
-/// Runs `deform`; exit 5 if targets cannot be reached.
+/// Runs `deform`; exits with 5 if targets cannot be reached.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let records = &args.records;
     let format = body_format(&args.output, records.files.format)?;

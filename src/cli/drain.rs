@@ -1,4 +1,4 @@
-//! `unwrapd drain`: a service is emptied before it is stopped.
+//! `unwrapd drain`: draining of a service before it is stopped.
 
 use std::time::Duration;
 
@@ -8,7 +8,7 @@ use super::console::print;
 use super::failure::Failure;
 use super::local_call::Local;
 
-/// Between two looks at what still runs.
+/// Interval between checks of running jobs.
 const PAUSE: Duration = Duration::from_millis(500);
 
 /// The arguments of `drain`.
@@ -27,7 +27,7 @@ pub(super) struct Args {
     local: Local,
 }
 
-/// What is read of the answer.
+/// Part of the response that is read.
 #[derive(Deserialize)]
 struct Drain {
     draining: bool,

@@ -1,4 +1,4 @@
-//! `unwrapd edit-uv` and `unwrapd texture-map`: UVs pulled by anchors.
+//! `unwrapd edit-uv` and `unwrapd texture-map`: editing of UVs by anchors.
 
 use std::path::{Path, PathBuf};
 
@@ -58,7 +58,7 @@ pub(super) fn texture_map(args: &TextureArgs) -> Result<(), Failure> {
     run(&args.common, &args.points, Editing::Texture)
 }
 
-/// Exit status 4 if the UV set is not proven to be bijective, 5 if targets cannot be reached.
+/// Runs an edit; exits with 4 if the UV set is not proven to be bijective, with 5 if targets cannot be reached.
 fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
     let (input, to) = (&args.mapped.input, &args.target.output);
     let mut options = EditOptions {

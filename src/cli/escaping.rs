@@ -1,8 +1,8 @@
-//! Text of others, made safe for a terminal.
+//! Escaping of untrusted text for terminals.
 
 use std::borrow::Cow;
 
-/// A text without characters that a terminal acts upon: what is not printed is escaped, but for the ends of lines and tabs.
+/// Escapes characters that a terminal acts upon: control characters other than line breaks and tabs.
 pub(super) fn escaped(text: &str) -> Cow<'_, str> {
     let is_active = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
     if !text.contains(is_active) {
@@ -19,7 +19,7 @@ pub(super) fn escaped(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// A name of one line: that of a file, which may have any character but one.
+/// Returns a name as one escaped line. File names may contain any character but one.
 pub(super) fn one_line(name: &str) -> String {
     let name = name.replace('\n', "\\n").replace('\t', "\\t");
     escaped(&name).into_owned()

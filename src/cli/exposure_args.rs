@@ -1,4 +1,4 @@
-//! Who may use the service, and how long a client may be silent.
+//! Arguments for access to the service and for connection limits.
 
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -11,9 +11,9 @@ use super::work_args::seconds;
 use unwrapd_server::http::{Connections, origin};
 use unwrapd_server::jobs::access::{KeyRing, KeyStore};
 
-/// Connections at most if nothing else is said.
+/// Default maximum number of connections.
 const MOST_CONNECTIONS: u64 = 4096;
-/// Open files that are left for everything else.
+/// Number of open files reserved for everything else.
 const OTHER_FILES: u64 = 256;
 
 /// Who may use the service, and how long a client may be silent.
@@ -122,13 +122,14 @@ fn base_path(text: &str) -> Result<String, String> {
 }
 
 impl ExposureArgs {
-    /// The names under which a service at an address is reached; none: any.
+    /// Returns the permitted host names of a service at an address; `None` permits any.
     pub fn hosts(&self, address: SocketAddr) -> Option<Vec<String>> {
         let is_known = !self.hosts.is_empty() || address.ip().is_loopback();
         is_known.then(|| self.hosts.clone())
     }
 
-    /// The keys of a service at an address. Whoever others reach needs some, unless told otherwise.
+    /// Returns the key ring of a service at an address. A service that others can reach needs keys, unless anonymous
+    /// access is allowed.
     pub async fn keys(
         &self,
         address: SocketAddr,
@@ -155,7 +156,7 @@ impl ExposureArgs {
         Ok(keys)
     }
 
-    /// How many connections there may be, as far as the limit of open files allows.
+    /// Returns the connection limits, reduced to what the limit of open files allows.
     pub fn connections(&self) -> Connections {
         let wished = self.max_connections.map_or(MOST_CONNECTIONS, u64::from);
         let open_files = more_open_files().unwrap_or(wished + OTHER_FILES);
@@ -175,13 +176,13 @@ impl ExposureArgs {
         }
     }
 
-    /// How long an upload may take.
+    /// Returns the time limit of an upload.
     pub fn upload_time(&self) -> Duration {
         Duration::from_secs_f64(self.upload_seconds)
     }
 }
 
-/// The number of files that this process may open, after raising it as far as is allowed.
+/// Raises the limit of open files as far as possible and returns it.
 fn more_open_files() -> nix::Result<u64> {
     let (now, most) = getrlimit(Resource::RLIMIT_NOFILE)?;
     match setrlimit(Resource::RLIMIT_NOFILE, most, most) {

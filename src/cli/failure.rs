@@ -1,4 +1,4 @@
-//! Why a command ended, in one line, and its exit status.
+//! Failures of commands: one line and an exit status.
 
 use std::io::Write;
 
@@ -10,7 +10,7 @@ use unwrapd_deform::uv::EditError;
 use unwrapd_deform::warp::WarpError;
 use unwrapd_pipeline::{Completion, PipelineError};
 
-/// Why a command ended, in one line, and its exit status.
+/// Failure of a command: one line and an exit status.
 #[derive(Debug)]
 pub(super) struct Failure {
     exit_code: u8,
@@ -18,7 +18,7 @@ pub(super) struct Failure {
 }
 
 impl Failure {
-    /// The command was called wrongly.
+    /// Creates the failure of an invalid command line (exit status 2).
     pub(super) fn usage(message: impl Into<String>) -> Self {
         Self {
             exit_code: 2,
@@ -26,7 +26,7 @@ impl Failure {
         }
     }
 
-    /// The input cannot be used.
+    /// Creates the failure of an unusable input (exit status 3).
     pub(super) fn input(message: impl Into<String>) -> Self {
         Self {
             exit_code: 3,
@@ -34,7 +34,7 @@ impl Failure {
         }
     }
 
-    /// Not certified.
+    /// Creates the failure of an uncertified or rejected result (exit status 4).
     pub(super) fn uncertified(message: impl Into<String>) -> Self {
         Self {
             exit_code: 4,
@@ -42,7 +42,7 @@ impl Failure {
         }
     }
 
-    /// Written, but not all that was asked for was done.
+    /// Fails if a result was written although the work is incomplete.
     pub(super) fn unless_complete(completion: Completion) -> Result<(), Self> {
         let (exit_code, message) = match completion {
             Completion::Complete => return Ok(()),
@@ -57,7 +57,7 @@ impl Failure {
         })
     }
 
-    /// Written, but only a part of what was asked for was done.
+    /// Creates the failure of a partly completed request (exit status 7).
     pub(super) fn partly(message: impl Into<String>) -> Self {
         Self {
             exit_code: 7,
@@ -65,7 +65,7 @@ impl Failure {
         }
     }
 
-    /// Anything else.
+    /// Creates any other failure (exit status 1).
     pub(super) fn other(message: impl Into<String>) -> Self {
         Self {
             exit_code: 1,
@@ -73,13 +73,13 @@ impl Failure {
         }
     }
 
-    /// Says first what was not done.
+    /// Prefixes the message with what was not done.
     pub(super) fn about(mut self, what: impl std::fmt::Display) -> Self {
         self.message = format!("{what}: {}", self.message);
         self
     }
 
-    /// Names the input that cannot be used, where the message does not.
+    /// Prefixes the message with the unusable input, unless it is already named.
     pub(super) fn of_input(mut self, name: Option<&str>) -> Self {
         let name = name.filter(|name| !self.message.contains(name));
         if let (3, Some(name)) = (self.exit_code, name) {
@@ -89,7 +89,7 @@ impl Failure {
         self
     }
 
-    /// Prints the line and gives the exit status.
+    /// Prints the line and returns the exit status.
     pub(super) fn report(self) -> u8 {
         let message = escaped(&self.message);
         // Standard error may be closed.
@@ -112,7 +112,7 @@ impl From<PipelineError> for Failure {
 }
 
 impl Failure {
-    /// Why the options of a command were refused, in the words that were typed.
+    /// Converts the rejection of options, with option names as they are typed.
     pub(super) fn of_options(error: PipelineError) -> Self {
         let code = error.code();
         Self {
@@ -140,12 +140,12 @@ impl From<ListError> for Failure {
     }
 }
 
-/// What the library says of options, with their names as they are typed.
+/// Replaces option names in a message of the library by their typed form.
 fn typed(text: &str) -> String {
     as_typed(text, |_| true)
 }
 
-/// Handles or a problem file that cannot be read.
+/// Implements the conversion from errors of handles and problem files.
 macro_rules! input_errors {
     ($($error:ty),*) => {
         $(impl From<$error> for Failure {

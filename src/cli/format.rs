@@ -1,4 +1,4 @@
-//! What a result is written as: by the extension of OUT, or by `--format` where that has none.
+//! Format of a result: given by the extension of OUT, or by `--format` if it has none.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use unwrapd_files::document::OutputFormat;
 use unwrapd_files::io::Format;
 use unwrapd_pipeline::BodyFormat;
 
-/// The format of a document to write.
+/// Returns the format of a document to write.
 pub(super) fn output_format(
     path: &Path,
     given: Option<OutputFormat>,
@@ -22,7 +22,7 @@ pub(super) fn output_format(
     Ok(format)
 }
 
-/// The format of a body to write.
+/// Returns the format of a body to write.
 pub(super) fn body_format(path: &Path, given: Option<BodyFormat>) -> Result<BodyFormat, Failure> {
     let format = agreed(path, given)?;
     if format == BodyFormat::Gltf && is_stream(path) {
@@ -31,7 +31,7 @@ pub(super) fn body_format(path: &Path, given: Option<BodyFormat>) -> Result<Body
     Ok(format)
 }
 
-/// Pictures are PNG.
+/// Checks that a picture is written as PNG.
 pub(super) fn check_png(path: &Path) -> Result<(), Failure> {
     let format = Format::of_name(&path.to_string_lossy());
     if format == Some(Format::Png) || is_stream(path) {

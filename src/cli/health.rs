@@ -9,7 +9,7 @@ pub(super) struct Args {
     local: Local,
 }
 
-/// Asks `/readyz`.
+/// Requests `/readyz`; fails unless the service is ready.
 pub(super) fn run(args: &Args) -> Result<(), String> {
     let answer = args.local.call("GET /readyz", None)?;
     if answer.is_ok() {

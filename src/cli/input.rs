@@ -1,4 +1,4 @@
-//! Files in: each is opened and read once, so that it may be a pipe; `-` is standard input.
+//! Input files: each is opened and read once, so it may be a pipe; `-` is standard input.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -18,7 +18,7 @@ pub(super) struct Mapped {
     pub(super) input: PathBuf,
 }
 
-/// Whether a name stands for standard input or output.
+/// Returns whether a name stands for standard input or output.
 pub(super) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
@@ -38,7 +38,7 @@ pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, Failure> {
     read.map_err(|error| Failure::input(format!("{name}: {error}")))
 }
 
-/// Reads a file that is named on the command line: that may be a pipe, but no device, which may never end.
+/// Reads a file named on the command line: it may be a pipe, but not a device, which may never end.
 fn read_named(path: &Path) -> io::Result<Vec<u8>> {
     let kind = fs::metadata(path)?.file_type();
     if kind.is_fifo() || kind.is_socket() {
@@ -55,7 +55,7 @@ pub(super) fn read_upload(path: &Path) -> Result<Upload, Failure> {
     }))
 }
 
-/// A file that was read, with those of the files that it references that are there.
+/// Creates an upload from a file that was read and from those of its references that exist.
 pub(super) fn upload(
     path: &Path,
     bytes: Vec<u8>,
@@ -80,7 +80,7 @@ pub(super) fn upload(
     }
 }
 
-/// The folder that references of a file count from: of what comes through a pipe the current one.
+/// Returns the folder to which references of a file are relative; the current one for a pipe.
 pub(super) fn folder(path: &Path) -> PathBuf {
     let is_file = !is_standard(path) && path.is_file();
     let folder = if is_file { path.parent() } else { None };

@@ -1,4 +1,4 @@
-//! `unwrapd keys`: keys of the API, made, listed and revoked.
+//! `unwrapd keys`: creating, listing and revoking API keys.
 
 use std::time::Duration;
 
@@ -10,9 +10,9 @@ use super::store_args::StoreArgs;
 use unwrapd_server::jobs::Timestamp;
 use unwrapd_server::jobs::access::{Key, KeyId, KeyStore, KeyText, NewKey, Owner, Scopes};
 
-/// Characters of a note at most.
+/// Maximum length of a note in characters.
 const MOST_OF_NAME: usize = 100;
-/// How long a key may be good: a hundred years.
+/// Maximum lifetime of a key: a hundred years.
 const LONGEST: Duration = Duration::from_hours(100 * 365 * 24);
 
 /// The arguments of `keys`.
@@ -141,10 +141,11 @@ async fn create(args: &Create) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Characters of the secret of a key at least: 256 bits.
+/// Minimum number of digits of a secret: 256 bits.
 const SECRET_DIGITS: usize = 64;
 
 async fn add(args: &Add) -> Result<(), Failure> {
+    // Check the form of the key, including the length of its secret.
     let text = args.key.trim();
     let is_long = |text: &str| {
         let secret = text.rsplit('_').next().unwrap_or_default();
@@ -165,6 +166,7 @@ async fn add(args: &Add) -> Result<(), Failure> {
         life: None,
         parent: None,
     };
+    // Add it, and then look at what is stored.
     let store = args.store.opened().await?;
     let added = store.add_key(&new).await;
     // It may be there already: another process may have been faster.

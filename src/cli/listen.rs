@@ -1,13 +1,13 @@
-//! Where the service listens: an option of `serve`, and a file for `health`.
+//! The listening address: an option of `serve`, and a file for `health`.
 
 use std::net::SocketAddr;
 
 use tokio::net::TcpListener;
 
-/// The file of the data folder that has the address in it.
+/// Name of the file in the data folder that contains the address.
 pub(super) const ADDRESS_FILE: &str = "address";
 
-/// Listens there.
+/// Listens at an address.
 pub(super) async fn listener(address: SocketAddr) -> Result<TcpListener, String> {
     let listener = TcpListener::bind(address).await;
     listener.map_err(|error| format!("cannot listen on {address}: {error}"))

@@ -1,4 +1,4 @@
-//! Calls of the service on a data folder, over a plain socket: for images without a shell or curl.
+//! Requests to the service on a data folder over a plain socket, for images without a shell or curl.
 
 use std::io::{Read, Write};
 use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr, TcpStream};
@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::listen::ADDRESS_FILE;
 
 const TIMEOUT: Duration = Duration::from_secs(3);
-/// Bytes of an answer.
+/// Maximum length of a response in bytes.
 const MOST: u64 = 64 << 10;
 
 /// Which service is called.
@@ -27,14 +27,14 @@ pub(super) struct Local {
     data: PathBuf,
 }
 
-/// What a service answers.
+/// Response of a service.
 pub(super) struct Answer {
     pub(super) status_line: String,
     pub(super) body: String,
 }
 
 impl Local {
-    /// The address of the service.
+    /// Returns the address of the service.
     pub(super) fn address(&self) -> Result<SocketAddr, String> {
         let mut address = match self.listen {
             Some(address) => address,
@@ -49,7 +49,7 @@ impl Local {
         Ok(address)
     }
 
-    /// Calls a path, with a key if there is one.
+    /// Sends a request such as `GET /readyz`, with a key if there is one.
     pub(super) fn call(&self, call: &str, key: Option<&str>) -> Result<Answer, String> {
         let address = self.address()?;
         answer(address, call, key).map_err(|error| format!("{address} does not answer: {error}"))
@@ -57,13 +57,13 @@ impl Local {
 }
 
 impl Answer {
-    /// Whether the status is 200.
+    /// Returns whether the status is 200.
     pub(super) fn is_ok(&self) -> bool {
         self.status_line.split(' ').nth(1) == Some("200")
     }
 }
 
-/// The address that a service wrote when it started.
+/// Reads the address that a service wrote when it started.
 fn written(path: &Path) -> Result<SocketAddr, String> {
     let text = std::fs::read_to_string(path)
         .map_err(|error| format!("no service on this folder: {}: {error}", path.display()))?;

@@ -31,7 +31,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Faces and faults.
+/// Formats the counts of faces and defects.
 pub(super) fn certificate_text(certificate: &Certificate) -> String {
     let overlap = certificate
         .overlapping_pairs

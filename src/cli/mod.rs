@@ -2,7 +2,7 @@
 //!
 //! Exit statuses: 0 success; 2 usage error; 3 unusable input; 4 not certified (with a file), or no
 //! valid result within the limits (without one); 5 targets that cannot be reached (with a file);
-//! 1 any other error.
+//! 6 ended early (with a file); 7 partly done (with a file); 1 any other error.
 //!
 //! Before the work starts, the library checks the options, and `output` checks that every file can
 //! be written. Each input is opened once (`input`).
@@ -63,10 +63,10 @@ use failure::Failure;
 
 use unwrapd_server::jobs::Program;
 
-/// Runs a command line, which begins with the name of the program, and returns the exit code of the
-/// process. Children are instances of `program`.
+/// Runs a command line, which begins with the name of the program, and returns the exit code of the process. Children
+/// are instances of `program`.
 ///
-/// A usage error, and help, end the process.
+/// Exits the process on a usage error, and after printing help.
 pub fn run(arguments: Vec<OsString>, program: std::io::Result<Program>) -> u8 {
     // `compute FOLDER` is one job of the service, `draw FOLDER` one picture of a result, `session FOLDER` one live session, started by
     // `serve` with the folder of it: no help, suggestion or completion knows them.
@@ -88,7 +88,7 @@ pub fn run(arguments: Vec<OsString>, program: std::io::Result<Program>) -> u8 {
     }
 }
 
-/// The file that a command reads, if it reads one.
+/// Returns the name of the file that a command reads, if it reads one.
 fn input(typed: &ArgMatches) -> Option<String> {
     let mut given = typed.try_get_raw("input").ok()??;
     Some(given.next()?.to_string_lossy().into_owned())
@@ -132,7 +132,7 @@ fn run_typed(
     }
 }
 
-/// What children are instances of.
+/// Returns the program of children.
 fn own(program: std::io::Result<Program>) -> Result<Program, Failure> {
     program.map_err(|error| Failure::other(format!("no children can be started: {error}")))
 }

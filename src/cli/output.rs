@@ -1,4 +1,4 @@
-//! Files out: checked before the work, written whole after it, all or none.
+//! Output files: checked before the work, written atomically after it, all or none.
 
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
@@ -60,23 +60,24 @@ pub(super) struct Talk {
     pub(super) json: bool,
 }
 
-/// Where the results of a command go.
+/// Destinations of a command's results.
 pub(super) struct Outputs {
     main: PathBuf,
-    /// What is read: files that nothing replaces unless that is forced.
+    /// Input files, which nothing replaces unless that is forced.
     inputs: Vec<PathBuf>,
     is_forced: bool,
 }
 
 impl Outputs {
-    /// Checks that results can be written to all of these places, that no two are one, and that
-    /// none is a file that is read. From now on lines about the result go where no result does.
+    /// Checks that results can be written to all of these paths, that no two are the same file, and that none is an
+    /// input. Directs lines about the result to a stream without a result.
     pub(super) fn check(
         main: &Path,
         others: &[&Option<PathBuf>],
         inputs: &[&Path],
         args: &OutputArgs,
     ) -> Result<Self, Failure> {
+        // Only one result can go to standard output, and one input come from standard input.
         let others = others.iter().filter_map(|path| path.as_deref());
         let places: Vec<&Path> = [main].into_iter().chain(others).collect();
         let n_printed = count_standard(&places) + usize::from(args.talk.json);
@@ -94,6 +95,7 @@ impl Outputs {
             inputs: inputs.iter().map(|path| path.to_path_buf()).collect(),
             is_forced: args.force,
         };
+        // Files must be writable, distinct, and no inputs.
         let mut files: Vec<PathBuf> = Vec::new();
         for path in places.into_iter().filter(|path| !is_stream(path)) {
             outputs.check_apart(path)?;
@@ -105,6 +107,7 @@ impl Outputs {
             }
             files.push(file);
         }
+        // Lines about the result go where no result does.
         console::direct(match (args.talk.quiet || args.talk.json, n_printed) {
             (true, _) => Lines::None,
             (false, 0) => Lines::Output,
@@ -113,7 +116,7 @@ impl Outputs {
         Ok(outputs)
     }
 
-    /// The same where also the files that an input references are read.
+    /// Adds the files that an input references to the inputs.
     pub(super) fn with_resources_of(mut self, upload: &Upload) -> Self {
         if let Some(input) = self.inputs.first() {
             let folder = folder(input);
@@ -123,9 +126,9 @@ impl Outputs {
         self
     }
 
-    /// Writes the files of a result, the main one where it was asked for and what belongs to it
-    /// beside it, and what else was asked for. Each is written whole under another name; once all
-    /// are they are moved into place, the main one last. Returns what was written.
+    /// Writes the files of a result, the main one to its path and the others beside it, and the other outputs. Each
+    /// is written completely under another name; once all are written, they are moved into place, the main one last.
+    /// Returns what was written.
     pub(super) fn write(
         &self,
         files: &[(String, Vec<u8>)],
@@ -159,7 +162,7 @@ impl Outputs {
         ))
     }
 
-    /// Refuses to replace a file that is read.
+    /// Rejects a path that would replace an input.
     fn check_apart(&self, path: &Path) -> Result<(), Failure> {
         let is_read = |input: &&PathBuf| !is_standard(input) && is_same(input, path);
         match self.inputs.iter().find(is_read) {
@@ -173,11 +176,11 @@ impl Outputs {
     }
 }
 
-/// Names and sizes in bytes of files that were written, the main one first.
+/// Names and sizes in bytes of written files, the main one first.
 pub(super) struct WrittenFiles(Vec<(PathBuf, usize)>);
 
 impl WrittenFiles {
-    /// Says which files were written, the last line of a command.
+    /// Prints which files were written, as the last line of a command.
     pub(super) fn tell(&self) {
         let named = |(path, bytes): &(PathBuf, usize)| {
             format!("{} ({})", path.display(), HumanBytes(*bytes as u64))
@@ -195,20 +198,20 @@ impl WrittenFiles {
     }
 }
 
-/// Files that the last line of a command names.
+/// Maximum number of files named in the last line of a command.
 const MOST_NAMED: usize = 4;
 
 fn count_standard(paths: &[&Path]) -> usize {
     paths.iter().filter(|path| is_standard(path)).count()
 }
 
-/// Standard output, a pipe or a device: what is written there replaces nothing.
+/// Returns whether a path is standard output, a pipe or a device, where writing replaces nothing.
 pub(super) fn is_stream(path: &Path) -> bool {
     is_standard(path) || fs::metadata(path).is_ok_and(|of| !of.is_file() && !of.is_dir())
 }
 
-/// What the command says beside the options of its user: that files are named like the one at
-/// `path`, if it is one.
+/// Returns the settings that the command adds to the options: files are named like the one at `path`, if it is a
+/// file.
 pub(super) fn caller(path: &Path) -> Caller {
     let stem = path.file_stem().filter(|_| !is_stream(path));
     Caller {
@@ -217,7 +220,7 @@ pub(super) fn caller(path: &Path) -> Caller {
     }
 }
 
-/// Whether two paths are one file, through whatever links.
+/// Returns whether two paths lead to the same file, through any links.
 fn is_same(a: &Path, b: &Path) -> bool {
     match (fs::metadata(a), fs::metadata(b)) {
         (Ok(a), Ok(b)) => a.is_file() && (a.dev(), a.ino()) == (b.dev(), b.ino()),
@@ -225,14 +228,14 @@ fn is_same(a: &Path, b: &Path) -> bool {
     }
 }
 
-/// Where a path leads: what is moved to a link itself would replace the link.
+/// Resolves links in a path: moving a file onto a link would replace the link.
 fn resolved(path: &Path) -> PathBuf {
     let in_folder = || Some(fs::canonicalize(parent(path)).ok()?.join(path.file_name()?));
     let whole = fs::canonicalize(path).ok();
     whole.or_else(in_folder).unwrap_or(path.to_path_buf())
 }
 
-/// The folder of a path.
+/// Returns the folder of a path.
 fn parent(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
@@ -240,8 +243,7 @@ fn parent(path: &Path) -> &Path {
     }
 }
 
-/// Refuses what cannot be written: tried with an empty file under another name, which is removed at
-/// once.
+/// Checks that a path can be written, using an empty file under another name that is removed immediately.
 fn check_writable(path: &Path) -> Result<(), Failure> {
     let refused = |cause: &dyn std::fmt::Display| {
         Failure::other(format!("cannot write {}: {cause}", path.display()))
@@ -264,7 +266,7 @@ fn check_writable(path: &Path) -> Result<(), Failure> {
     tried.map_err(|error| refused(&error))
 }
 
-/// The folder for numbered files, made if only it itself is missing.
+/// Checks the folder for numbered files. Creates it if only it is missing, but not its parents.
 pub(super) fn check_folder(path: &Path) -> Result<(), Failure> {
     let made = match fs::create_dir(path) {
         Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(()),
@@ -274,19 +276,19 @@ pub(super) fn check_folder(path: &Path) -> Result<(), Failure> {
     check_writable(&path.join("0"))
 }
 
-/// Writes a whole file or none.
+/// Writes a file completely or not at all.
 pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     write_all(&[(path.to_path_buf(), bytes)])
 }
 
-/// The name under which a file is written before it is moved into place.
+/// Returns the name under which a file is written before it is moved into place.
 fn part(path: &Path) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_os_string();
     name.push(format!(".{}.part", std::process::id()));
     path.with_file_name(name)
 }
 
-/// Writes all files or, as far as none is a stream, none.
+/// Writes all files or none, except for streams.
 fn write_all(contents: &[(PathBuf, &[u8])]) -> Result<(), Failure> {
     let (streams, files): (Vec<_>, Vec<_>) = contents.iter().partition(|(path, _)| is_stream(path));
     let files: Vec<(PathBuf, &[u8])> = (files.into_iter())

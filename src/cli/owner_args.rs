@@ -1,4 +1,4 @@
-//! What one owner may have.
+//! Arguments for the limits of one owner.
 
 use std::time::Duration;
 
@@ -40,7 +40,7 @@ pub(super) struct OwnerArgs {
 }
 
 impl OwnerArgs {
-    /// What one owner may have in jobs.
+    /// Returns the quotas of one owner.
     pub fn quotas(&self) -> OwnerQuotas {
         OwnerQuotas {
             jobs: self.owner_jobs,

@@ -6,10 +6,10 @@ use std::path::Path;
 
 use nix::sys::stat::{Mode, umask};
 
-/// The database, if it is a file.
+/// Name of the database, if it is a file.
 const DATABASE: &str = "unwrapd.sqlite";
 
-/// Where the database is.
+/// Location of the database.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Database {
     /// A file in the data folder.
@@ -18,7 +18,7 @@ pub(super) enum Database {
     Elsewhere,
 }
 
-/// What there may be in a data folder. Other files in it are not ours.
+/// Names of our files in a data folder. Other files in it are not ours.
 const NAMES: [&str; 7] = [
     DATABASE,
     "unwrapd.sqlite-wal",
@@ -28,7 +28,7 @@ const NAMES: [&str; 7] = [
     "blobs",
     "scratch",
 ];
-/// Access of the group and of others, and of others alone.
+/// Permission bits: access of group and others, of others alone, of the group, and special bits.
 const GROUP_AND_OTHERS: u32 = 0o077;
 const OTHERS: u32 = 0o007;
 const GROUP_WRITES: u32 = 0o020;
@@ -36,16 +36,17 @@ const GROUP_READS_WRITES: u32 = 0o060;
 const SETGID: u32 = 0o2000;
 const STICKY: u32 = 0o1000;
 
-/// Makes a data folder that only this user can read, and has all files that this process creates from
-/// now on be like that. A folder that is looser is tightened if this user owns it; otherwise a
-/// warning says so. A group keeps its access where that is how the folder is shared: it has the
-/// setgid bit, as Kubernetes sets it for `fsGroup`, or it belongs to somebody else and its group
-/// may write.
+/// Creates a data folder that only this user can read, and makes this process create all files like that. Tightens a
+/// looser folder if this user owns it, and warns otherwise. A group keeps its access if the folder is shared that
+/// way: it has the setgid bit, which Kubernetes sets for `fsGroup`, or it belongs to another user and its group may
+/// write.
 pub(super) fn make_private(folder: &Path, has_database: Database) -> Result<(), String> {
+    // Create the folder.
     let failed = |error: std::io::Error| format!("cannot create {}: {error}", folder.display());
     let mut builder = DirBuilder::new();
     builder.recursive(true).mode(0o700);
     builder.create(folder).map_err(failed)?;
+    // Find out who shares it.
     let found = folder.metadata().map_err(failed)?;
     let is_own = |data: &Metadata| is_owner(data.uid());
     let is_of_group =
@@ -61,6 +62,7 @@ pub(super) fn make_private(folder: &Path, has_database: Database) -> Result<(), 
         share(&database)
             .map_err(|error| format!("cannot share {}: {error}", database.display()))?;
     }
+    // Tighten the folder and our files in it.
     if found.mode() & denied != 0 {
         // A folder such as /tmp is meant for all.
         if is_own(&found) && found.mode() & STICKY == 0 {
@@ -84,8 +86,8 @@ pub(super) fn make_private(folder: &Path, has_database: Database) -> Result<(), 
     Ok(())
 }
 
-/// Lets the group write the database. SQLite makes its file for its owner alone to write, and gives its logs the mode of the file:
-/// so the file is made here, empty.
+/// Lets the group write the database. SQLite creates its file writable for the owner only, and gives its logs the
+/// mode of the file, so the file is created here, empty.
 fn share(database: &Path) -> std::io::Result<()> {
     let opened = OpenOptions::new()
         .append(true)
@@ -99,7 +101,7 @@ fn share(database: &Path) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Takes access away.
+/// Removes the denied permissions from a file.
 fn tighten(path: &Path, data: &Metadata, denied: u32) {
     let mode = data.mode() & 0o7777 & !denied;
     let path_shown = path.display();
@@ -109,7 +111,7 @@ fn tighten(path: &Path, data: &Metadata, denied: u32) {
     }
 }
 
-/// Whether this process runs as a user.
+/// Returns whether this process runs as a user.
 fn is_owner(user: u32) -> bool {
     std::fs::metadata("/proc/self").is_ok_and(|own| own.uid() == user)
 }

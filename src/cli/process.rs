@@ -1,4 +1,4 @@
-//! A process that works on jobs: its log, its folder, its stores, its end.
+//! A process that works on jobs: log, folder, stores, shutdown.
 
 use std::fs::File;
 use std::path::Path;
@@ -13,7 +13,7 @@ use super::work_args::WorkArgs;
 use unwrapd_server::jobs::{Blobs, JobStore, Jobs, Settings};
 use unwrapd_server::store::{RecordStore, blobs_at};
 
-/// Time for connections and computations to end after the stop signal and the time of grace.
+/// Time for connections and computations to end after the stop signal and the grace period.
 const STOP_TIME: Duration = Duration::from_secs(10);
 
 /// Runs a process on its folder until it ends.
@@ -29,7 +29,7 @@ pub(super) fn run(
         .block_on(process)
 }
 
-/// Two processes on one data folder would take each other's files. The lock goes with the process.
+/// Locks a data folder, so that no two processes use it. The lock is released when the process ends.
 fn lock(data: &Path) -> Result<File, String> {
     let path = data.join("lock");
     let lock = File::create(&path)
@@ -39,7 +39,7 @@ fn lock(data: &Path) -> Result<File, String> {
     Ok(lock)
 }
 
-/// The URL of the place for files: the one that is named, or a part of the data folder.
+/// Returns the URL of file storage: the given one, or a part of the data folder.
 pub(super) fn blobs_url(data: &Path, named: Option<&str>) -> Result<String, String> {
     match named {
         Some(blobs) => Ok(blobs.to_owned()),
@@ -47,7 +47,7 @@ pub(super) fn blobs_url(data: &Path, named: Option<&str>) -> Result<String, Stri
     }
 }
 
-/// The queue on the stores that are asked for, in order, and its records.
+/// Opens the stores, recovers the queue on them, and returns the queue and its records.
 pub(super) async fn queue(
     args: &WorkArgs,
     settings: Settings,
@@ -66,7 +66,7 @@ pub(super) async fn queue(
     Ok((jobs, store))
 }
 
-/// Cancelled by SIGTERM and SIGINT.
+/// Returns a token that SIGTERM and SIGINT cancel.
 pub(super) fn stop_on_signals() -> Result<CancellationToken, String> {
     let stop = CancellationToken::new();
     for kind in [SignalKind::terminate(), SignalKind::interrupt()] {
@@ -80,7 +80,7 @@ pub(super) fn stop_on_signals() -> Result<CancellationToken, String> {
     Ok(stop)
 }
 
-/// What a process ends with, when it should have ended by now.
+/// Waits for the end of a stopping process. Returns `None` if it exceeds its time limit.
 pub(super) async fn stopped<T>(grace: Duration, all: impl Future<Output = T>) -> Option<T> {
     tracing::info!("stopping");
     tokio::time::timeout(grace + STOP_TIME, all).await.ok()

@@ -1,4 +1,4 @@
-//! Progress of a command: a bar on a terminal, plain lines otherwise, both on standard error.
+//! Progress of a command on standard error: a bar on a terminal, otherwise plain lines.
 
 use std::io::{IsTerminal, stderr};
 use std::path::PathBuf;
@@ -12,10 +12,10 @@ use super::output::{Talk, write_whole};
 use unwrapd_method::solver::Control;
 use unwrapd_pipeline::{Observer, Progress, Stage};
 
-/// Steps of the bar.
+/// Number of steps of the bar.
 const STEPS: u64 = 1000;
 
-/// Shows progress, tells the time, and writes frames.
+/// Shows progress, provides the time, and writes frames.
 pub(super) struct Display {
     begin: Instant,
     is_shown: bool,
@@ -24,7 +24,7 @@ pub(super) struct Display {
     frames: Option<Frames>,
 }
 
-/// A file for the map of every iteration.
+/// Settings for a file per iteration.
 struct Frames {
     folder: PathBuf,
     extension: String,
@@ -50,7 +50,7 @@ impl Display {
         }
     }
 
-    /// Also writes every map into a folder.
+    /// Creates a display that also writes every map into a folder.
     pub(super) fn with_frames(talk: &Talk, folder: PathBuf, extension: String) -> Self {
         let failure = Mutex::new(None);
         Self {
@@ -63,7 +63,7 @@ impl Display {
         }
     }
 
-    /// Takes the bar away; an error if a frame could not be written.
+    /// Removes the bar. Fails if a frame could not be written.
     pub(super) fn finish(self) -> Result<(), Failure> {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();

@@ -1,4 +1,4 @@
-//! `unwrapd queue`: the queue looked at, paused and resumed, and failed jobs tried again.
+//! `unwrapd queue`: status of the queue, pausing and resuming it, and retrying failed jobs.
 
 use serde::Serialize;
 

@@ -1,4 +1,4 @@
-//! What commands that pull a body write: the map, the report, the trace, frames.
+//! Output of commands that deform a body: the map, the report, the trace, frames.
 
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ pub(super) struct Records {
 }
 
 impl Records {
-    /// Checks where everything goes.
+    /// Checks all output paths.
     pub(super) fn outputs(&self, main: &Path, inputs: &[&Path]) -> Result<Outputs, Failure> {
         let Files { report, output, .. } = &self.files;
         let outputs = Outputs::check(main, &[report, &self.trace], inputs, output)?;
@@ -31,7 +31,7 @@ impl Records {
         Ok(outputs)
     }
 
-    /// Shows progress, and writes frames of a format if they are wanted.
+    /// Creates the progress display, which also writes frames of a format if requested.
     pub(super) fn display(&self, format: BodyFormat) -> Display {
         let talk = &self.files.output.talk;
         match &self.frames {
@@ -42,7 +42,7 @@ impl Records {
         }
     }
 
-    /// Writes everything; an error if handles are not at their targets.
+    /// Writes everything. Fails if handles are not at their targets.
     pub(super) fn write(&self, outputs: &Outputs, deformed: &Deformed) -> Result<(), Failure> {
         let others = [
             (&self.files.report, json(&deformed.report)?),

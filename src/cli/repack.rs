@@ -1,4 +1,4 @@
-//! `unwrapd repack`: UVs packed anew, as they are.
+//! `unwrapd repack`: packing of existing UVs.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -73,7 +73,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     args.acceptance.judge(&outcome.report, seconds)
 }
 
-/// The islands in a file.
+/// Reads the islands in a file.
 fn given_islands(path: &Path) -> Result<Vec<Island>, Failure> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]

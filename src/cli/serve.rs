@@ -101,7 +101,7 @@ fn days(text: &str) -> Result<f64, String> {
 const DAY_SECONDS: f64 = 86_400.0;
 
 impl Args {
-    /// What is in force where nothing was said and the machine decides.
+    /// Returns the settings that depend on the machine if they are not given.
     pub fn derived(&self) -> Vec<(&'static str, String)> {
         let connections = self.exposure.connections().most;
         vec![
@@ -160,6 +160,7 @@ async fn serve(args: &Args, program: Program) -> Result<(), String> {
     let sessions = Arc::new(Sessions::new(args.session_settings(), settings.clone()));
     let stop = process::stop_on_signals()?;
     let wished = args.listen.address;
+    // Open the queue, and start metrics and webhooks.
     let measured = measured()?;
     let (jobs, store) = process::queue(&args.work, settings).await?;
     let (watch, shown) = (&args.work.watch, Some(Arc::clone(&sessions)));
@@ -172,6 +173,7 @@ async fn serve(args: &Args, program: Program) -> Result<(), String> {
     }
     let keys = args.exposure.keys(wished, store).await?;
 
+    // Listen, and announce the address.
     let listener = listener(wished).await?;
     let address = listener.local_addr().map_err(|e| text(&e))?;
     if let Err(error) = std::fs::write(args.work.store.data.join(ADDRESS_FILE), address.to_string())
@@ -181,6 +183,7 @@ async fn serve(args: &Args, program: Program) -> Result<(), String> {
     // A reader may have closed the pipe.
     let _ = writeln!(std::io::stdout(), "listening on http://{address}");
 
+    // Run the queue and the server until a signal comes.
     let queue = tokio::spawn(Arc::clone(&jobs).run(stop.clone()));
     let server = tokio::spawn(http::serve(
         listener,

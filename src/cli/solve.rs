@@ -1,4 +1,4 @@
-//! `unwrapd solve`: a problem file of handles and targets.
+//! `unwrapd solve`: problem files with handles and targets.
 
 use std::path::PathBuf;
 
@@ -26,7 +26,7 @@ pub(super) struct Args {
     options: SolveOptions,
 }
 
-/// Runs `solve`; exit 5 if targets cannot be reached.
+/// Runs `solve`; exits with 5 if targets cannot be reached.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let records = &args.records;
     let format = body_format(&args.output, records.files.format)?;

@@ -1,4 +1,4 @@
-//! Where records are.
+//! Arguments for the location of records.
 
 use std::path::{Path, PathBuf};
 
@@ -33,7 +33,7 @@ pub(super) struct StoreArgs {
 }
 
 impl StoreArgs {
-    /// The URL of the database.
+    /// Returns the URL of the database.
     pub fn database_url(&self) -> Result<String, String> {
         if let Some(database) = &self.database {
             return Ok(database.clone());
@@ -44,7 +44,7 @@ impl StoreArgs {
         ))
     }
 
-    /// The records that are there, or new ones.
+    /// Opens the database, and creates it if needed.
     pub async fn opened(&self) -> Result<RecordStore, Failure> {
         self.make_folder().map_err(Failure::other)?;
         let url = self.database_url().map_err(Failure::other)?;
@@ -52,7 +52,7 @@ impl StoreArgs {
         store.map_err(|error| Failure::other(format!("cannot use the database: {error}")))
     }
 
-    /// The records that are there; an error if there are none.
+    /// Opens the database. Fails if it does not exist.
     pub async fn present(&self) -> Result<RecordStore, Failure> {
         let file = self.data.join("unwrapd.sqlite");
         if self.database.is_none() && !file.exists() {
@@ -64,7 +64,7 @@ impl StoreArgs {
         self.opened().await
     }
 
-    /// Makes the folder, and keeps it and what is made from now on from others.
+    /// Creates the data folder, and protects it and all files created from now on from other users.
     pub fn make_folder(&self) -> Result<(), String> {
         let database = match self.database {
             None => Database::Here,
@@ -74,7 +74,7 @@ impl StoreArgs {
     }
 }
 
-/// A path as a URL has it.
+/// Encodes a path for a URL.
 pub(super) fn url_path(path: &Path) -> Result<String, String> {
     let path = std::path::absolute(path).map_err(|error| error.to_string())?;
     let path = path.to_string_lossy();

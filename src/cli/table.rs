@@ -1,16 +1,17 @@
-//! Atlases in a table: at most ten lines and totals.
+//! A table of atlases: at most ten lines and totals.
 
 use super::console::{one_line, say};
 use unwrapd_maps::certificate::Certificate;
 use unwrapd_maps::measure::Page;
 use unwrapd_pipeline::{GroupReport, stretch_percent};
 
-/// Lines at most, without those of the head and the totals.
+/// Maximum number of lines, without head and totals.
 const LINES: usize = 10;
-/// Characters of a name at most.
+/// Maximum length of a name in characters.
 const NAME: usize = 28;
 
-/// Prints what atlases are worth: those that are not certified first, then the largest; of more than ten the rest is one line.
+/// Prints the quality of atlases: uncertified ones first, then the largest. If there are more than ten, the last line
+/// sums up the rest.
 pub(super) fn print(groups: &[GroupReport]) {
     let mut order: Vec<&GroupReport> = groups.iter().collect();
     order.sort_by_key(|group| (group.is_certified(), usize::MAX - group.measures.size.faces));
@@ -19,6 +20,7 @@ pub(super) fn print(groups: &[GroupReport]) {
     } else {
         LINES - 1
     };
+    // Choose the atlases to show.
     let (shown, rest) = order.split_at(n_shown);
     let width = shown
         .iter()
@@ -26,6 +28,7 @@ pub(super) fn print(groups: &[GroupReport]) {
         .max()
         .unwrap_or(0);
     let width = width.clamp(10, NAME);
+    // Print the table.
     say(format_args!(
         "{:width$} {:>9} {:>7} {:>11} {:>8} {:>8} {:>15} {:>16} {:>8} {:>8} {:>11}",
         "",
@@ -52,6 +55,7 @@ pub(super) fn print(groups: &[GroupReport]) {
         let name = format!("{} atlases", groups.len());
         say(line(&name, width, &Sums::of(&order)));
     }
+    // Explain needles, and list the pages.
     let needles = Sums::of(&order).needles;
     if needles > 0 {
         say(format_args!(
@@ -84,7 +88,7 @@ fn line(name: &str, width: usize, sums: &Sums) -> String {
     )
 }
 
-/// A number with the three digits that matter: 340, 3.27, 0.0123, 1.2e9.
+/// Formats a number with three significant digits: 340, 3.27, 0.0123, 1.2e9.
 fn three_digits(x: f64) -> String {
     let rounded: f64 = format!("{x:.2e}").parse().unwrap_or(x);
     match rounded {
@@ -97,20 +101,20 @@ fn three_digits(x: f64) -> String {
     }
 }
 
-/// Figures of several atlases: counts added, means weighted by the areas of the surfaces.
+/// Figures of several atlases: sums of counts, and means weighted by surface area.
 #[derive(Default)]
 struct Sums {
     faces: usize,
     charts: usize,
     area: f64,
-    /// Energies times areas, over surfaces that have one.
+    /// Sum of energy times area, over surfaces with an energy.
     energies: Option<f64>,
-    /// The largest 99th percentile of the stretch.
+    /// Maximum 99th percentile of the stretch.
     stretch: Option<f64>,
     needles: usize,
     texels: Option<f64>,
     seam: f64,
-    /// The mean of all pages.
+    /// Mean over all pages.
     filled: Option<f64>,
     flipped: usize,
     degenerate: usize,

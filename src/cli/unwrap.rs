@@ -1,4 +1,4 @@
-//! `unwrapd unwrap`: a mesh file in, the same with certified UVs out.
+//! `unwrapd unwrap`: a mesh file in, the file with certified UVs out.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -44,7 +44,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     args.acceptance.judge(&outcome.report, seconds)
 }
 
-/// A picture, if there is a path for it.
+/// Draws a picture if there is a path for it.
 fn drawn(
     outcome: &Outcome,
     picture: AtlasPicture,
@@ -54,7 +54,7 @@ fn drawn(
     Ok(drawn.transpose()?)
 }
 
-/// The atlases, the warnings, and what is certified.
+/// Prints the atlases, the warnings, and the certified properties.
 pub(super) fn summarize(outcome: &Outcome) {
     let report = &outcome.report;
     super::table::print(&report.groups);

@@ -48,7 +48,7 @@ pub(super) struct Pictures {
 }
 
 impl Args {
-    /// The options, of which a file of seams is read.
+    /// Returns the options; reads the file of seams if one is given.
     pub(super) fn options(&self) -> Result<Options, Failure> {
         let output = &self.target.output;
         Ok(Options {
@@ -59,7 +59,7 @@ impl Args {
         })
     }
 
-    /// Where everything goes.
+    /// Checks and returns all output paths.
     pub(super) fn outputs(&self) -> Result<Outputs, Failure> {
         let Pictures { layout, heatmap } = &self.pictures;
         let Files { report, output, .. } = &self.files;
@@ -74,7 +74,7 @@ fn is_word(path: &Path) -> bool {
     path.as_os_str() == "normals"
 }
 
-/// The word, or the pairs in a file.
+/// Returns the seams for the word `normals`, or reads the pairs in a file.
 fn given_seams(path: &Path) -> Result<GivenSeams, Failure> {
     if is_word(path) {
         return Ok(GivenSeams::Named(NamedSeams::Normals));

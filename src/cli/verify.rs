@@ -1,4 +1,4 @@
-//! `unwrapd verify`: what can be proven of existing UVs.
+//! `unwrapd verify`: proofs about existing UVs.
 
 use super::console::{self, Lines, print_json, say, warn};
 use super::failure::Failure;
@@ -21,7 +21,7 @@ pub(super) struct Args {
     quiet: bool,
 }
 
-/// Runs `verify`; a file of which something asked for does not hold ends with exit status 4.
+/// Runs `verify`; exits with 4 if a requested property does not hold.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if args.quiet {
         console::direct(Lines::None);

@@ -1,4 +1,4 @@
-//! `unwrapd warp`: a picture pulled by handles.
+//! `unwrapd warp`: warping of a picture by handles.
 
 use std::path::PathBuf;
 
@@ -33,7 +33,8 @@ pub(super) struct Args {
     options: WarpOptions,
 }
 
-/// Runs `warp`; exit 4 if the map has an inverted triangle, or with a fixed border is not bijective, 5 if targets cannot be reached.
+/// Runs `warp`; exits with 4 if the map has an inverted triangle, or is not bijective with a fixed border, and with 5
+/// if targets cannot be reached.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let mut options = WarpOptions {
         caller: caller(&args.output),
@@ -62,7 +63,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Failure::unless_complete(warped.report.completion)
 }
 
-/// One line about a map.
+/// Prints one line about a map.
 pub(super) fn print_pull(name: &str, report: &PullReport) {
     let summary = &report.summary;
     say(format_args!(

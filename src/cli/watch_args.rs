@@ -1,4 +1,4 @@
-//! What a process tells those who run it: its log, and what it measures.
+//! Arguments for logs and metrics.
 
 use std::io::IsTerminal;
 use std::net::SocketAddr;
@@ -56,13 +56,13 @@ fn levels(text: &str) -> Result<String, String> {
         .map_err(|error| format!("expected levels such as warn or unwrapd=debug: {error}"))
 }
 
-/// Measures from now on: first of all, so that nothing that a start notes is lost.
+/// Installs the metrics. Called first, so that nothing recorded at startup is lost.
 pub(super) fn measured() -> Result<Measured, String> {
     measure().map_err(|error| format!("nothing is measured: {error}"))
 }
 
 impl WatchArgs {
-    /// Begins the log.
+    /// Starts the log.
     pub fn start_log(&self) {
         let log = tracing_subscriber::fmt()
             .with_env_filter(EnvFilter::new(&self.log))
@@ -73,7 +73,7 @@ impl WatchArgs {
         }
     }
 
-    /// Shows what is measured where it is asked for, until told to stop.
+    /// Serves the metrics at their address, if one is given, until told to stop.
     pub async fn exposition(
         &self,
         measured: Measured,

@@ -1,4 +1,4 @@
-//! How the ends of jobs are told to others.
+//! Arguments for webhooks.
 
 use clap::builder::BoolishValueParser;
 
@@ -27,7 +27,7 @@ pub(super) struct WebhookArgs {
 }
 
 impl WebhookArgs {
-    /// How deliveries are made; none without a secret.
+    /// Returns the settings of deliveries; `None` without a secret.
     pub(super) fn settings(&self) -> Option<Settings> {
         Some(Settings {
             secrets: self.webhook_secret.clone()?,

@@ -1,4 +1,4 @@
-//! `unwrapd webhook-secret`: that by which an owner checks deliveries.
+//! `unwrapd webhook-secret`: the secret with which an owner verifies deliveries.
 
 use super::console::print;
 use super::failure::Failure;

@@ -1,4 +1,4 @@
-//! What `serve` and `worker` have in common: where records and files are, and what a job may use.
+//! Common arguments of `serve` and `worker`: locations of records and files, limits of jobs.
 
 use std::time::Duration;
 
@@ -7,7 +7,7 @@ use super::watch_args::WatchArgs;
 use unwrapd_server::jobs::{self, Deployment, Program, Rules};
 use unwrapd_worker::Computations;
 
-/// Default memory of a job, in bytes.
+/// Default memory limit of a job in bytes.
 pub(super) const JOB_MEMORY: u64 = 8 << 30;
 
 /// Where records and files are, and what a job may use.
@@ -107,7 +107,7 @@ pub(super) struct WorkArgs {
     grace_seconds: f64,
 }
 
-/// A number of seconds, as options have it.
+/// Parses a number of seconds of an option.
 pub(super) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(seconds) if (0.001..=1e6).contains(&seconds) => Ok(seconds),
@@ -123,18 +123,18 @@ fn seconds_or_none(text: &str) -> Result<f64, String> {
 }
 
 impl WorkArgs {
-    /// Number of jobs computed at the same time.
+    /// Returns the number of jobs computed at a time.
     pub fn workers(&self) -> usize {
         self.workers.map_or_else(cores, usize::from)
     }
 
-    /// Memory of a job, in bytes.
+    /// Returns the memory limit of a job in bytes.
     pub fn memory(&self) -> u64 {
         let memory = self.job_memory_mib.map(|mib| mib.saturating_mul(1 << 20));
         memory.unwrap_or_else(|| JOB_MEMORY.min(machine_memory()))
     }
 
-    /// The settings of a process that computes jobs, accepts none and removes none.
+    /// Returns the settings of a process that computes jobs, but neither accepts nor removes any.
     pub fn settings(&self, program: Program) -> jobs::Settings {
         jobs::Settings {
             deployment: match self.store.database {
@@ -167,12 +167,12 @@ impl WorkArgs {
     }
 }
 
-/// Cores of the machine, or of the container.
+/// Returns the number of cores of the machine or of the container.
 pub(super) fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Memory of the machine or of the container, in bytes; `u64::MAX` if neither can be read.
+/// Returns the memory of the machine or of the container in bytes; `u64::MAX` if neither can be read.
 pub(super) fn machine_memory() -> u64 {
     let read = |path| std::fs::read_to_string(path).unwrap_or_default();
     let total = read("/proc/meminfo")

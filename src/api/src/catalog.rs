@@ -18,8 +18,7 @@ pub struct RefusedOptions {
     pub column: Option<usize>,
 }
 
-/// Catalog of computations: their options, their reports, the files that they read. A server asks it instead
-/// of
+/// Catalog of computations: their options, their reports, the files that they read. A server asks it instead of
 /// linking the code that computes.
 pub trait Catalog: Debug + Send + Sync {
     /// Checks the options of a kind, as far as possible without the file, and completes them with defaults.

@@ -7,8 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Cause of a failed job: a stable code and one sentence for people.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failure {
-    /// Stable code in snake_case: one of the pipeline's, or `worker_lost`, `crashed`, `out_of_memory`,
-    /// `timed_out`.
+    /// Stable code in snake_case: one of the pipeline's, or `worker_lost`, `crashed`, `out_of_memory`, `timed_out`.
     pub code: String,
     /// Description in one line.
     pub detail: String,

@@ -10,9 +10,8 @@ pub struct InputFile {
     pub name: String,
     /// Size in bytes.
     pub bytes: u64,
-    /// SHA-256 in hexadecimal digits, checked whenever the whole file is read; `None` for files of earlier
-    /// versions of
-    /// the program.
+    /// SHA-256 in hexadecimal digits, checked whenever the whole file is read; `None` for files of earlier versions
+    /// of the program.
     #[serde(default)]
     pub sha256: Option<String>,
 }
@@ -20,17 +19,15 @@ pub struct InputFile {
 /// An output file of a job.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct OutputFile {
-    /// Role, which is also its path: `result`, `report`, `uvs.bin`, `files/NAME` for files that belong to the
-    /// result, or
-    /// the role of a [`Picture`](crate::Picture).
+    /// Role, which is also its path: `result`, `report`, `uvs.bin`, `files/NAME` for files that belong to the result,
+    /// or the role of a [`Picture`](crate::Picture).
     pub role: String,
     /// File name for saving it.
     pub name: String,
     /// Size in bytes.
     pub bytes: u64,
-    /// SHA-256 in hexadecimal digits, checked whenever the whole file is read; `None` for files of earlier
-    /// versions of
-    /// the program.
+    /// SHA-256 in hexadecimal digits, checked whenever the whole file is read; `None` for files of earlier versions
+    /// of the program.
     #[serde(default)]
     pub sha256: Option<String>,
 }

@@ -7,8 +7,7 @@
 //! | [`pipe`] | records between a server and the child of a live session |
 //!
 //! The other items are the tasks of a child ([`Task`], [`Drawing`]), its answers ([`Message`], [`Outcome`],
-//! [`Failure`]), the files and formats that both sides name ([`Upload`], [`Format`]), and the server's view
-//! of the
+//! [`Failure`]), the files and formats that both sides name ([`Upload`], [`Format`]), and the server's view of the
 //! computations that it does not contain ([`Catalog`]).
 
 mod catalog;

@@ -1,5 +1,5 @@
-//! The header of frames with maps under way, which the server numbers. `unwrapd-worker` defines the rest of
-//! the format.
+//! The header of frames with maps under way, which the server numbers. `unwrapd-worker` defines the rest of the
+//! format.
 
 /// Name of the file with the latest frame in the folder of an attempt.
 pub const MAPS: &str = "maps";

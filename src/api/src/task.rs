@@ -1,9 +1,7 @@
 //! Messages between the server and its child.
 //!
-//! The server writes `job.json` ([`Task`]) and the input files into the attempt's folder. The child answers
-//! with one
-//! JSON line per [`Message`] on standard output, and leaves either `outcome.json` ([`Outcome`]), written last
-//! and
+//! The server writes `job.json` ([`Task`]) and the input files into the attempt's folder. The child answers with one
+//! JSON line per [`Message`] on standard output, and leaves either `outcome.json` ([`Outcome`]), written last and
 //! renamed into place, with the files that it lists, or `error.json` ([`crate::Failure`]).
 
 use std::collections::BTreeMap;
@@ -51,8 +49,7 @@ pub struct Task {
     pub pictures: Pictures,
 }
 
-/// Time at which the layout and the distortion of an atlas are drawn. For a small mesh, drawing takes longer
-/// than
+/// Time at which the layout and the distortion of an atlas are drawn. For a small mesh, drawing takes longer than
 /// unwrapping.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Pictures {

@@ -4,12 +4,10 @@ use std::collections::BTreeMap;
 
 use crate::extension;
 
-/// Name of the optional file with the initial positions of vertices: coordinates as consecutive `f64`,
-/// little-endian.
+/// Name of the optional file with the initial positions of vertices: coordinates as consecutive `f64`, little-endian.
 ///
-/// For bodies and pictures these are the vertices of the mesh, or of the mesh made for the input; for UVs,
-/// the corners
-/// of each face that has UVs, in file order. Rest shapes and the places that handles name are still those of
+/// For bodies and pictures these are the vertices of the mesh, or of the mesh made for the input; for UVs, the
+/// corners of each face that has UVs, in file order. Rest shapes and the places that handles name are still those of
 /// the input.
 pub const START: &str = "start.f64";
 

@@ -1,4 +1,4 @@
-//! Requests that are repeated as long as that may help.
+//! HTTP client with retries.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -11,47 +11,47 @@ use super::job::Problem;
 use crate::bulk::trouble::Trouble;
 use unwrapd_api::Failure;
 
-/// Between the first two tries; then twice as long each time.
+/// First pause between attempts, and the maximum after doubling.
 const FIRST_PAUSE: Duration = Duration::from_millis(250);
 const LONGEST_PAUSE: Duration = Duration::from_secs(30);
-/// How long one request is tried before the service counts as gone.
+/// Time after which a request is given up, and the service counts as gone.
 const PATIENCE: Duration = Duration::from_mins(10);
-/// An answer may be held back by the service, and a file may be large: a limit between two bytes.
+/// Timeout between two bytes. The service may delay a response, and files may be large.
 const SILENCE: Duration = Duration::from_mins(2);
 
-/// Why a service cannot be used.
+/// Reason why a service cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum RemoteError {
-    /// The address is none.
+    /// The address is invalid.
     #[error("{server:?} is not the address of a service: {cause}")]
     Address {
-        /// What was given.
+        /// The given address.
         server: String,
-        /// What is wrong with it.
+        /// Cause.
         cause: String,
     },
-    /// The key has characters that no key has.
+    /// The key contains characters that no key has.
     #[error("the API key has characters that no key has")]
     Key,
-    /// Nothing answers, or something else does.
+    /// Nothing responds, or something other than the service does.
     #[error("no service answers at {server}: {cause}")]
     NoService {
-        /// Its address.
+        /// Address of the service.
         server: String,
-        /// What happened.
+        /// Cause.
         cause: String,
     },
 }
 
-/// A service, and whether it is still there.
+/// Client of a service.
 pub(super) struct Client {
     http: reqwest::Client,
     root: Url,
-    /// Once one request has been given up, the others of a run need not be tried as long.
+    /// Set once a request has been given up, so that the others of a run are not retried as long.
     is_given_up: AtomicBool,
 }
 
-/// What is read of the service's own description.
+/// Part of the OpenAPI document that is read.
 #[derive(Deserialize)]
 struct Description {
     info: Info,
@@ -88,7 +88,7 @@ impl Client {
         })
     }
 
-    /// A path below the address of the service.
+    /// Returns the URL of a path below the address of the service.
     pub fn url(&self, segments: &[&str]) -> Url {
         let mut url = self.root.clone();
         if let Ok(mut path) = url.path_segments_mut() {
@@ -97,7 +97,7 @@ impl Client {
         url
     }
 
-    /// Version of the service, asked for once.
+    /// Requests the version of the service, without retries.
     pub async fn version(&self) -> Result<String, RemoteError> {
         let no_service = |cause: String| RemoteError::NoService {
             server: self.root.to_string(),
@@ -111,8 +111,8 @@ impl Client {
         Ok(description.info.version)
     }
 
-    /// The answer to a request that may be repeated. What the service refuses for good, and what
-    /// it does not answer for a long time, is a failure.
+    /// Sends a repeatable request until it succeeds. Fails if the service rejects it permanently, or does not respond
+    /// for a long time.
     pub async fn answer(
         &self,
         request: impl Fn(&reqwest::Client) -> RequestBuilder,
@@ -125,6 +125,7 @@ impl Client {
                     self.is_given_up.store(false, Ordering::Relaxed);
                     return Ok(answer);
                 }
+                // Retry what may pass, after the pause that the service asks for, if any.
                 Ok(answer) if may_pass(answer.status()) => {
                     let told = retry_after(&answer);
                     (refusal(answer).await.detail, told)
@@ -143,7 +144,7 @@ impl Client {
     }
 }
 
-/// The header with which every call says who calls.
+/// Returns the authorization header for all requests.
 fn authorization(key: Option<&str>) -> Result<HeaderMap, RemoteError> {
     let mut headers = HeaderMap::new();
     if let Some(key) = key {
@@ -155,7 +156,7 @@ fn authorization(key: Option<&str>) -> Result<HeaderMap, RemoteError> {
     Ok(headers)
 }
 
-/// The content of an answer, asked for again if it breaks off.
+/// Returns the body of a response, requested again up to three times if it breaks off.
 pub(super) async fn answered(
     client: &Client,
     method: Method,
@@ -172,7 +173,7 @@ pub(super) async fn answered(
     }
 }
 
-/// Whether the same request may be answered otherwise later.
+/// Returns whether a retry of the same request may succeed.
 fn may_pass(status: StatusCode) -> bool {
     matches!(
         status,
@@ -185,14 +186,14 @@ fn may_pass(status: StatusCode) -> bool {
     )
 }
 
-/// The seconds that the service asks to wait for.
+/// Returns the delay that the service asks for, limited to the total retry time.
 fn retry_after(answer: &Response) -> Option<Duration> {
     let seconds = answer.headers().get(RETRY_AFTER)?.to_str().ok()?;
     let seconds = Duration::from_secs(seconds.trim().parse().ok()?);
     Some(seconds.min(PATIENCE))
 }
 
-/// What the service says of a request that it did not do.
+/// Returns the failure that a rejection describes.
 async fn refusal(answer: Response) -> Failure {
     let status = answer.status();
     match answer.json::<Problem>().await {
@@ -201,12 +202,12 @@ async fn refusal(answer: Response) -> Failure {
     }
 }
 
-/// An answer that is not what it should be.
+/// Returns the failure of a malformed response.
 pub(super) fn unreadable(error: &reqwest::Error) -> Failure {
     Trouble::ServerUnavailable.with(text(error))
 }
 
-/// An error with its causes, on one line.
+/// Formats an error with its causes on one line.
 fn text(error: &dyn std::error::Error) -> String {
     let causes = std::iter::successors(Some(error), |error| error.source());
     let mut words: Vec<String> = causes.map(ToString::to_string).collect();

@@ -1,9 +1,9 @@
-//! What is read of a job.
+//! The parts of a job's JSON that are read.
 
 use serde::Deserialize;
 use unwrapd_api::Failure;
 
-/// A job as the service tells it.
+/// A job as the service describes it.
 #[derive(Deserialize)]
 pub(super) struct Job {
     pub id: String,
@@ -12,19 +12,19 @@ pub(super) struct Job {
     links: Links,
 }
 
-/// Where a job stands.
+/// State of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum State {
     Succeeded,
     Failed,
     Cancelled,
-    /// Queued, running, or whatever else is not an end.
+    /// Queued, running, or any other state that is not final.
     #[serde(other)]
     Live,
 }
 
-/// Why something failed (RFC 9457).
+/// Error description (RFC 9457).
 #[derive(Deserialize)]
 pub(super) struct Problem {
     pub code: String,
@@ -50,14 +50,14 @@ impl State {
 }
 
 impl Job {
-    /// The roles of its files, which are the ends of their paths.
+    /// Returns the roles of its files, which are the ends of their paths.
     pub fn roles(&self) -> impl Iterator<Item = &str> {
         let own = format!("{}/", self.links.itself);
         let files = self.links.files.iter();
         files.filter_map(move |file| file.href.strip_prefix(&own))
     }
 
-    /// Why it failed.
+    /// Returns the cause of its failure.
     pub fn failure(self) -> Failure {
         let unknown = || Failure::new("internal_error", "the service gives no reason");
         self.error

@@ -1,7 +1,7 @@
-//! Work done by a service, over HTTP.
+//! Worker that uses a service over HTTP.
 //!
-//! The `Idempotency-Key` of a submission is the digest of what it asks for and the number of the
-//! attempt. A run that follows a killed one finds its jobs again and makes no new ones.
+//! The `Idempotency-Key` of a submission consists of the digest of the request and the number of the attempt. A run
+//! that follows a killed one finds its jobs again and creates no new ones.
 
 mod client;
 mod job;
@@ -22,27 +22,27 @@ use client::{Client, answered, unreadable};
 use job::{Job, State};
 use unwrapd_api::{Failure, output_file};
 
-/// Seconds for which an answer about a job may be held back.
+/// Seconds for which the service may delay a response about a job.
 const WAIT_SECONDS: u8 = 30;
 
 /// Unwraps each asset as a job of a service.
 pub struct Remote {
     client: Client,
-    /// How it is unwrapped, as JSON.
+    /// Options of unwrapping as JSON.
     options: String,
-    /// What is fetched beside outputs and reports.
+    /// Files to fetch beside outputs and reports.
     extras: Vec<Extra>,
     /// Version of the service.
     version: String,
-    /// Whether results of equal jobs are refused.
+    /// Set to refuse the results of equal jobs.
     pub is_fresh: bool,
 }
 
 impl Remote {
-    /// Looks whether a service answers at an address, which may have a path, to be called with a key.
+    /// Connects to the service at an address, which may include a path, with a key.
     ///
     /// # Errors
-    /// If the address is none, or nothing of this kind answers there.
+    /// Fails if the address or the key is invalid, or no service responds.
     pub async fn connect(
         (server, key): (&str, Option<&str>),
         options: &serde_json::Value,
@@ -59,7 +59,7 @@ impl Remote {
         })
     }
 
-    /// The job of an asset: a new one, or the one that an earlier submission made.
+    /// Submits the job of an asset. Returns a new job, or the one that an earlier submission created.
     async fn submitted(&self, task: &Task<'_>) -> Result<Job, Failure> {
         let url = self.client.url(&["v1", "jobs"]);
         // A run that refuses copies does not want the job of one that takes them.
@@ -76,7 +76,7 @@ impl Remote {
         answer.json().await.map_err(|error| unreadable(&error))
     }
 
-    /// The job after its end.
+    /// Waits for the end of a job.
     async fn ended(&self, mut job: Job) -> Result<Job, Failure> {
         let mut url = self.client.url(&["v1", "jobs", &job.id]);
         url.query_pairs_mut()
@@ -114,7 +114,7 @@ impl Worker for Remote {
         &self.version
     }
 
-    /// That is the service's own.
+    /// Returns `None`: the limit is the service's.
     fn time_limit(&self) -> Option<Duration> {
         None
     }

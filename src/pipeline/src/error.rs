@@ -1,4 +1,4 @@
-//! Why a file could not be worked on.
+//! Errors of the pipeline.
 
 use super::island_error::IslandError;
 use unwrapd_deform::ProblemError;
@@ -12,83 +12,83 @@ use unwrapd_files::picture::ImageError;
 use unwrapd_layout::atlas::{AtlasError, Enough};
 use unwrapd_maps::mesh::{ElementError, MeshError};
 
-/// Why a file could not be worked on. Every variant has a stable [`code`](Self::code).
+/// Reason why a file could not be processed. Every variant has a stable [`code`](Self::code).
 #[derive(Debug, thiserror::Error)]
 pub enum PipelineError {
-    /// An option is out of its range.
+    /// An option is out of range.
     #[error("{0}")]
     InvalidOptions(String),
-    /// The arrays are not a mesh.
+    /// The arrays do not form a mesh.
     #[error(transparent)]
     Mesh(#[from] MeshError),
     /// The file cannot be read or written.
     #[error(transparent)]
     Document(#[from] DocumentError),
-    /// More triangles than the limits allow.
+    /// There are more triangles than the limits allow.
     #[error("the mesh has {triangles} triangles; the limit is {limit}")]
     TooManyTriangles {
-        /// How many it has.
+        /// Number of triangles.
         triangles: u64,
-        /// How many it may have.
+        /// Maximum number of triangles.
         limit: u64,
     },
     /// There is no face.
     #[error("the mesh has no triangles")]
     NoTriangles,
-    /// No face has an area.
+    /// No face has area.
     #[error(
         "none of the {triangles} triangles has an area: corners coincide or lie on a line; 32-bit coordinates far from \
          the origin may be too coarse to tell them apart"
     )]
     NoArea {
-        /// How many there are.
+        /// Number of triangles.
         triangles: usize,
     },
-    /// The UV set asked for is not there.
+    /// The requested UV set does not exist.
     #[error("{group} has no UV set {texcoord}")]
     NoUvs {
-        /// Name of the group without UVs.
+        /// Label of the group without UVs.
         group: String,
-        /// The set asked for.
+        /// Requested UV set.
         texcoord: u32,
     },
-    /// The surfaces get no cage.
+    /// No cage can be built around the surfaces.
     #[error(transparent)]
     Cage(#[from] CageError),
-    /// What was given cannot be deformed as asked for.
+    /// The input cannot be deformed as requested.
     #[error(transparent)]
     Problem(#[from] ProblemError),
     /// The charts do not fit on the grid.
     #[error(transparent)]
     Atlas(#[from] AtlasError),
-    /// At the texels per unit asked for the charts do not fit.
+    /// The charts do not fit at the requested texels per unit.
     #[error("the texture is too small for this texel density{0}")]
     TextureTooSmall(Enough),
-    /// Islands cannot stay where they are put.
+    /// Islands cannot have their placements.
     #[error(transparent)]
     Islands(#[from] IslandError),
-    /// The UVs that were to be written have flips where none were promised: a mistake of this program, found by the certificate.
+    /// The result has flips although none are allowed: a bug of this program, found by the certificate.
     #[error("nothing was written because the result is not valid: {0}")]
     NotValid(String),
     /// The UVs cannot be edited.
     #[error(transparent)]
     Edit(#[from] EditError),
-    /// The picture or drawing gives no mesh.
+    /// The picture or drawing yields no mesh.
     #[error(transparent)]
     Outline(#[from] OutlineError),
     /// The picture cannot be warped.
     #[error(transparent)]
     Warp(#[from] WarpError),
-    /// Handles were pulled to a map with an inverted element.
+    /// The map has an inverted element.
     #[error("no map without inversion was found")]
     Inverted,
-    /// A boundary that may not cross itself does, by rounding.
+    /// A boundary that must not cross itself does, because of rounding.
     #[error("no map was found whose boundary does not cross itself")]
     Crossed,
-    /// No material has the name or index that a weight was given for.
+    /// No material has the name or index of a weight.
     #[error("unknown material {0:?}")]
     UnknownMaterial(String),
-    /// The seams given do not fit the mesh.
+    /// The given seams do not match the mesh.
     #[error("seams: {0}")]
     Seams(String),
     /// The worker threads could not be started.
@@ -97,7 +97,7 @@ pub enum PipelineError {
 }
 
 impl PipelineError {
-    /// A stable name for programs.
+    /// Returns the stable code of the error, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::InvalidOptions(_) => "invalid_options",
@@ -123,7 +123,7 @@ impl PipelineError {
         }
     }
 
-    /// The column of a formula that is wrong, from 1.
+    /// Returns the column of the error in a formula, from 1.
     pub fn column(&self) -> Option<usize> {
         match self {
             Self::Problem(error) => error.column(),
@@ -131,7 +131,7 @@ impl PipelineError {
         }
     }
 
-    /// The exit status of the command line: 2 usage, 3 unusable input, 4 no valid result, 1 anything else.
+    /// Returns the exit status of the command line: 2 usage, 3 unusable input, 4 no valid result, 1 anything else.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::InvalidOptions(_) => 2,
@@ -156,21 +156,21 @@ impl PipelineError {
     }
 }
 
-/// A mesh that cannot be deformed.
+/// Converts the error of a mesh that cannot be deformed.
 impl From<ElementError> for PipelineError {
     fn from(error: ElementError) -> Self {
         ProblemError::from(error).into()
     }
 }
 
-/// A file of elements that cannot be read.
+/// Converts the error of an element file that cannot be read.
 impl From<ReadError> for PipelineError {
     fn from(error: ReadError) -> Self {
         ProblemError::from(error).into()
     }
 }
 
-/// A picture that cannot be read.
+/// Converts the error of a picture that cannot be read.
 impl From<ImageError> for PipelineError {
     fn from(error: ImageError) -> Self {
         WarpError::from(error).into()

@@ -1,28 +1,28 @@
-//! Why islands cannot stay where they are put.
+//! Errors of island placements.
 
-/// Why islands cannot stay where they are put. They are named by their places in the list, from 0.
+/// Reason why islands cannot have their placements. Islands are numbered by their position in the list, from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum IslandError {
-    /// An island is named by a face that is not there, or that has no area.
+    /// An island is named by a face that does not exist or has no area.
     #[error("island {0} is named by a face that does not exist or names a vertex twice")]
     UnknownFace(usize),
     /// Two entries name one island.
     #[error("islands {0} and {1} are the same one")]
     Twice(usize, usize),
-    /// An island is put beyond the borders of a page.
+    /// An island is placed across the border of a page.
     #[error("island {0} leaves the page")]
     OffPage(usize),
-    /// Two islands are put where they overlap or are nearer than the padding.
+    /// Two islands are placed so that they overlap or are closer than the padding.
     #[error("islands {} and {} {}", islands[0], islands[1], apart(*texels, *padding))]
     TooNear {
-        /// Both.
+        /// Numbers of the islands.
         islands: [usize; 2],
-        /// Their distance in texels, 0 where they overlap.
+        /// Their distance in texels; 0 if they overlap.
         texels: f64,
-        /// The least distance.
+        /// Required distance in texels.
         padding: u32,
     },
-    /// The others do not fit around those that stay.
+    /// The other islands do not fit around the placed ones.
     #[error("the other islands do not fit around those that stay where they are put")]
     NoRoom,
 }
@@ -36,7 +36,7 @@ fn apart(texels: f64, padding: u32) -> String {
 }
 
 impl IslandError {
-    /// Stable name of the cause, for programs.
+    /// Returns the stable code of the error, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::UnknownFace(_) => "unknown_face",

@@ -1,22 +1,23 @@
 //! From a mesh to a certified atlas and its report.
 //!
-//! [`unwrap`] takes plain arrays: it welds, cuts, maps every chart and packs. [`unwrap_document`] takes a file's bytes:
-//! it reads, unwraps every group of primitives, writes, and then reads the written bytes again; the report and the
-//! certificate are about those bytes and nothing else. [`measure_document`] and [`verify_document`] do the same for
-//! UVs that a file already has; [`edit_document`] changes them, [`repack_document`] packs them anew.
-//! [`unwrap_meshes`], [`repack_meshes`], [`measure_meshes`] and [`verify_meshes`] are the same for several meshes given as arrays.
+//! [`unwrap`] takes plain arrays: it welds, cuts, maps every chart and packs. [`unwrap_document`] takes a file's
+//! bytes: it reads, unwraps every group of primitives, writes, and then reads the written bytes again. The report and
+//! the certificate are about those bytes and nothing else. [`measure_document`] and [`verify_document`] do the same
+//! for existing UVs of a file; [`edit_document`] changes them, and [`repack_document`] packs them again.
+//! [`unwrap_meshes`], [`repack_meshes`], [`measure_meshes`] and [`verify_meshes`] do this for several meshes given as
+//! arrays.
 //!
-//! The other applications are a function from a file's bytes to files' bytes each: [`solve_file`], [`deform_file`], [`warp_file`].
-//! All take options of their own, [`Limits`] that their caller sets, and an [`Observer`]; the command line and the service are
-//! two ways to call them. [`hold_body`], [`hold_picture`] and [`hold_uvs`] take what they would deform into the hand of
-//! someone who watches.
+//! The other applications are functions from bytes of a file to bytes of files: [`solve_file`], [`deform_file`],
+//! [`warp_file`]. All take options of their own, [`Limits`] set by their caller, and an [`Observer`]; the command
+//! line and the service are two such callers. [`hold_body`], [`hold_picture`] and [`hold_uvs`] open live sessions on
+//! what these functions would deform.
 //!
-//! The work runs on a thread pool of its own. Charts of all groups share one queue, largest first; each is mapped by
-//! one thread, so the result does not depend on their number. Meshes of one shape are mapped once, and packed once where each has an
-//! atlas of its own; the written bytes are certified for each.
+//! The work runs on its own thread pool. Charts of all groups share one queue, largest first; each is mapped by one
+//! thread, so the result does not depend on the number of threads. Meshes of equal shape are mapped once, and packed
+//! once if each has its own atlas; the written bytes are certified for each.
 //!
-//! **Certified** means that everything that was asked for is proven on the written bytes ([`Report::certified`] has the list). What is
-//! not proven stands among the warnings; only flips where none were promised are an error, and leave no file.
+//! **Certified** means that everything requested is proven on the written bytes ([`Report::certified`] has the list).
+//! The warnings list what is not proven; only flips where none are allowed are an error, and leave no file.
 
 mod arrays;
 mod error;

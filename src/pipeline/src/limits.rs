@@ -1,16 +1,16 @@
-//! Limits of the work on a document, whatever its options request.
+//! Limits on documents, whatever the options request.
 
 use crate::PipelineError;
 use unwrapd_api::Limits;
 use unwrapd_files::document::Document;
 
-/// Refuses a document with too many triangles.
+/// Rejects a document with too many triangles.
 pub(super) fn check(limits: &Limits, document: &Document) -> Result<(), PipelineError> {
     let faces = document.primitives().iter().map(|p| p.triangles.len());
     check_count(limits, faces.sum())
 }
 
-/// Refuses too many triangles or tetrahedra.
+/// Rejects too many triangles or tetrahedra.
 pub(super) fn check_count(limits: &Limits, elements: usize) -> Result<(), PipelineError> {
     let triangles = elements as u64;
     match limits.triangles {

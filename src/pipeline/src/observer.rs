@@ -1,4 +1,4 @@
-//! What a caller sees while a mesh is being unwrapped, and how it ends the work early.
+//! The caller's view of the work in progress, and early ending.
 
 use std::time::Duration;
 
@@ -28,22 +28,24 @@ pub struct Progress {
     pub smallest: f64,
 }
 
-/// Receives progress, answers whether to go on, and tells the time.
+/// Receives progress, decides whether to continue, and provides the time.
 ///
-/// Called from several threads at once. The library has no clock of its own: a caller that does not care uses [`Unobserved`].
+/// Called from several threads at once. The library has no clock of its own; callers without interest in progress use
+/// [`Unobserved`].
 pub trait Observer: Sync {
-    /// Takes a progress report. [`Control::Finish`] ends the optimization with the current valid map.
+    /// Receives a progress report. Returning [`Control::Finish`] ends the optimization with the current valid map.
     fn progress(&self, progress: &Progress) -> Control;
-    /// Time since the work began.
+    /// Returns the time since the work began.
     fn elapsed(&self) -> Duration;
-    /// Shows the map of a chart at an iterate, that of the start first, before progress tells of it. The chart is a part of the
-    /// surface of this number.
+    /// Receives the map of a chart at an iterate, first at the start, before progress is reported for it. The chart
+    /// is part of the surface with this number.
     fn map(&self, _surface: usize, _map: &MapUnderway) {}
-    /// Shows the map of an iteration while handles are pulled, that of the start as number 0. `file` writes it as the result will be.
+    /// Receives the map of an iteration of a deformation; the start has number 0. `file` writes it in the format of
+    /// the result.
     fn frame(&self, _number: usize, _file: &dyn Fn() -> Vec<u8>) {}
 }
 
-/// Neither listens nor interferes; its clock stands still.
+/// An observer that ignores everything; its clock stands still.
 pub struct Unobserved;
 
 impl Observer for Unobserved {

@@ -1,4 +1,4 @@
-//! Parts of the work of a stage, each of which tells how much of it is done.
+//! Portions of the work of a stage, which report their progress.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
@@ -7,43 +7,44 @@ use super::tracker::Tracker;
 use unwrapd_layout::charts::{self, MapUnderway};
 use unwrapd_method::solver::{Control, Iterate};
 
-/// A part of the work of a stage, of which it is known about how much it takes.
+/// A portion of the work of a stage with an expected effort.
 ///
-/// Up to [`STEADY`] of that its share grows with the work that is done, beyond it more and more slowly, so that it never seems to
-/// be at its end before it is. When the portion is dropped its work is done.
+/// Up to [`STEADY`] of the expected work its share grows linearly, beyond that more and more slowly, so that it never
+/// appears complete before it is. Dropping the portion completes it.
 pub(super) struct Portion<'a> {
     tracker: &'a Tracker<'a>,
-    /// Of which surface it is.
+    /// Index of its surface.
     surface: usize,
-    /// What it counts for, in the unit of the stage.
+    /// Weight within the stage, in the unit of the stage.
     weight: f64,
-    /// Work that it is expected to take, in a unit of its own.
+    /// Expected work, in a unit of its own.
     expected: f64,
     done: Mutex<f64>,
-    /// Charts that are mapped, and charts that are known.
+    /// Numbers of mapped and of known charts.
     charts: Mutex<[isize; 2]>,
 }
 
-/// Newton steps that a surface takes, and a chart.
+/// Expected Newton steps for a surface, and for a chart.
 const STEPS_OF_SURFACE: f64 = 12.0;
 const STEPS_OF_CHART: f64 = 15.0;
 
-/// The share of the expected work up to which a portion advances steadily.
+/// Share of the expected work up to which a portion advances linearly.
 const STEADY: f64 = 0.7;
 
 impl<'a> Portion<'a> {
-    /// An atlas that counts for so many words, of which some are expected to be read.
+    /// Creates the portion of an atlas: `words` budgeted, `expected` likely. The unit is a 64-bit word read while
+    /// packing.
     pub fn of_atlas(tracker: &'a Tracker, words: u64, expected: u64) -> Self {
         Self::of(tracker, 0, [words as f64, expected as f64])
     }
 
-    /// A surface of so many faces that is cut and mapped until it keeps a bound.
+    /// Creates the portion of a surface of `faces` faces that is cut and mapped until it keeps a bound.
     pub fn of_surface(tracker: &'a Tracker, surface: usize, faces: usize) -> Self {
         let faces = faces as f64;
         Self::of(tracker, surface, [faces, STEPS_OF_SURFACE * faces])
     }
 
-    /// A chart of so many faces of a surface that is mapped once.
+    /// Creates the portion of a chart of `faces` faces that is mapped once.
     pub fn of_chart(tracker: &'a Tracker, surface: usize, faces: usize) -> Self {
         let faces = faces as f64;
         Self::of(tracker, surface, [faces, STEPS_OF_CHART * faces])
@@ -60,25 +61,25 @@ impl<'a> Portion<'a> {
         }
     }
 
-    /// So many more words are read; whether to go on.
+    /// Records that `words` more words were read. Returns whether to continue.
     pub fn read(&self, words: u64) -> Control {
         let gained = self.weight * self.gained(words as f64);
         self.tracker.advance(gained)
     }
 
-    /// All is mapped: that many charts came of it.
+    /// Records that everything is mapped, and that `charts` charts resulted.
     pub fn all_mapped(&self, charts: usize) {
         let [mapped, known] = *self.charts.lock().unwrap_or_else(PoisonError::into_inner);
         let n = charts as isize;
         charts::Observer::charted(self, n - mapped, n - known);
     }
 
-    /// So much more work is done.
+    /// Records more work.
     pub fn advance(&self, work: f64) {
         self.tracker.advance(self.weight * self.gained(work));
     }
 
-    /// By how much the share grows with more work.
+    /// Adds work and returns the gain of the share.
     fn gained(&self, work: f64) -> f64 {
         let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
         let before = share(*done / self.expected);
@@ -102,7 +103,7 @@ fn share(done: f64) -> f64 {
     done.min(STEADY) + rest * beyond / (beyond + rest)
 }
 
-/// Sees a part of the charts being mapped; the unit of work is one Newton step of one face.
+/// Observes the mapping of some charts. The unit of work is one Newton step of one face.
 impl charts::Observer for Portion<'_> {
     fn iterate(&self, faces: usize, iterate: &Iterate) -> Control {
         let gained = self.weight * self.gained(faces as f64);

@@ -1,11 +1,11 @@
-//! Maps at which work starts, as files beside its input.
+//! Start files: initial maps beside an input.
 
 use crate::PipelineError;
 use unwrapd_api::START;
 use unwrapd_deform::ProblemError;
 use unwrapd_files::document::Upload;
 
-/// The `expected` coordinates of the start, if there is one beside the input.
+/// Reads the start file beside the input, if there is one. It must have `expected` coordinates.
 pub(super) fn start(upload: &Upload, expected: usize) -> Result<Option<Vec<f64>>, PipelineError> {
     let Some(bytes) = upload.resources.get(START) else {
         return Ok(None);
@@ -23,7 +23,7 @@ pub(super) fn start(upload: &Upload, expected: usize) -> Result<Option<Vec<f64>>
     Ok(Some(start))
 }
 
-/// The file of a start.
+/// Returns the content of a start file.
 pub fn start_file(coordinates: &[f64]) -> Vec<u8> {
     coordinates.iter().flat_map(|x| x.to_le_bytes()).collect()
 }

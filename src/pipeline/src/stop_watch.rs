@@ -1,8 +1,8 @@
-//! How long stages of the work take.
+//! Timing of the stages.
 
 use super::tracker::Tracker;
 
-/// Seconds of the observer's clock from lap to lap.
+/// Stopwatch on the observer's clock. Laps are in seconds.
 pub(super) struct StopWatch<'a> {
     tracker: &'a Tracker<'a>,
     last: f64,

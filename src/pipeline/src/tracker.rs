@@ -1,4 +1,4 @@
-//! How much of the work is done, and whether to go on.
+//! Progress of the whole work, and early ending.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -10,7 +10,7 @@ use unwrapd_files::document::Warning;
 use unwrapd_layout::charts::MapUnderway;
 use unwrapd_method::solver::{Control, Iterate, Watch};
 
-/// Turns the work that is done into a fraction that never falls, and applies the time budget.
+/// Converts completed work to a fraction that never falls, and applies the time budget.
 pub(super) struct Tracker<'a> {
     observer: &'a dyn Observer,
     time_budget: Option<Duration>,
@@ -19,32 +19,33 @@ pub(super) struct Tracker<'a> {
 
 struct State {
     progress: Progress,
-    /// Where the stage under way ends, and the packing begins.
+    /// Fractions at which the current stage ends, and at which packing begins.
     ends: f64,
     pack_begins: f64,
-    /// Work of the stage that is not done yet, in a unit of its own.
+    /// Remaining work of the stage, in a unit of its own.
     left: f64,
-    /// Why the work ends early.
+    /// Reason for an early end.
     ended: Option<EarlyEnd>,
 }
 
-/// Why work ends before it is done.
+/// Reason for an early end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum EarlyEnd {
-    /// The observer asked for it.
+    /// The observer requested it.
     Requested,
     /// The time limit is reached.
     OutOfTime,
 }
 
-/// Shares of the work done when the mapping begins and the packing ends. What the two take of that depends on the mesh.
+/// Fractions of the work at which mapping begins and packing ends. Their shares in between depend on the mesh.
 const MAPPED: f64 = 0.04;
 const PACKED: f64 = 0.92;
-/// Mapping a face takes about as long as reading so many words while packing. Measured on meshes of 6,000 and of 100,000 faces.
+/// Words read while packing in the time that mapping one face takes. Measured on meshes of 6,000 and of 100,000
+/// faces.
 const WORDS_PER_FACE: f64 = 10_000.0;
 
 impl State {
-    /// Shares of the work done when a stage begins and ends.
+    /// Returns the fractions of the work at which a stage begins and ends.
     fn span(&self, stage: Stage) -> [f64; 2] {
         match stage {
             Stage::Read => [0.0, 0.02],
@@ -66,7 +67,7 @@ impl State {
         self.left = work;
     }
 
-    /// So much of the work of the stage is done.
+    /// Completes some work of the stage.
     fn advance(&mut self, work: f64) {
         let room = (self.ends - self.progress.fraction).max(0.0);
         let share = work / self.left.max(f64::MIN_POSITIVE);
@@ -103,7 +104,7 @@ impl<'a> Tracker<'a> {
         self.observer.elapsed()
     }
 
-    /// Says what mapping and packing will take: faces to be mapped, words to be read.
+    /// Sets the expected work of mapping and packing: faces to map, words to read.
     pub(super) fn expect(&self, faces: usize, words: u64) {
         let mapping = WORDS_PER_FACE * faces as f64;
         let share = mapping / (mapping + words as f64).max(1.0);
@@ -114,12 +115,13 @@ impl<'a> Tracker<'a> {
         self.begin(stage, 0.0);
     }
 
-    /// Begins a stage of so much work, in a unit of its own; [`Portion`](super::portion::Portion)s say how much of it is done.
+    /// Begins a stage of this much work, in a unit of its own; [`Portion`](super::portion::Portion)s report its
+    /// progress.
     pub(super) fn begin(&self, stage: Stage, work: f64) {
         self.update(|state| state.enter(stage, work));
     }
 
-    /// Announces charts about to be mapped: their number, 0 where it is not known, and their faces, each as often as it is worked on.
+    /// Announces charts about to be mapped: their number, 0 if unknown, and their faces, counted once per mapping.
     pub(super) fn charts(&self, charts: usize, faces: usize) {
         self.update(|state| {
             state.enter(Stage::Map, faces as f64);
@@ -127,12 +129,12 @@ impl<'a> Tracker<'a> {
         });
     }
 
-    /// So many charts are mapped.
+    /// Records that `charts` more charts are mapped.
     pub(super) fn charts_done(&self, charts: usize) {
         self.update(|state| state.progress.chart += charts);
     }
 
-    /// So many more charts are mapped, of so many more that are known; fewer where negative.
+    /// Adds to the numbers of mapped and known charts; both may be negative.
     pub(super) fn charted(&self, mapped: isize, known: isize) {
         self.update(|state| {
             let progress = &mut state.progress;
@@ -141,12 +143,12 @@ impl<'a> Tracker<'a> {
         });
     }
 
-    /// So much of the work of the stage is done; whether to go on.
+    /// Completes some work of the stage. Returns whether to continue.
     pub(super) fn advance(&self, work: f64) -> Control {
         self.update(|state| state.advance(work))
     }
 
-    /// An iterate of a chart, with which so much work is done.
+    /// Records an iterate of a chart, which completes some work. Returns whether to continue.
     pub(super) fn iterated(&self, work: f64, iterate: &Iterate) -> Control {
         self.update(|state| {
             state.see(iterate);
@@ -154,17 +156,17 @@ impl<'a> Tracker<'a> {
         })
     }
 
-    /// Whether to go on.
+    /// Returns whether to continue.
     pub(super) fn control(&self) -> Control {
         self.update(|_| ())
     }
 
-    /// Shows the map of a chart of a surface.
+    /// Passes the map of a chart of a surface to the observer.
     pub(super) fn map(&self, surface: usize, map: &MapUnderway) {
         self.observer.map(surface, map);
     }
 
-    /// Shows the map of an iteration.
+    /// Passes the map of an iteration to the observer.
     pub(super) fn frame(&self, number: usize, file: &dyn Fn() -> Vec<u8>) {
         self.observer.frame(number, file);
     }
@@ -191,7 +193,7 @@ impl<'a> Tracker<'a> {
         Control::Finish
     }
 
-    /// Tells users that the work ended early, if it did.
+    /// Returns a warning if the work ended early.
     pub(super) fn warning(&self) -> Option<Warning> {
         let cause = match (self.state().ended?, self.time_budget) {
             (EarlyEnd::OutOfTime, Some(limit)) => {
@@ -206,11 +208,11 @@ impl<'a> Tracker<'a> {
     }
 }
 
-/// What an iteration of a body that is pulled takes of what is left to do: long ways take some hundred iterations, and 0.98^100 is
-/// an eighth.
+/// Share of the remaining work that one iteration of a deformation completes: long paths take some hundred
+/// iterations, and 0.98^100 is an eighth.
 const OF_AN_ITERATION: f64 = 0.02;
 
-/// Watches handles being pulled.
+/// Watches the deformation of a body.
 impl Watch for Tracker<'_> {
     fn iterate(&self, iterate: &Iterate) -> Control {
         self.update(|state| {

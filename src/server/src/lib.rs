@@ -8,8 +8,7 @@
 //! | [`webhooks`] | notification of others when jobs end |
 //! | [`http`] | routes, problems, OpenAPI, the page |
 //!
-//! The server accepts, records and relays; it computes nothing and does not contain the code that does. Facts
-//! about
+//! The server accepts, records and relays; it computes nothing and does not contain the code that does. Facts about
 //! computations, such as their options and schemas, come from a [`Catalog`](unwrapd_api::Catalog).
 
 pub mod http;

@@ -1,12 +1,9 @@
 //! The compute child: one attempt at a job, in a process of its own.
 //!
-//! It reads the attempt's folder, limits its own memory, reports progress on standard output and leaves its
-//! results
-//! in the folder. SIGTERM ends it like any process; SIGINT makes it finish early with its current valid map;
-//! a
-//! byte on its standard input requests the maps under way; and when standard input closes, the server is gone
-//! and
-//! the child exits.
+//! It reads the attempt's folder, limits its own memory, reports progress on standard output and leaves its results
+//! in the folder. SIGTERM ends it like any process. SIGINT makes it finish early with its current valid map. A byte
+//! on its standard input requests the maps under way. When standard input closes, the server is gone and the child
+//! exits.
 
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -27,8 +24,7 @@ use unwrapd_api::{
 };
 use unwrapd_pipeline::PipelineError;
 
-/// Runs the job in `folder` and returns the exit code of the process: 0 with results written, else that of
-/// the error.
+/// Runs the job in `folder` and returns the exit code of the process: 0 with results written, else that of the error.
 pub fn run(folder: &Path) -> u8 {
     reported(attempt(folder), folder)
 }
@@ -101,8 +97,7 @@ pub fn contain(memory: u64) -> std::io::Result<()> {
     Ok(setrlimit(Resource::RLIMIT_CORE, 0, 0)?)
 }
 
-/// Starts the threads that listen to standard input, where a byte requests maps, to its end, and to SIGINT.
-/// Must be
+/// Starts the threads that listen to standard input, where a byte requests maps, to its end, and to SIGINT. Must be
 /// called before any other thread exists, since threads inherit the set of blocked signals.
 fn listen(finish: &Arc<AtomicBool>, maps: &Arc<Maps>) -> std::io::Result<()> {
     let mut signals = SigSet::empty();
@@ -118,8 +113,7 @@ fn listen(finish: &Arc<AtomicBool>, maps: &Arc<Maps>) -> std::io::Result<()> {
     end_with_server(move || maps.ask())
 }
 
-/// Starts the thread that ends this process when its standard input closes. Calls `hear` for every byte
-/// before that.
+/// Starts the thread that ends this process when its standard input closes. Calls `hear` for every byte before that.
 fn end_with_server(hear: impl Fn() + Send + 'static) -> std::io::Result<()> {
     std::thread::Builder::new().spawn(move || {
         let mut byte = [0];

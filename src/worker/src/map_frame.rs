@@ -11,10 +11,8 @@
 //!                                                 56  faces u32; u and v of three corners each, f32 or f64
 //! ```
 //!
-//! Faces are those of the welded surface in cutting order. If there are too many to draw, only every 2ⁿ-th
-//! one
-//! follows. Seams of large charts are planned on a simplified mesh, and each face of a plan stands for one
-//! near it.
+//! Faces are those of the welded surface in cutting order. If there are too many to draw, only every 2ⁿ-th one
+//! follows. Seams of large charts are planned on a simplified mesh, and each face of a plan stands for one near it.
 
 use unwrapd_layout::charts::MapUnderway;
 use unwrapd_method::numerics::predicates::orient2d_sign;
@@ -30,8 +28,7 @@ pub(crate) fn key(surface: usize, map: &MapUnderway) -> ChartKey {
     [surface as u32, map.faces().next().unwrap_or(0)]
 }
 
-/// Encodes a map. Rounds coordinates to f32 unless that would flip a face; `flips` counts the encoded
-/// numbers.
+/// Encodes a map. Rounds coordinates to f32 unless that would flip a face; `flips` counts the encoded numbers.
 pub(crate) fn encoded([surface, first]: ChartKey, map: &MapUnderway) -> Vec<u8> {
     // Choose the precision.
     let points: &[[f64; 2]] = map.x.as_chunks().0;

@@ -57,8 +57,7 @@ impl Maps {
         self.is_asked.store(true, Ordering::Release);
     }
 
-    /// Keeps a map if somebody watches, and sends a frame if one is due. Without watchers this costs two
-    /// loads.
+    /// Keeps a map if somebody watches, and sends a frame if one is due. Without watchers this costs two loads.
     pub fn take(&self, surface: usize, map: &MapUnderway) {
         let until = self.watched.load(Ordering::Relaxed);
         let is_watched = || (self.start.elapsed().as_millis() as u64) < until;

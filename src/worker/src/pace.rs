@@ -2,8 +2,7 @@
 
 use std::time::Duration;
 
-/// Fraction of the speed so far at which the estimate advances between reports, so that a report rarely finds
-/// it
+/// Fraction of the speed so far at which the estimate advances between reports, so that a report rarely finds it
 /// ahead.
 const OF_PACE: f64 = 0.5;
 
@@ -16,8 +15,7 @@ const MOST: f64 = 0.99;
 /// Minimum gain of every estimate, as a fraction of the remaining work.
 const LEAST_GAIN: f64 = 1e-3;
 
-/// Share of the work that is done: reported, or estimated from the speed so far. It never falls, and every
-/// estimate
+/// Share of the work that is done: reported, or estimated from the speed so far. It never falls, and every estimate
 /// exceeds the previous one.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Pace {
@@ -27,8 +25,7 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// Returns the share after a report, at a time since the work began. A report that repeats the last one
-    /// counts as
+    /// Returns the share after a report, at a time since the work began. A report that repeats the last one counts as
     /// silence.
     pub fn reported(&mut self, share: f64, now: Duration) -> f64 {
         if self.reported < share {

@@ -82,9 +82,8 @@ impl Reporter {
 }
 
 impl Told {
-    /// Sends a report, unless one of its stage was just sent. A report without progress is replaced by an
-    /// estimate if one
-    /// is due.
+    /// Sends a report, unless one of its stage was just sent. A report without progress is replaced by an estimate if
+    /// one is due.
     fn report(&mut self, progress: Progress, now: Duration) {
         let begins = self.progress.stage != progress.stage;
         if !begins && now < self.at + TELL_INTERVAL {

@@ -30,8 +30,7 @@ where
     }
 }
 
-/// Removes an option from an object by one of its names and returns its value, or the default if it is
-/// absent.
+/// Removes an option from an object by one of its names and returns its value, or the default if it is absent.
 pub fn taken<T: DeserializeOwned>(
     given: &mut Object,
     names: &[&str],

@@ -18,8 +18,7 @@ pub fn typed<T: Serialize>(value: &T) -> String {
     }
 }
 
-/// Returns the help of an option for an argument that the command line declares itself. It is empty for an
-/// unknown
+/// Returns the help of an option for an argument that the command line declares itself. It is empty for an unknown
 /// name, which a test detects.
 pub fn help_of<O: OptionSet>(name: &str) -> String {
     let lines = O::about(name).unwrap_or_default().lines();
@@ -27,9 +26,8 @@ pub fn help_of<O: OptionSet>(name: &str) -> String {
     text.trim_end_matches('.').to_owned()
 }
 
-/// Returns a text about options with their names as they are typed: names in backticks that satisfy
-/// `is_option` become
-/// options such as `--seam-weight`.
+/// Returns a text about options with their names as they are typed: names in backticks that satisfy `is_option`
+/// become options such as `--seam-weight`.
 pub fn as_typed(text: &str, is_option: impl Fn(&str) -> bool) -> String {
     let parts = text.split('`').enumerate();
     let typed = parts.map(|(i, part)| match i % 2 {

@@ -9,8 +9,7 @@ use clap::builder::{PossibleValue, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Arg, Command, Error, ValueEnum};
 
-/// Parser of options whose words are the variants of an enum, but which also accept other texts: help and
-/// completions
+/// Parser of options whose words are the variants of an enum, but which also accept other texts: help and completions
 /// list the words, and its `FromStr` accepts both.
 pub struct WordOrText<T>(PhantomData<fn() -> T>);
 

@@ -1,18 +1,19 @@
-//! The map of space that a deformed cage is, and the pieces of triangles on which it is linear.
+//! The map of space defined by a deformed cage, and the pieces of triangles on which it is linear.
 
 use unwrapd_deform::cage::{Cage, CagedSurface, Embedding};
 use unwrapd_files::document::{AddedVertex, Primitive, SpaceMap, Subdivision};
 
 use crate::PipelineError;
 
-/// The piecewise linear map of a deformed cage.
+/// Piecewise linear map of a deformed cage.
 pub struct CageMap<'a> {
     pub cage: &'a Cage,
     pub deformed: &'a [[f64; 3]],
 }
 
 impl CageMap<'_> {
-    /// Places that are not finite, which only unused vertices of shared accessors can have, are taken for the origin.
+    /// Embeds places in the cage. Nonfinite places, which only unused vertices of shared accessors can have, count as
+    /// the origin.
     fn embed(&self, places: &[[f32; 3]]) -> Embedding {
         let finite = |place: &[f64; 3]| {
             if place.iter().all(|x| x.is_finite()) {
@@ -51,7 +52,7 @@ impl SpaceMap for CageMap<'_> {
     }
 }
 
-/// The triangles of a primitive, each cut so that its pieces lie in one tetrahedron.
+/// Splits the triangles of a primitive so that each piece lies in one tetrahedron.
 pub fn subdivision(cage: &Cage, primitive: &Primitive) -> Result<Subdivision, PipelineError> {
     let positions = widened(&primitive.positions);
     let split = cage.split(&CagedSurface {

@@ -1,4 +1,4 @@
-//! What deforming in a cage did.
+//! Report of deforming in a cage.
 
 use serde::Serialize;
 use unwrapd_files::document::Warning;

@@ -23,8 +23,8 @@ use unwrapd_method::solver::Watch;
 
 /// A document with all its triangles in one cage.
 ///
-/// Positions are those of the meshes, each once: transforms of nodes are not applied, so meshes that a scene sets apart may share
-/// voxels and then move together.
+/// Positions are those of the meshes, each once: transforms of nodes are not applied, so meshes that a scene keeps
+/// apart may share voxels and then move together.
 pub struct CagedDocument {
     document: Document,
     cage: Cage,
@@ -34,30 +34,30 @@ pub struct CagedDocument {
     options: CageOptions,
 }
 
-/// How to put a document into a cage, deform it, and write it.
+/// Options for caging, deforming and writing a document.
 #[derive(Clone, Debug)]
 pub struct CageOptions {
-    /// Voxels along the longest side of all triangles' bounding box.
+    /// Number of voxels along the longest side of the bounding box of all triangles.
     pub n_voxels: u32,
-    /// Whether triangles are cut where they pass from one tetrahedron into the next.
+    /// Treatment of triangles that span several tetrahedra.
     pub surfaces: Surfaces,
-    /// What the deformation costs.
+    /// Energy and barrier of the deformation.
     pub model: Model,
-    /// What kind of file to write: glTF for a glTF document, OBJ for OBJ, either for triangles without a document.
+    /// Format of the result: glTF for a glTF document, OBJ for OBJ, either for triangles without a document.
     pub format: OutputFormat,
     /// Name of the main file without its extension.
     pub stem: String,
-    /// What may be used.
+    /// Limits of the computation.
     pub limits: Limits,
 }
 
-/// What becomes of triangles that reach over several tetrahedra, in which the cage's map differs.
+/// Treatment of triangles that span several tetrahedra, between which the map of the cage is not linear.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Surfaces {
-    /// Their vertices are moved, and they stay flat.
+    /// Only their vertices are moved, so the triangles stay flat.
     #[default]
     Whole,
-    /// They are cut, so that they follow the cage exactly.
+    /// They are split, so that they follow the cage exactly.
     Split,
 }
 
@@ -68,6 +68,7 @@ pub fn deform(
     n_voxels: u32,
     tracker: &Tracker,
 ) -> Result<Deformed, PipelineError> {
+    // Read the file and build the cage around it.
     tracker.stage(Stage::Read);
     let format = options.format.and_then(BodyFormat::of_document);
     let format = format.unwrap_or(match Format::of_name(&upload.name) {
@@ -94,6 +95,7 @@ pub fn deform(
         },
     )?;
     caged.problem.search = options.pulling.search;
+    // Start from the given map, or from the solution in a coarser cage.
     match start(upload, caged.problem.start.len())? {
         Some(start) => {
             caged.problem.start = start;
@@ -101,6 +103,7 @@ pub fn deform(
         }
         None => caged.start_coarse(tracker),
     }
+    // Solve.
     let file = |x: &[f64]| moved_frame(&caged.document, &caged.map(x), caged.options.format);
     let frames = Frames {
         tracker,
@@ -108,6 +111,7 @@ pub fn deform(
     };
     let viewer: Option<&dyn Watch> = if options.frames { Some(&frames) } else { None };
     let solved = solve(caged.problem(), options.plan(), tracker, viewer)?;
+    // Write the deformed document.
     tracker.stage(Stage::Write);
     let (written, cage) = caged.write(&solved.solution)?;
     let mut report = solved.report;
@@ -121,7 +125,7 @@ pub fn deform(
 }
 
 impl CagedDocument {
-    /// Reads a file, puts a cage around all triangles, and binds it to handles, which name places.
+    /// Reads a file, builds a cage around all triangles, and binds it to handles, which must name places.
     pub fn read(
         upload: &Upload,
         handles: &[Handle],
@@ -156,7 +160,7 @@ impl CagedDocument {
         })
     }
 
-    /// Lets a large cage start where a coarser one ends.
+    /// Starts a large cage from the solution in a coarser one.
     fn start_coarse(&mut self, watch: &dyn Watch) {
         let positions = positions(&self.document);
         let caged = Caged {
@@ -167,7 +171,7 @@ impl CagedDocument {
         caged.start(&mut self.problem, &self.cage, self.options.n_voxels, watch);
     }
 
-    /// The cage as a body, with its handles.
+    /// Returns the problem of deforming the cage with its handles.
     pub fn problem(&self) -> &Problem {
         &self.problem
     }
@@ -179,7 +183,7 @@ impl CagedDocument {
         }
     }
 
-    /// Writes the document with its surfaces where a solution of the problem carries them; everything else stays: nodes,
+    /// Writes the document with its surfaces moved by a solution of the problem. Everything else is kept: nodes,
     /// skins, morph targets, materials, UVs.
     pub fn write(self, solution: &Solution) -> Result<(Written, CageReport), PipelineError> {
         let crossings_before = crossings_of(&self.document);
@@ -204,13 +208,13 @@ impl CagedDocument {
     }
 }
 
-/// The positions of every primitive.
+/// Returns the positions of every primitive.
 pub fn positions(document: &Document) -> Vec<Vec<[f64; 3]>> {
     let primitives = document.primitives().iter();
     primitives.map(|p| widened(&p.positions)).collect()
 }
 
-/// The triangles of every primitive over its positions.
+/// Returns the triangles of every primitive with their positions.
 pub fn surfaces<'a>(
     document: &'a Document,
     positions: &'a [Vec<[f64; 3]>],

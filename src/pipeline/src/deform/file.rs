@@ -1,4 +1,4 @@
-//! Meshes, pictures, drawings and surfaces in a cage pulled by handles.
+//! Deformation of files by handles: meshes, pictures, drawings, and surfaces in a cage.
 
 use super::caged;
 use super::frames::Frames;
@@ -15,8 +15,8 @@ use unwrapd_deform::{Problem, ProblemError};
 use unwrapd_files::document::Upload;
 use unwrapd_method::solver::Watch;
 
-/// Pulls a planar or tetrahedral mesh, a picture's outline, a drawing, or surfaces in a cage by handles. With a barrier no
-/// element is inverted in any iterate.
+/// Deforms a planar or tetrahedral mesh, a picture's outline, a drawing, or surfaces in a cage by handles. With a
+/// barrier no element is inverted in any iterate.
 pub fn deform_file(
     upload: &Upload,
     options: &DeformOptions,

@@ -45,14 +45,14 @@ impl BodyFormat {
         (Self::Gltf, Format::Gltf),
     ];
 
-    /// The format that the extension of a file's name stands for.
+    /// Returns the format for the extension of a file name.
     pub fn of_name(name: &str) -> Option<Self> {
         let named = Format::of_name(name)?;
         let mut all = Self::ALL.into_iter();
         all.find_map(|(format, file)| (file == named).then_some(format))
     }
 
-    /// The extension of its files.
+    /// Returns the extension of its files.
     pub fn extension(self) -> &'static str {
         self.file().map_or("", Format::extension)
     }
@@ -62,7 +62,7 @@ impl BodyFormat {
         all.find_map(|(format, file)| (format == self).then_some(file))
     }
 
-    /// As the format of a document.
+    /// Returns the corresponding document format; `None` if there is none.
     pub(crate) fn of_document(self) -> Option<OutputFormat> {
         match self {
             Self::Obj => Some(OutputFormat::Obj),
@@ -72,7 +72,7 @@ impl BodyFormat {
         }
     }
 
-    /// Refuses what a mesh that came without a document is not written as.
+    /// Checks that the result of a mesh without a document can be written in this format.
     pub(crate) fn check_for_mesh(self) -> Result<(), PipelineError> {
         match self {
             Self::Glb | Self::Gltf => Err(PipelineError::InvalidOptions(
@@ -82,8 +82,8 @@ impl BodyFormat {
         }
     }
 
-    /// The file of a deformed body: `elements` with the positions `x`, coordinates one after another; VTK's with what the map does
-    /// to each.
+    /// Returns the file of a deformed body: `elements` at the positions `x`, which are flattened. VTK files also
+    /// contain the distortion of each element.
     pub(crate) fn write(self, elements: &Elements, problem: &Problem, x: &[f64]) -> Vec<u8> {
         let format = self.file().and_then(ElementFormat::of);
         let dim = problem.body.dim();

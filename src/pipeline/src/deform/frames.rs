@@ -3,10 +3,10 @@
 use crate::tracker::Tracker;
 use unwrapd_method::solver::{Control, Iterate, Watch};
 
-/// Writes a map as the result will be.
+/// Function that writes a map in the format of the result.
 pub type WriteMap<'a> = dyn Fn(&[f64]) -> Vec<u8> + 'a;
 
-/// Shows every iterate as a file to the observer.
+/// Passes every iterate as a file to the observer.
 pub struct Frames<'a> {
     pub tracker: &'a Tracker<'a>,
     pub file: &'a WriteMap<'a>,

@@ -1,4 +1,4 @@
-//! Files as bodies in the hand.
+//! Files as bodies for live sessions.
 
 use super::caged::{positions, surfaces};
 use super::source::Source;
@@ -12,29 +12,29 @@ use unwrapd_files::document::{Document, Upload};
 use unwrapd_files::picture::Image;
 use unwrapd_maps::mesh::boundary_triangles;
 
-/// A file as a body in the hand, and what of it is seen.
+/// Body of a file for a live session, with its visible parts.
 pub struct HeldBody {
-    /// At rest, with the handles of a fixed border if there is one.
+    /// Session at rest, with handles on a fixed border if there is one.
     pub session: Session,
-    /// What is deformed.
+    /// Body that is deformed.
     pub body: Body,
-    /// The triangles that are seen: over the vertices of the body, or over those of the skin.
+    /// Visible triangles, over the vertices of the body or of the skin.
     pub triangles: Vec<[u32; 3]>,
-    /// The surface that a cage carries along.
+    /// Surface that follows a cage.
     pub skin: Option<Skin>,
     /// Columns and rows of the picture that lies on the body at rest.
     pub picture: Option<[usize; 2]>,
 }
 
-/// A surface in a body of tetrahedra: each vertex is a mean of the corners of one of them.
+/// A surface in a body of tetrahedra. Each vertex is a weighted mean of the corners of one tetrahedron.
 pub struct Skin {
-    /// Four vertices of the body each.
+    /// Four vertices of the body for each vertex of the surface.
     pub corners: Vec<[u32; 4]>,
-    /// Their weights, of sum 1 up to rounding.
+    /// Weights of these, which sum to 1 up to rounding.
     pub weights: Vec<[f64; 4]>,
 }
 
-/// Takes what [`deform_file`](crate::deform_file) would deform into the hand. Its handles are for the caller to add.
+/// Opens a session on the body that [`deform_file`](crate::deform_file) would deform. The caller adds the handles.
 pub fn hold_body(upload: &Upload, options: &DeformOptions) -> Result<HeldBody, PipelineError> {
     options.check()?;
     let Some(n_voxels) = options.cage else {
@@ -46,11 +46,13 @@ pub fn hold_body(upload: &Upload, options: &DeformOptions) -> Result<HeldBody, P
         };
         return HeldBody::new(body, triangles, options);
     };
+    // Build a cage around the surfaces.
     let document = Document::read(upload)?;
     limits::check(&options.caller.limits, &document)?;
     let positions = positions(&document);
     let surfaces = surfaces(&document, &positions);
     let cage = Cage::around(&surfaces, n_voxels)?;
+    // Embed the surfaces as a skin.
     let mut triangles = Vec::new();
     let mut places = Vec::new();
     for surface in &surfaces {
@@ -84,8 +86,8 @@ impl HeldBody {
     }
 }
 
-/// Takes the grid on which [`warp_file`](crate::warp_file) would warp a picture into the hand: pixels, y down. Its handles are
-/// for the caller to add.
+/// Opens a session on the grid on which [`warp_file`](crate::warp_file) would warp a picture, in pixels with y down.
+/// The caller adds the handles.
 pub fn hold_picture(upload: &Upload, options: &WarpOptions) -> Result<HeldBody, PipelineError> {
     options.check()?;
     let image = Image::decode(&upload.bytes)?;

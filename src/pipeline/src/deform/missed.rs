@@ -1,4 +1,4 @@
-//! What a pull did not do of what was asked for, as users are told.
+//! Warnings about handles that missed their targets.
 
 use serde::Serialize;
 
@@ -6,7 +6,7 @@ use unwrapd_deform::Unreached;
 use unwrapd_files::document::Warning;
 use unwrapd_method::solver::Status;
 
-/// Handles named in a warning at most.
+/// Maximum number of handles named in a warning.
 const NAMED: usize = 8;
 
 /// How much was done of what was asked for.
@@ -24,7 +24,7 @@ pub enum Completion {
 }
 
 impl Completion {
-    /// How a pull that ended like this was completed.
+    /// Returns the completion for the final status of the solver.
     pub(crate) fn of(status: Status) -> Self {
         match status {
             Status::Converged | Status::Stalled => Self::Complete,
@@ -33,7 +33,7 @@ impl Completion {
         }
     }
 
-    /// Warns of what is missing; `unreached` are the handles that are not at their targets.
+    /// Returns a warning about what is missing; `unreached` are the handles that are not at their targets.
     pub(crate) fn warning(self, status: Status, unreached: &[Unreached]) -> Option<Warning> {
         let (code, what) = match self {
             Self::Complete => return None,
@@ -66,7 +66,7 @@ impl Completion {
     }
 }
 
-/// The first handles, and how far from their targets they are.
+/// Lists the first handles with their distances from their targets.
 fn named(unreached: &[Unreached]) -> String {
     let first = unreached.iter().take(NAMED);
     let names = first.map(|one| format!("{} (by {:.3e})", one.handle, one.distance));

@@ -1,4 +1,4 @@
-//! Meshes, solids, pictures and surfaces in a cage pulled by handles, and problems solved.
+//! Deformation by handles of meshes, solids, pictures and surfaces in a cage, and problem files.
 
 pub(super) mod cage_map;
 pub(super) mod cage_report;

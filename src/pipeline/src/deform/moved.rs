@@ -1,11 +1,11 @@
-//! Documents with their surfaces where a map carries them, everything else as it was.
+//! Documents with moved surfaces and everything else unchanged.
 
 use crate::PipelineError;
 use unwrapd_files::document::{
     Document, DocumentError, Layout, NewUvs, OutputFormat, SpaceMap, WriteOptions, Written,
 };
 
-/// The document moved, and its files under the name `stem`.
+/// Applies a map to a document. Returns the document, and its files under the name `stem`.
 pub fn moved(
     document: &Document,
     map: &dyn SpaceMap,
@@ -30,14 +30,15 @@ pub fn moved(
     Ok((moved, written))
 }
 
-/// The main file of the document moved; empty if there is none, as then its result is refused too.
+/// Returns the main file of the moved document; empty if it cannot be written, since its result will be rejected,
+/// too.
 pub fn moved_frame(document: &Document, map: &dyn SpaceMap, format: OutputFormat) -> Vec<u8> {
     let files = moved(document, map, format, "frame").map(|(_, written)| written.files);
     let main = files.ok().and_then(|files| files.into_iter().next());
     main.map_or(Vec::new(), |(_, bytes)| bytes)
 }
 
-/// Refuses frames in a format whose files refer to others.
+/// Rejects frames in a format whose files refer to others.
 pub fn check_frames(format: OutputFormat) -> Result<(), PipelineError> {
     if format == OutputFormat::Gltf {
         let text = "`frames` are one file each: glb or obj, not gltf".to_owned();
@@ -46,7 +47,7 @@ pub fn check_frames(format: OutputFormat) -> Result<(), PipelineError> {
     Ok(())
 }
 
-/// Refuses formats that lose UVs and materials.
+/// Rejects formats that would lose UVs and materials.
 pub fn check_format(document: &Document, format: OutputFormat) -> Result<(), DocumentError> {
     let lost = match (document, format) {
         (Document::Gltf(_), OutputFormat::Obj) => "a deformed glTF document as OBJ",

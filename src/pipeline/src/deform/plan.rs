@@ -1,16 +1,16 @@
-//! How a problem is solved.
+//! Solution plans for problems.
 
 use unwrapd_deform::Method;
 use unwrapd_method::solver::Settings;
 
-/// What is done beside minimizing once.
+/// Method, settings and additional steps of a solution.
 #[derive(Clone, Copy)]
 pub struct Plan {
     pub method: Method,
-    /// Lower the barrier's strength while the energy without it falls.
+    /// Lowers the barrier's strength while the energy without it falls.
     pub barrier_continuation: bool,
-    /// Also minimize without a barrier.
+    /// Also minimizes the energy without a barrier.
     pub bias: bool,
-    /// What the projected method is told.
+    /// Settings of the projected method.
     pub settings: Settings,
 }

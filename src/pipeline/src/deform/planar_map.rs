@@ -1,4 +1,4 @@
-//! The map that a deformed planar mesh is, of the vertices of the document that it was read from.
+//! The map defined by a deformed planar mesh, applied to the document that it was read from.
 
 use std::collections::HashMap;
 
@@ -7,16 +7,17 @@ use unwrapd_files::io::Elements;
 use unwrapd_method::numerics::square::{Matrix, Square, apply, apply_transposed, times};
 use unwrapd_method::numerics::vec3;
 
-/// A map of the places of vertices in a plane z = const, which it keeps. Other places, those of vertices without triangles, stay.
+/// Map of vertices in a plane z = const, which keeps z. Other places, those of vertices without triangles, stay.
 pub struct PlanarMap<'a> {
     vertices: HashMap<[u32; 3], usize>,
     to: &'a [[f64; 2]],
-    /// At each vertex the Jacobian of the map, the mean over its triangles by area; not invertible where they cancel.
+    /// Jacobian of the map at each vertex: the mean over its triangles weighted by area. Not invertible if they
+    /// cancel.
     jacobians: Vec<Matrix<2>>,
 }
 
 impl<'a> PlanarMap<'a> {
-    /// From the mesh at rest, its vertices as the document has them, and its vertices after.
+    /// Creates the map from the mesh at rest, with the vertices of the document, and its deformed vertices.
     pub fn new(rest: &Elements, to: &'a [[f64; 2]]) -> Self {
         let mut jacobians = vec![[[0.0; 2]; 2]; to.len()];
         let mut areas = vec![0.0; to.len()];
@@ -37,6 +38,7 @@ impl<'a> PlanarMap<'a> {
                 }
             }
         }
+        // Divide the sums by the areas.
         for (sum, area) in jacobians.iter_mut().zip(&areas) {
             *sum = sum.map(|row| row.map(|entry| entry / area));
         }
@@ -52,7 +54,8 @@ impl<'a> PlanarMap<'a> {
         self.vertices.get(&key(*place)).copied()
     }
 
-    /// Vectors at places after a linear map of their first two coordinates, which depends on the Jacobian there.
+    /// Applies a linear map, derived from the Jacobian at each place, to the first two coordinates of vectors, and
+    /// normalizes them.
     fn turned(
         &self,
         places: &[[f32; 3]],
@@ -94,7 +97,7 @@ impl SpaceMap for PlanarMap<'_> {
     }
 }
 
-/// Equal for equal places.
+/// Returns a key that is equal for equal places.
 fn key(place: [f32; 3]) -> [u32; 3] {
     // −0 is 0.
     place.map(|x| (x + 0.0).to_bits())

@@ -1,4 +1,4 @@
-//! Maps that were pulled, as they are reported.
+//! Reports of maps deformed by handles.
 
 use serde::Serialize;
 

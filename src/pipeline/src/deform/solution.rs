@@ -1,4 +1,4 @@
-//! Problems solved under observation: the map, a report, a line per iteration.
+//! Problems solved under observation: the map, a report, one line per iteration.
 
 use std::cell::RefCell;
 use std::fmt::Write;
@@ -15,15 +15,15 @@ use unwrapd_files::document::Warning;
 use unwrapd_maps::certificate::boundary_crossings;
 use unwrapd_method::solver::{Control, Iterate, Summary, Watch};
 
-/// What a body became.
+/// Result of deforming a body.
 #[derive(Clone, Debug)]
 pub struct Deformed {
-    /// The written files by relative name, the main file first.
+    /// Written files by relative name, the main file first.
     pub files: Vec<(String, Vec<u8>)>,
-    /// What the map is worth.
+    /// Report on the map.
     pub report: DeformReport,
-    /// A line per iteration as CSV: energy without the barrier, the barrier's and the constraints' share, smallest element, μ, σ,
-    /// α and the residual, as in [`Iterate`].
+    /// Trace as CSV, one line per iteration: energy without the barrier, the barrier's and the constraints' share,
+    /// smallest element, μ, σ, α and the residual, as in [`Iterate`].
     pub trace: String,
 }
 
@@ -69,7 +69,7 @@ pub struct DeformReport {
     pub cage: Option<CageReport>,
 }
 
-/// A solution, its report, its trace.
+/// A solution with its report and trace.
 pub struct Solved {
     pub solution: Solution,
     pub report: DeformReport,
@@ -91,6 +91,7 @@ pub fn solve(
         iterates: RefCell::default(),
     };
     let settings = plan.settings;
+    // Solve, then weaken the barrier and measure its bias if asked to.
     let mut solution = match plan.method {
         Method::Projected => problem.solve(&settings, &trace)?,
         Method::Levenberg => problem.solve_by_levenberg(&problem.levenberg, &trace)?,
@@ -103,6 +104,7 @@ pub fn solve(
     } else {
         None
     };
+    // Refuse a result that breaks a promise.
     if solution.worth.inverted > 0 && problem.forbids_inversion() {
         return Err(PipelineError::Inverted);
     }
@@ -110,6 +112,7 @@ pub fn solve(
     if problem.boundary_barrier.is_some() && crossings > Some(0) {
         return Err(PipelineError::Crossed);
     }
+    // Report.
     let unreached = problem.unreached(&solution);
     let turns = problem.turns(&solution.x);
     let status = solution.summary.status;
@@ -139,7 +142,7 @@ pub fn solve(
     })
 }
 
-/// Says of each handle whose turns are lost how many are left.
+/// Returns a warning for each handle that lost turns, with the number that is left.
 fn turns_lost(turns: &[Turns]) -> impl Iterator<Item = Warning> {
     let lost = turns.iter().filter(|turns| turns.are_lost());
     lost.map(|Turns { handle, asked, left }| {
@@ -151,7 +154,7 @@ fn turns_lost(turns: &[Turns]) -> impl Iterator<Item = Warning> {
     })
 }
 
-/// How often the boundary of a body of the plane meets itself.
+/// Counts the crossings of the boundary of a planar body; `None` for other bodies.
 fn crossings(problem: &Problem, x: &[f64]) -> Option<u64> {
     match &problem.body.elements {
         BodyElements::Triangles { corners, .. } => {
@@ -161,11 +164,11 @@ fn crossings(problem: &Problem, x: &[f64]) -> Option<u64> {
     }
 }
 
-/// What happened in every iteration.
+/// Trace of all iterations.
 struct Trace<'a> {
     tracker: &'a Tracker<'a>,
     viewer: Option<&'a dyn Watch>,
-    /// The positions of the iterate that comes next.
+    /// Positions of the next iterate.
     x: RefCell<Vec<f64>>,
     iterates: RefCell<Vec<Iterate>>,
 }
@@ -199,7 +202,7 @@ impl Watch for Trace<'_> {
 }
 
 impl Trace<'_> {
-    /// The smallest size of an element over its rest size, over all iterates.
+    /// Returns the smallest size of an element over its rest size, over all iterates.
     fn smallest(&self) -> f64 {
         let iterates = self.iterates.borrow();
         let sizes = iterates.iter().map(|i| i.smallest);

@@ -1,4 +1,4 @@
-//! Problems solved, of files and in memory.
+//! Solution of problems, from files and in memory.
 
 use super::frames::Frames;
 use super::solution::{DeformReport, Deformed, solve};
@@ -15,7 +15,8 @@ use unwrapd_files::document::{DocumentError, Upload};
 use unwrapd_files::io::{ElementFormat, Elements};
 use unwrapd_method::solver::Watch;
 
-/// Solves a problem file, whose mesh and start are members of the upload. With a barrier no element is inverted in any iterate.
+/// Solves a problem file, whose mesh and start are members of the upload. With a barrier no element is inverted in
+/// any iterate.
 pub fn solve_file(
     upload: &Upload,
     options: &SolveOptions,
@@ -47,8 +48,8 @@ pub fn solve_file(
     })?
 }
 
-/// Solves a problem that is in memory, under the options that say nothing of files. `viewer` sees every iterate once, and may end the
-/// work with the present map, too.
+/// Solves a problem in memory, with the options that do not concern files. `viewer` sees every iterate once, and may
+/// end the work early with the current map.
 pub fn solve_problem(
     problem: &Problem,
     options: &SolveOptions,
@@ -67,7 +68,7 @@ pub fn solve_problem(
     })?
 }
 
-/// The problem and the mesh that its file names.
+/// Reads the problem and the mesh that its file names.
 fn read(upload: &Upload, limits: &Limits) -> Result<(Problem, Elements), PipelineError> {
     let file = ProblemFile::parse(&upload.bytes)?;
     let format = ElementFormat::of_name(&file.mesh).ok_or(DocumentError::UnknownFormat)?;
@@ -81,7 +82,7 @@ fn read(upload: &Upload, limits: &Limits) -> Result<(Problem, Elements), Pipelin
     Ok((problem, elements))
 }
 
-/// A file that the problem names, by its path or, where a client sent only that, its name.
+/// Returns a file that the problem names, by its path, or by its name if the client sent only that.
 fn member<'a>(upload: &'a Upload, path: &str) -> Result<&'a [u8], PipelineError> {
     let name = path.rsplit('/').next().unwrap_or_default();
     let bytes = upload.resources.get(path).or(upload.resources.get(name));
@@ -89,7 +90,7 @@ fn member<'a>(upload: &'a Upload, path: &str) -> Result<&'a [u8], PipelineError>
     Ok(bytes)
 }
 
-/// Numbers separated by blanks.
+/// Parses numbers separated by blanks.
 fn numbers(bytes: &[u8]) -> Option<Vec<f64>> {
     let text = std::str::from_utf8(bytes).ok()?;
     text.split_ascii_whitespace()

@@ -1,4 +1,4 @@
-//! What is deformed, from files and back.
+//! Input bodies, from files and back.
 
 use super::formats::BodyFormat;
 use super::moved::{check_format, check_frames, moved, moved_frame};
@@ -14,19 +14,19 @@ use unwrapd_files::io::{Content, ElementFormat, Elements, Format, format_of_cont
 use unwrapd_files::picture::Image;
 use unwrapd_maps::mesh::Surface;
 
-/// About how many triangles an outline is filled with, unless an option says otherwise.
+/// Default for the approximate number of triangles of a filled outline.
 pub const TRIANGLES: usize = 5000;
 
 /// The mesh of a file.
 pub struct Source {
     elements: Elements,
-    /// What the triangles belong to, where that is more than triangles.
+    /// Document of the triangles, if they have one.
     document: Option<Document>,
 }
 
 impl Source {
-    /// The mesh of a file, or of the outline in a picture or drawing, that is filled with about so many triangles. Its kind is known
-    /// by the extension of its name, of a file without one by its first bytes.
+    /// Reads the mesh of a file, or fills the outline in a picture or drawing with about `triangles` triangles. The
+    /// extension determines the format; without one, the first bytes do.
     pub fn read(upload: &Upload, triangles: usize, limits: &Limits) -> Result<Self, PipelineError> {
         let format = if upload.extension().is_empty() {
             other_than_documents(&upload.bytes)
@@ -50,7 +50,7 @@ impl Source {
         Ok(Self { elements, document })
     }
 
-    /// Its tetrahedra, or else its triangles, which must lie in a plane.
+    /// Returns its tetrahedra, or else its triangles, which must lie in a plane.
     pub fn body(&self) -> Result<Body, PipelineError> {
         let elements = self.elements.clone();
         Ok(if elements.tets.is_empty() {
@@ -60,14 +60,14 @@ impl Source {
         })
     }
 
-    /// The format of the result where none was asked for: the input's if possible.
+    /// Returns the default format of the result: the input's if possible, else OBJ.
     pub fn format(&self, upload: &Upload) -> BodyFormat {
         BodyFormat::of_name(&upload.name)
             .filter(|&format| self.check(format, false).is_ok())
             .unwrap_or(BodyFormat::Obj)
     }
 
-    /// Can the result be written like this?
+    /// Checks that the result can be written in a format.
     pub fn check(&self, format: BodyFormat, with_frames: bool) -> Result<(), PipelineError> {
         match self.whole(format) {
             Some((_, format)) if with_frames => check_frames(format),
@@ -76,14 +76,14 @@ impl Source {
         }
     }
 
-    /// The document and its format, if the result is one.
+    /// Returns the document and its format if the result is a document.
     fn whole(&self, format: BodyFormat) -> Option<(&Document, OutputFormat)> {
         let is_mesh = format.check_for_mesh().is_ok();
         let format = format.of_document().filter(|_| !is_mesh)?;
         self.document.as_ref().map(|document| (document, format))
     }
 
-    /// The files of the result of a problem under the name `stem`, the main file first, at the positions `x`.
+    /// Returns the files of a problem's result at the positions `x` under the name `stem`, the main file first.
     pub fn files(
         &self,
         format: BodyFormat,
@@ -99,7 +99,7 @@ impl Source {
         Ok(vec![(name, format.write(&self.elements, problem, x))])
     }
 
-    /// The main file alone.
+    /// Returns only the main file of the result at the positions `x`.
     pub fn frame(&self, format: BodyFormat, problem: &Problem, x: &[f64]) -> Vec<u8> {
         match self.whole(format) {
             Some((document, format)) => {
@@ -111,13 +111,13 @@ impl Source {
     }
 }
 
-/// What the content says of files that are no documents, which know their own formats.
+/// Detects the format of files by their content, except of documents, which detect their own.
 fn other_than_documents(bytes: &[u8]) -> Option<Format> {
     let format = format_of_content(bytes, bytes.len() as u64, Content::Body);
     format.filter(|format| !format.holds(Content::Surface))
 }
 
-/// The mesh of the outline in a picture or drawing, if it is one.
+/// Returns the mesh of the outline in a picture or drawing; `None` for other formats.
 fn drawn(
     bytes: &[u8],
     format: Option<Format>,
@@ -146,7 +146,7 @@ fn filled(outline: &outline::Outline, triangles: usize) -> Result<Elements, Pipe
     Ok(Elements::from(&outline::triangulate(outline, &settings)?))
 }
 
-/// All triangles of a document, welded by position.
+/// Returns all triangles of a document, welded by position.
 fn surface(document: &Document) -> Result<Elements, PipelineError> {
     let groups = document.groups(GroupBy::Scene);
     let merged = groups.first().ok_or(PipelineError::NoTriangles)?;

@@ -1,4 +1,4 @@
-//! Pictures pulled by handles.
+//! Warping of pictures by handles.
 
 use serde::Serialize;
 
@@ -21,9 +21,9 @@ use unwrapd_method::barrier::BarrierKind;
 /// A warped picture.
 #[derive(Clone, Debug)]
 pub struct WarpedPicture {
-    /// The PNG file by its name.
+    /// PNG file with its name.
     pub files: Vec<(String, Vec<u8>)>,
-    /// What the map is worth.
+    /// Report on the map.
     pub report: WarpReport,
 }
 
@@ -53,12 +53,14 @@ pub fn warp_file(
     options.check()?;
     let tracker = Tracker::new(observer, options.caller.budget(options.budget));
     in_pool(options.caller.workers(options.workers), || {
+        // Read the picture and build its grid.
         tracker.stage(Stage::Read);
         let image = Image::decode(&upload.bytes)?;
         let how = options.of_grid();
         let grid = picture_grid(image.width, image.height, how.grid).map_err(WarpError::from)?;
         let start = start(upload, 2 * grid.vertices().len())?;
         let start = start.as_deref().map(|start| start.as_chunks().0);
+        // Warp, then certify the map of the grid.
         let warped = warp_picture_from(&image, start, &options.handles, &how, &tracker)?;
         let (vertices, triangles) = (&warped.deformed, warped.grid.triangles());
         let map = PullReport::new(
@@ -78,6 +80,7 @@ pub fn warp_file(
         let completion = Completion::of(status);
         let unfinished = completion.warning(status, &map.summary.unreached);
         let warnings = tracker.warning().into_iter().chain(unfinished);
+        // Write the picture.
         tracker.stage(Stage::Write);
         let stem = options.caller.stem(upload);
         Ok(WarpedPicture {

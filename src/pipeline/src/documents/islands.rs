@@ -1,11 +1,11 @@
-//! Islands that a user names, among the meshes of a document.
+//! Islands named by the user, located in the meshes of a document.
 
 use crate::arrays::placement::Placement;
 use crate::island_error::IslandError;
 use crate::options::Island;
 use unwrapd_files::document::{Document, Group};
 
-/// For each group the islands of it that stay where they are put.
+/// Returns for each group its islands with fixed placements.
 pub fn placements(
     document: &Document,
     groups: &[Group],

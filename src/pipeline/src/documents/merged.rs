@@ -14,7 +14,7 @@ pub struct Merged {
     pub positions: Vec<[f64; 3]>,
     pub triangles: Vec<[u32; 3]>,
     pub seams: Seams,
-    /// The meshes that it was put together from.
+    /// Meshes that it was merged from.
     pub parts: Vec<Part>,
 }
 
@@ -54,7 +54,8 @@ impl Merged {
         merged
     }
 
-    /// With the seams that the options ask for, of which the edges are [checked](check_edges); `primitives` are those of the document, wherever they lie.
+    /// Merges a group and adds the seams that the options request. Seam edges must have been [checked](check_edges);
+    /// `primitives` are those of the document, in any space.
     pub fn with_seams(
         (document, primitives): (&Document, &[Primitive]),
         group: &Group,
@@ -99,7 +100,7 @@ impl Merged {
     }
 }
 
-/// The UVs of a group, v up.
+/// Returns the UVs of a group with v up.
 pub fn corner_uvs(
     document: &Document,
     group: &Group,
@@ -139,7 +140,7 @@ pub fn check_edges(primitives: &[Primitive], options: &Options) -> Result<(), Pi
     Seams::check_edges(edges, &whole.positions, &whole.triangles)
 }
 
-/// Of edges between vertices of the file those within a group, in the group's numbering.
+/// Selects the edges within a group from edges between vertices of the file, in the group's numbering.
 fn edges_of_group(primitives: &[Primitive], group: &Group, edges: &[[u32; 2]]) -> Vec<[u32; 2]> {
     let mut local = Vec::new();
     let mut next = 0;

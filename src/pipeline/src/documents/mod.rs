@@ -1,4 +1,4 @@
-//! Documents unwrapped and packed: read, prepared, merged by group, written, read again and judged.
+//! Unwrapping and packing of documents: read, prepared, merged by group, written, read again and judged.
 
 pub(super) mod islands;
 pub(super) mod merged;

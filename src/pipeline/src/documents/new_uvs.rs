@@ -8,7 +8,7 @@ use unwrapd_files::document::{Corners, Document, Group, Layout, NewUvs};
 use unwrapd_layout::atlas::GRID_BITS;
 use unwrapd_maps::mesh::VAxis;
 
-/// The atlases as UVs of the document, those of islands that stay where they are as the document has them.
+/// Converts the atlases to UVs of the document. Islands that stay in place keep the document's UVs.
 pub fn new_uvs(
     document: &Document,
     groups: &[Group],
@@ -46,7 +46,7 @@ pub fn new_uvs(
     })
 }
 
-/// Exact in f32.
+/// Converts grid coordinates to UVs, exactly in f32.
 fn from_grid(corners: &GridCorners, v_axis: VAxis) -> Corners {
     let side = 1 << GRID_BITS;
     let unit = |i: i32| i as f32 / side as f32;

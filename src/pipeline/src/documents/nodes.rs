@@ -1,20 +1,20 @@
-//! What counts as a surface of a scene.
+//! Definition of the surfaces of a scene.
 
 use std::borrow::Cow;
 
 use unwrapd_files::document::{Document, DocumentError, Primitive};
 
-/// What counts as a surface of a scene.
+/// Definition of the surfaces of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Nodes {
-    /// A mesh, in its own space, wherever and how often nodes show it.
+    /// Each mesh in its own space, however often and wherever nodes show it.
     Shared,
-    /// What a node shows of a mesh, where it is in the scene.
+    /// Each instance of a mesh at its place in the scene.
     Separate,
 }
 
 impl Nodes {
-    /// The document with as many meshes as there are such surfaces.
+    /// Returns the document with one mesh per surface.
     pub fn prepared(self, document: Document) -> Result<Document, DocumentError> {
         match self {
             Self::Shared => Ok(document),
@@ -22,7 +22,7 @@ impl Nodes {
         }
     }
 
-    /// The primitives with the shapes that count.
+    /// Returns the primitives with the shapes of the surfaces.
     pub fn primitives(self, document: &Document) -> Result<Cow<'_, [Primitive]>, DocumentError> {
         match self {
             Self::Shared => Ok(Cow::Borrowed(document.primitives())),

@@ -1,4 +1,4 @@
-//! The pictures of a result, drawn from the written bytes when they are asked for: at once, or later from the files that were kept.
+//! Pictures of a result, drawn on request from the written bytes: immediately, or later from the stored files.
 
 use std::collections::BTreeMap;
 
@@ -21,7 +21,7 @@ use unwrapd_maps::mesh::{CornerUvs, Resolution};
 /// Side of a picture in pixels.
 const SIDE: u32 = 1024;
 
-/// What the pictures of a result are drawn from.
+/// Source of the pictures of a result.
 #[derive(Clone, Debug)]
 pub struct Pictures {
     pub(crate) uvs: WrittenUvs,
@@ -30,7 +30,7 @@ pub struct Pictures {
     pub(crate) workers: Workers,
 }
 
-/// A picture of an atlas, as the texture lies.
+/// A picture of an atlas, oriented like the texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum AtlasPicture {
     /// The charts.
@@ -39,7 +39,7 @@ pub enum AtlasPicture {
     Heatmap,
 }
 
-/// The part of a report that says how its result is drawn.
+/// Part of a report that determines how its result is drawn.
 #[derive(Deserialize)]
 pub struct ReportOfAtlas {
     options: Options,
@@ -57,11 +57,11 @@ struct DrawnNote {
 }
 
 impl Pictures {
-    /// Returns what the pictures of a stored result are drawn from, equal to those of the computation that made it. `report` is part
-    /// of its report; `input` is what it was made of, which only a heat map with weights of materials needs.
+    /// Rebuilds the source of a stored result's pictures, equal to that of the computation that made it. `report` is
+    /// part of its report. `input` is its input, which only a heat map with material weights needs.
     ///
     /// # Errors
-    /// If a file cannot be read, or is not what the report says.
+    /// Fails if a file cannot be read, or does not match the report.
     pub fn of_result(
         result: &Upload,
         report: ReportOfAtlas,
@@ -89,10 +89,10 @@ impl Pictures {
         })
     }
 
-    /// Draws one picture. For a mesh of a few thousand faces this takes longer than unwrapping it.
+    /// Draws one picture as PNG. For a mesh of a few thousand faces this takes longer than unwrapping it.
     ///
     /// # Errors
-    /// If no thread can be started.
+    /// Fails if no thread can be started.
     pub fn draw(&self, picture: AtlasPicture) -> Result<Vec<u8>, PipelineError> {
         in_pool(self.workers, || {
             let texture = self.texture;
@@ -110,13 +110,13 @@ impl Pictures {
     }
 }
 
-/// The label of an atlas as reports have it, or its name where the letters of pictures do not spell the label.
+/// Returns the label of an atlas, or its name if the font of pictures cannot spell the label.
 fn title(group: &GroupUvs) -> String {
     let is_spelt = group.label.is_ascii();
     if is_spelt { &group.label } else { &group.name }.clone()
 }
 
-/// The texel density intended for each face of each group of a document.
+/// Returns the intended texel density of each face of each group of a document.
 fn weights(input: &Upload, options: &Options) -> Result<Vec<Vec<f64>>, PipelineError> {
     let prepared = Prepared::read(input, options, &Plan::new(&options.settings()))?;
     let document = &prepared.document;
@@ -126,7 +126,7 @@ fn weights(input: &Upload, options: &Options) -> Result<Vec<Vec<f64>>, PipelineE
     groups.iter().map(weighed).collect()
 }
 
-/// What a panel borrows: faces that share a page.
+/// Data of a panel: faces that share a page.
 struct Faces {
     name: String,
     uvs: Vec<CornerUvs>,
@@ -135,7 +135,7 @@ struct Faces {
 }
 
 impl Faces {
-    /// A group as its texels lie: the unit of u and v is the longer side of the texture.
+    /// Scales the UVs of a group to the shape of the texture, whose longer side is the unit.
     fn new(group: &GroupUvs, texture: Resolution) -> Self {
         let [u, v] = texture.sides();
         let scaled = |face: &CornerUvs| face.map(|uv| [uv[0] * u, uv[1] * v]);
@@ -153,7 +153,7 @@ impl Faces {
         }
     }
 
-    /// The same page by page, each as if it were the first; a first one alone keeps its name.
+    /// Splits the faces by page, and shifts each page to the first one. A single first page keeps its name.
     fn pages(self, width: f64) -> Vec<Self> {
         let mut lowest = vec![f64::INFINITY; self.uvs.len()];
         for (face, &chart) in self.uvs.iter().zip(&self.charts) {

@@ -1,4 +1,4 @@
-//! Documents as they are to be worked on.
+//! Documents prepared for unwrapping.
 
 use std::collections::HashMap;
 
@@ -15,24 +15,24 @@ use unwrapd_maps::mesh::Resolution;
 /// A document in the form in which it is written.
 pub struct Prepared {
     pub document: Document,
-    /// What shares one atlas.
+    /// Meshes that share one atlas.
     pub group_by: GroupBy,
-    /// The options, with seams in the numbers of the document.
+    /// Options, with seams in the numbering of the document.
     pub seams: Options,
-    /// What the document was in the file.
+    /// Origins of vertices and faces in the file.
     pub origins: Origins,
-    /// The texture that the UVs which are kept were made for, where the file says it.
+    /// Texture for which kept UVs were made, if the file states it.
     pub texture: Option<Resolution>,
 }
 
-/// What vertices and faces over all primitives of a document were in the file; `None` where each is what it was.
+/// Original numbers of vertices and faces over all primitives of a document; `None` if they are unchanged.
 pub struct Origins {
     pub vertices: Option<Vec<u32>>,
     pub faces: Option<Vec<u32>>,
 }
 
 impl Prepared {
-    /// Reads a document, and refuses what cannot be written of it before anything is done.
+    /// Reads a document, and rejects options that it cannot be written with before any work is done.
     pub fn read(upload: &Upload, options: &Options, plan: &Plan) -> Result<Self, PipelineError> {
         let document = Document::read(upload)?;
         limits::check(&options.caller.limits, &document)?;
@@ -82,7 +82,8 @@ fn can_rebake(document: &Document, format: OutputFormat) -> bool {
     matches!(document, Document::Gltf(_)) || format != OutputFormat::Obj
 }
 
-/// [Checked](check_edges) edges of a file in each of the primitives that they are in now; `vertices` are the file's, of all primitives.
+/// Renumbers [checked](check_edges) edges of a file for each primitive that now contains them. `vertices` are the
+/// original numbers of the vertices of all primitives.
 fn renumbered(edges: &[[u32; 2]], vertices: &[u32], primitives: &[Primitive]) -> Vec<[u32; 2]> {
     // Copies of a vertex lie in one place, so that the first of each primitive will do.
     let mut numbers: HashMap<u32, Vec<(usize, u32)>> = edges

@@ -1,4 +1,4 @@
-//! Materials that get more or fewer texels than others.
+//! Materials with a higher or lower texel density.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -10,11 +10,11 @@ use crate::PipelineError;
 use unwrapd_api::options::within;
 use unwrapd_files::document::{Document, Group, Primitive};
 
-/// How many times as many texels along a line a material gets as one without a weight; written `MATERIAL=W`.
+/// Factor on the linear texel density of a material, relative to materials without a weight; written `MATERIAL=W`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct TexelWeight {
-    /// Its name, or its index in the file.
+    /// Name of the material, or its index in the file.
     pub material: String,
     /// The factor.
     pub weight: f64,
@@ -59,7 +59,7 @@ impl fmt::Display for TexelWeight {
     }
 }
 
-/// The weight of every face of a group; of one material named twice the last counts.
+/// Returns the weight of every face of a group. If a material is named twice, the last weight counts.
 pub fn face_weights(
     document: &Document,
     primitives: &[Primitive],

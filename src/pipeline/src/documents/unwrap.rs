@@ -1,4 +1,4 @@
-//! From a file's bytes to a file's bytes: read, unwrap, write, read again, judge.
+//! Unwrapping of documents, from bytes to bytes: read, unwrap, write, read again, judge.
 
 use super::islands::placements;
 use super::merged::Merged;
@@ -25,20 +25,20 @@ use unwrapd_files::document::{
 };
 use unwrapd_maps::mesh::VAxis;
 
-/// Everything that comes out of unwrapping a document.
+/// Result of unwrapping a document.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// The written files by relative name, the main file first.
+    /// Written files by relative name, the main file first.
     pub files: Vec<(String, Vec<u8>)>,
-    /// What they are worth.
+    /// Report on the files.
     pub report: Report,
-    /// Draws the UV layout and the distortion.
+    /// Source of the pictures of layout and distortion.
     pub pictures: Pictures,
-    /// The UVs that were written.
+    /// UVs that were written.
     pub uvs: UvArrays,
 }
 
-/// Unwraps every mesh of a document and judges the bytes it writes.
+/// Unwraps every mesh of a document and judges the written bytes.
 pub fn unwrap_document(
     upload: &Upload,
     options: &Options,
@@ -47,7 +47,7 @@ pub fn unwrap_document(
     unwrap_around(upload, options, &[], observer)
 }
 
-/// The same with islands of kept UVs that stay where they are put.
+/// Unwraps a document like [`unwrap_document`], but with islands of kept UVs at fixed placements.
 pub fn unwrap_around(
     upload: &Upload,
     options: &Options,
@@ -72,6 +72,7 @@ fn unwrap_in_pool(
     let mut seconds = Seconds::default();
     let mut watch = StopWatch::start(tracker);
 
+    // Read the document, and merge the meshes of each atlas.
     tracker.stage(Stage::Read);
     let (nodes, plan) = (options.nodes(), Plan::new(&options.settings()));
     let Prepared {
@@ -94,10 +95,12 @@ fn unwrap_in_pool(
         (groups.iter().zip(placed).map(merged)).collect::<Result<_, PipelineError>>()?;
     seconds.read = watch.lap();
 
+    // Unwrap.
     let soups: Vec<Soup> = meshes.iter().map(Merged::soup).collect();
     let atlases = unwrap_all(&soups, &options.settings(), tracker)?;
     seconds.unwrap = watch.lap();
 
+    // Turn the atlases into UVs, and resample textures for them.
     let uvs = new_uvs(&document, &groups, &atlases, options)?;
     let mut baked = None;
     if options.baking.rebake {
@@ -105,6 +108,7 @@ fn unwrap_in_pool(
     }
     seconds.bake = watch.lap();
 
+    // Write the document.
     tracker.stage(Stage::Write);
     let written = write(&document, (&uvs, group_by), baked.as_ref(), upload, options)?;
     let v_axis = match options.format {
@@ -119,6 +123,7 @@ fn unwrap_in_pool(
     drop(primitives);
     drop(document);
 
+    // Judge what was written, in the bytes written.
     tracker.stage(Stage::Judge);
     let mut uvs = WrittenUvs::read(&written, (group_by, nodes))?;
     for (group, mesh) in uvs.groups.iter_mut().zip(meshes) {
@@ -128,6 +133,7 @@ fn unwrap_in_pool(
     add_history(&mut groups, &atlases, &uvs, (&plan, options));
     seconds.judge = watch.lap();
 
+    // Report.
     let judged: Vec<_> = uvs.groups.iter().zip(&groups).collect();
     let missing = shortfalls(&judged);
     promise_kept(&plan, &groups, &missing)?;

@@ -1,31 +1,31 @@
-//! The UVs of a result as plain arrays, for programs that keep the mesh that they sent.
+//! UVs of a result as plain arrays, for programs that keep the mesh that they sent.
 
 use super::prepared::Origins;
 use unwrapd_files::document::{Corners, Document, NewUvs, PrimitiveNote};
 use unwrapd_maps::mesh::VAxis;
 
-/// The first bytes of the file: what it is, and its version.
+/// First bytes of the file: type and version.
 const MAGIC: [u8; 4] = *b"UVS1";
 
-/// The UVs of every corner, and where faces and vertices come from.
+/// UVs of every corner, and the origins of faces and vertices.
 #[derive(Clone, Debug)]
 pub struct UvArrays(Vec<Arrays>);
 
-/// Those of a primitive that was written.
+/// Arrays of a written primitive.
 #[derive(Clone, Debug)]
 struct Arrays {
     mesh: u32,
     primitive: u32,
     uvs: Vec<Corners>,
-    /// For each face its number in the input.
+    /// Index of each face in the input.
     faces: Vec<u32>,
-    /// For each vertex its number in the input.
+    /// Index of each vertex in the input.
     vertices: Vec<u32>,
 }
 
 impl UvArrays {
-    /// What was written of `uvs`, with v as it is in the file written. `notes` say what became of the document, and `origins` what
-    /// it was.
+    /// Collects what was written of `uvs`, with v as in the written file. `notes` describe the written document, and
+    /// `origins` its relation to the input.
     pub fn new(
         document: &Document,
         (uvs, v_axis): (&NewUvs, VAxis),
@@ -55,7 +55,7 @@ impl UvArrays {
         Self(all)
     }
 
-    /// The file that `getUvs` of the API describes: numbers of 4 bytes, little-endian.
+    /// Returns the file that `getUvs` of the API describes: numbers of 4 bytes, little-endian.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
         let mut push = |numbers: &[u32]| {
@@ -83,13 +83,14 @@ impl UvArrays {
     }
 }
 
-/// For each vertex written its number in the document.
+/// Returns the number in the document of each written vertex.
 fn sources(note: &PrimitiveNote) -> Vec<u32> {
     let same = || (0..note.vertices_after as u32).collect();
     note.sources.clone().unwrap_or_else(same)
 }
 
-/// Numbers within a primitive as those of the input; `all` has them where the document is another, counted from `first` on.
+/// Maps indices within a primitive to those of the input. `all` has the input's indices if the document was
+/// converted; the primitive's begin at `first`.
 fn originals(
     numbers: impl IntoIterator<Item = u32>,
     first: usize,

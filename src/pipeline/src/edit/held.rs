@@ -1,4 +1,4 @@
-//! UVs of documents in the hand.
+//! UVs of documents for live sessions.
 
 use super::uvs::Whole;
 use crate::PipelineError;
@@ -7,7 +7,7 @@ use crate::options::{CommandOptions, EditOptions, Editing};
 use unwrapd_deform::uv::UvSession;
 use unwrapd_files::document::{Document, Upload};
 
-/// Takes the UVs that [`edit_document`](crate::edit_document) would edit into the hand. Its anchors are for the caller to add.
+/// Opens a session on the UVs that [`edit_document`](crate::edit_document) would edit. The caller adds the anchors.
 pub fn hold_uvs(
     upload: &Upload,
     editing: Editing,

@@ -1,4 +1,4 @@
-//! UVs of a document edited by anchors.
+//! Editing of a document's UVs by anchors.
 
 pub(super) mod held;
 pub(super) mod report;

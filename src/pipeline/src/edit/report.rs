@@ -1,4 +1,4 @@
-//! What is reported of edited UVs.
+//! Reports of edited UVs.
 
 use serde::Serialize;
 
@@ -45,7 +45,7 @@ pub struct ChartEditReport {
     pub map: PullReport,
 }
 
-/// How much was done of what was asked for over all charts, and what to tell users of it.
+/// Returns the worst completion of all charts, with its warning.
 pub(super) fn completion(edited: &EditedUvs) -> (Completion, Option<Warning>) {
     let summaries = || edited.charts.iter().map(|chart| &chart.summary);
     let worst = summaries().max_by_key(|summary| Completion::of(summary.status));

@@ -1,4 +1,4 @@
-//! What the record of a document with edited UVs promises.
+//! Promises in the record of a document with edited UVs.
 
 use crate::PipelineError;
 use crate::judge::groups::WrittenUvs;
@@ -8,8 +8,8 @@ use crate::options::{EditOptions, MeasureOptions};
 use unwrapd_files::document::{Document, GroupBy, Marked, OutputFormat, Sets, Terms, Warning};
 use unwrapd_maps::certificate::Overlap;
 
-/// The record of a document with edited UVs, in which no two faces overlap. Distances between charts are not promised: the edit
-/// did not look at them.
+/// Returns the record of a document with edited UVs in which no two faces overlap. It promises nothing about
+/// distances between charts, which the edit does not check.
 pub fn edited_terms(document: &Document, options: &EditOptions) -> Result<Terms, PipelineError> {
     let present = match document.marked()? {
         Marked::Fits(mark) if mark.sets == Sets::One(options.texcoord) => Some(mark.terms),
@@ -35,12 +35,12 @@ pub fn edited_terms(document: &Document, options: &EditOptions) -> Result<Terms,
     })
 }
 
-/// The judgment of a whole UV set, charts without anchors included.
+/// Judgment of a whole UV set, including charts without anchors.
 pub struct WholeJudgment {
     pub proven: Proven,
-    /// What is lacking, in words.
+    /// Missing properties, in words.
     pub lacking: Vec<&'static str>,
-    /// What is lacking: where, and by how much.
+    /// Warnings with place and extent of what is missing.
     pub warnings: Vec<Warning>,
 }
 
@@ -62,7 +62,7 @@ impl WholeJudgment {
         self.lacking.is_empty()
     }
 
-    /// Tells users that UVs were faulty before they were edited.
+    /// Returns a warning if the UVs were faulty before the edit.
     pub fn as_before(&self) -> Option<Warning> {
         let lacking = self.lacking.join(", ");
         (!self.is_certified()).then(|| {

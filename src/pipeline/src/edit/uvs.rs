@@ -1,4 +1,4 @@
-//! UVs of a document edited by anchors, and judged in the bytes that are written.
+//! Editing of a document's UVs by anchors, judged in the written bytes.
 
 use super::report::{ChartEditReport, EditReport, completion};
 use super::terms::{WholeJudgment, edited_terms};
@@ -22,14 +22,14 @@ use unwrapd_method::barrier::BarrierKind;
 /// A document with edited UVs.
 #[derive(Clone, Debug)]
 pub struct EditedDocument {
-    /// The written files by relative name, the main file first.
+    /// Written files by relative name, the main file first.
     pub files: Vec<(String, Vec<u8>)>,
-    /// What was done.
+    /// Report on the edit.
     pub report: EditReport,
 }
 
-/// Pulls anchors of a document's UVs to their targets and judges the bytes it writes. UVs are in the numbers of the file, in
-/// glTF with v down; vertices count through all triangle primitives in file order.
+/// Moves anchors of a document's UVs to their targets and judges the written bytes. UVs are those of the file, in
+/// glTF with v down; vertices are counted through all triangle primitives in file order.
 pub fn edit_document(
     upload: &Upload,
     editing: Editing,
@@ -39,16 +39,19 @@ pub fn edit_document(
     options.check()?;
     let tracker = Tracker::new(observer, options.caller.budget(options.budget));
     in_pool(options.caller.workers(options.workers), || {
+        // Read the UVs.
         tracker.stage(Stage::Read);
         let document = Document::read(upload)?;
         limits::check(&options.caller.limits, &document)?;
         let whole = Whole::gather(&document, options.texcoord)?;
+        // Edit them.
         let how = options.of_map(editing);
         let start = start(upload, 6 * whole.triangles.len())?;
         let start = start
             .as_deref()
             .map(|start| start.as_chunks().0.as_chunks().0);
         let edited = edit_uvs_from(&whole.mesh(), start, &options.anchors, &how, &tracker)?;
+        // Write the document.
         tracker.stage(Stage::Write);
         let stem = options.caller.stem(upload);
         let mut write_options = WriteOptions {
@@ -60,6 +63,7 @@ pub fn edit_document(
         };
         let uvs = new_uvs(&document, &whole, &edited);
         let mut written = document.write(&uvs, &write_options)?;
+        // Judge the charts with anchors in the bytes written.
         tracker.stage(Stage::Judge);
         let again = written.read_again()?;
         let found = Whole::gather(&again, options.texcoord)?;
@@ -75,6 +79,7 @@ pub fn edit_document(
             let what = "a chart overlaps itself";
             return Err(PipelineError::NotValid(what.to_owned()));
         }
+        // Judge the whole set; a faulty one must not be recorded as free of overlaps.
         let judgment = WholeJudgment::new(&again, options.texcoord)?;
         if let Some(terms) = &mut write_options.terms
             && !judgment.is_certified()
@@ -82,6 +87,7 @@ pub fn edit_document(
             terms.overlaps = true;
             written = document.write(&uvs, &write_options)?;
         }
+        // Report.
         let mut warnings = [document.warnings(), &written.notes.warnings].concat();
         warnings.extend(tracker.warning());
         let (completion, unfinished) = completion(&edited);
@@ -108,12 +114,12 @@ pub fn edit_document(
     })?
 }
 
-/// All primitives of a document as one mesh; those without UVs have vertices only.
+/// All primitives of a document as one mesh. Primitives without UVs contribute only vertices.
 pub(super) struct Whole {
     positions: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
     uvs: Vec<CornerUvs>,
-    /// The number of faces of each primitive that has UVs.
+    /// Number of faces of each primitive; `None` if it has no UVs.
     n_faces: Vec<Option<usize>>,
 }
 
@@ -170,7 +176,7 @@ fn new_uvs(document: &Document, whole: &Whole, edited: &EditedUvs) -> NewUvs {
     }
 }
 
-/// Where each face is among those of the file written.
+/// Returns the index of each face in the written file.
 fn places(written: &Written, n_faces: usize) -> Vec<usize> {
     let Some(faces) = &written.notes.faces else {
         return (0..n_faces).collect();
@@ -184,7 +190,7 @@ fn places(written: &Written, n_faces: usize) -> Vec<usize> {
     places
 }
 
-/// Judges each chart with anchors by itself in the written bytes, where each face has its place.
+/// Judges each chart with anchors separately in the written bytes; `places` are the indices of its faces there.
 fn judge_charts(
     edited: &EditedUvs,
     (document, again): (&Document, &Document),
@@ -207,8 +213,7 @@ fn judge_charts(
     Ok(charts.collect())
 }
 
-/// Judges a chart by the numbers that the file has for its faces; `flip_v` says whether v points
-/// the other way in them than it did.
+/// Certifies a chart by the UVs of the file; `flip_v` states that the file's v axis was reversed.
 fn certified(faces: &ChartFaces, uvs: &[CornerUvs], flip_v: bool) -> PlanarCertificate {
     let place = |corner: u32| {
         let [u, v] = uvs[corner as usize / 3][corner as usize % 3];

@@ -1,4 +1,4 @@
-//! Whether an atlas keeps the bound on its distortion, and which chart is worst where it does not.
+//! Report on the distortion bound of an atlas and on its worst chart.
 
 use serde::Serialize;
 
@@ -50,7 +50,8 @@ pub struct WorstChart {
     pub stretch: f64,
 }
 
-/// The uniform stretch of a map of this symmetric Dirichlet energy, in percent: the s > 0 with 2(1+s)² + 2(1+s)⁻² = E.
+/// Returns the uniform stretch of a map with this symmetric Dirichlet energy E, in percent: the s > 0 with 2(1+s)² +
+/// 2(1+s)⁻² = E.
 pub fn stretch_percent(energy: f64) -> f64 {
     let energy = energy.max(4.0);
     let squared = (energy + (energy * energy - 16.0).sqrt()) / 4.0;
@@ -95,7 +96,7 @@ impl BoundReport {
         }
     }
 
-    /// By how much which bound is missed, and where it is worst.
+    /// Describes which bounds are missed, by how much, and where it is worst.
     pub(crate) fn shortfall(&self) -> String {
         let mut parts = Vec::new();
         if let Some(reached) = (self.smoothed_distortion.or(self.distortion))
@@ -136,7 +137,7 @@ impl BoundReport {
 }
 
 impl BoundReport {
-    /// What a reader must know of a bound that only the smoothed surface keeps.
+    /// Returns a caveat if only the smoothed surface keeps the bound.
     pub(crate) fn caveat(&self) -> Option<String> {
         let smoothed = self.smoothed_distortion.filter(|_| self.kept)?;
         let [own, smoothed] = [self.distortion?, smoothed].map(stretch_percent);

@@ -1,4 +1,4 @@
-//! The UVs of one group as its bytes have them.
+//! UVs of a group as stored in the bytes.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -9,7 +9,7 @@ use unwrapd_maps::measure::{self, Measures};
 use unwrapd_maps::mesh::{CornerUvs, Resolution, VAxis};
 use unwrapd_method::numerics::vec3::{area_vector, norm};
 
-/// The UVs of one group with its mesh.
+/// UVs of a group with its mesh.
 #[derive(Clone, Debug)]
 pub struct GroupUvs {
     pub name: String,
@@ -17,7 +17,7 @@ pub struct GroupUvs {
     pub positions: Vec<[f64; 3]>,
     pub triangles: Vec<[u32; 3]>,
     pub uvs: Vec<CornerUvs>,
-    /// The texel density intended for each face; one for all if absent.
+    /// Intended texel density of each face; `None` if it is uniform.
     pub weights: Option<Vec<f64>>,
 }
 
@@ -60,7 +60,7 @@ impl GroupUvs {
         Ok(gathered)
     }
 
-    /// The area of the surface enlarged by its weights, if it has any.
+    /// Returns the area of the surface scaled by its weights; `None` without weights.
     pub fn intended_area(&self) -> Option<f64> {
         let area = |(t, weight): (&[u32; 3], &f64)| {
             let [a, b, c] = t.map(|v| self.positions[v as usize]);
@@ -74,7 +74,7 @@ impl GroupUvs {
         certify(&self.positions, &self.triangles, &self.uvs, claims)
     }
 
-    /// `raster_texels` is the side of the raster on which coverage is counted.
+    /// Measures the group. `raster_texels` is the side of the raster on which coverage is counted.
     pub fn measure(&self, v_axis: VAxis, texture: Resolution, raster_texels: u32) -> Measures {
         let options = measure::MeasureOptions {
             raster_texels,
@@ -91,7 +91,7 @@ impl GroupUvs {
         )
     }
 
-    /// Of what [`is_same`](Self::is_same) compares.
+    /// Hashes part of the data that [`is_same`](Self::is_same) compares.
     pub fn hash(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
         self.triangles.hash(&mut hasher);
@@ -102,7 +102,7 @@ impl GroupUvs {
         hasher.finish()
     }
 
-    /// Whether all numbers are the same, whatever the names.
+    /// Returns whether all data except the names are equal.
     pub fn is_same(&self, other: &Self) -> bool {
         self.triangles == other.triangles
             && self.positions == other.positions

@@ -1,4 +1,4 @@
-//! Judging the UVs of a document as its bytes have them.
+//! Judgment of a document's UVs as stored in its bytes.
 
 use std::collections::HashMap;
 
@@ -15,21 +15,22 @@ use unwrapd_maps::certificate::{Certificate, Claims};
 use unwrapd_maps::measure::{self, Measures};
 use unwrapd_maps::mesh::{Resolution, VAxis};
 
-/// Texels of all rasters together on which coverage is counted, and the least side of each: 256 groups have the finest.
+/// Maximum number of texels of all coverage rasters together, and minimum side of each. Up to 256 groups get the
+/// finest raster.
 const MOST_RASTER_TEXELS: u64 = 1 << 32;
 const COARSEST_RASTER: u32 = 256;
 
-/// The UVs of every group of a file with the meshes they belong to, in the numbers of the file.
+/// UVs of every group of a file with their meshes, in the numbering of the file.
 #[derive(Clone, Debug)]
 pub struct WrittenUvs {
     pub groups: Vec<GroupUvs>,
-    /// Primitives that were left out for want of UVs.
+    /// Number of primitives left out because they have no UVs.
     pub n_skipped: usize,
     pub v_axis: VAxis,
 }
 
 impl WrittenUvs {
-    /// Reads what was just written, each primitive's UVs from the set that the notes name.
+    /// Reads what was just written. The notes name the UV set of each primitive.
     pub fn read(
         written: &Written,
         (group_by, nodes): (GroupBy, Nodes),
@@ -39,7 +40,7 @@ impl WrittenUvs {
         Self::of_sets(&written.read_again()?, (group_by, nodes), &sets)
     }
 
-    /// Gathers the UVs of a document from the set that is named for each primitive.
+    /// Gathers the UVs of a document; `sets` names the UV set of each primitive.
     pub fn of_sets(
         document: &Document,
         (group_by, nodes): (GroupBy, Nodes),
@@ -50,14 +51,14 @@ impl WrittenUvs {
         })
     }
 
-    /// The UVs of a document that are asked for.
+    /// Gathers the UVs of a document that a question is about.
     pub fn asked(document: &Document, question: &Question) -> Result<Self, PipelineError> {
         let sets = question.set_of_each(document)?;
         let spaces = question.options.spaces(document);
         Self::gather(document, spaces, |primitive| sets[primitive])
     }
 
-    /// All UVs of a set, grouped as the document's materials tell; primitives that lack it are left out.
+    /// Gathers all UVs of a set, grouped as the document's materials suggest. Leaves out primitives without the set.
     pub fn of_set(document: &Document, texcoord: u32) -> Result<Self, PipelineError> {
         let question = Question::of_options(&MeasureOptions {
             texcoord: Some(texcoord),
@@ -67,7 +68,7 @@ impl WrittenUvs {
         Self::asked(document, &question)
     }
 
-    /// Gathers the UVs of a document; `set` tells the set of each primitive that takes part.
+    /// Gathers the UVs of a document. `set` returns the set of each primitive, or `None` to leave it out.
     pub fn gather(
         document: &Document,
         (group_by, nodes): (GroupBy, Nodes),
@@ -122,7 +123,7 @@ impl WrittenUvs {
             .collect()
     }
 
-    /// For each group the first with the same numbers in all.
+    /// Returns for each group the first group with equal data.
     fn first_of_content(&self) -> Vec<usize> {
         let mut firsts: HashMap<u64, Vec<usize>> = HashMap::new();
         let number = |(index, group): (usize, &GroupUvs)| {
@@ -145,7 +146,7 @@ impl WrittenUvs {
         self.groups.par_iter().map(certified).collect()
     }
 
-    /// The claims with what only the file tells.
+    /// Completes the claims with facts from the file.
     fn told(&self, claims: &Claims) -> Claims {
         Claims {
             v_axis: self.v_axis,
@@ -154,7 +155,7 @@ impl WrittenUvs {
     }
 }
 
-/// The side of the raster on which the coverage of each of so many groups is counted: the rasters of many are coarser.
+/// Returns the side of the coverage raster for each of `n_groups` groups: the more groups, the coarser.
 fn raster_texels(n_groups: usize) -> u32 {
     let of_each = MOST_RASTER_TEXELS / n_groups.max(1) as u64;
     let finest = measure::MeasureOptions::default().raster_texels;

@@ -1,4 +1,4 @@
-//! What only unwrapping knows of an atlas that was judged.
+//! Facts about a judged atlas that only unwrapping knows.
 
 use super::bound_report::BoundReport;
 use super::groups::WrittenUvs;
@@ -9,7 +9,7 @@ use crate::arrays::unwrap::Unwrapped;
 use crate::options::Options;
 use unwrapd_files::document::Warning;
 
-/// Adds to each group what only unwrapping knows.
+/// Adds the facts that only unwrapping knows to each group.
 pub fn add_history(
     groups: &mut [GroupReport],
     atlases: &[Unwrapped],
@@ -34,7 +34,7 @@ pub fn add_history(
     }
 }
 
-/// Refuses UVs with flips where none were promised; `missing` says which.
+/// Rejects UVs with flips if none are allowed; `missing` describes them.
 pub fn promise_kept(
     plan: &Plan,
     groups: &[GroupReport],

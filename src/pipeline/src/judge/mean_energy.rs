@@ -1,9 +1,9 @@
-//! Energies of some faces put together.
+//! Mean energy of a set of faces.
 
 use unwrapd_maps::measure::FaceDistortion;
 use unwrapd_method::numerics::vec3::{area_vector, norm};
 
-/// The mean of symmetric Dirichlet energies, weighted by area; faces without area and negligible needles do not count.
+/// Mean of symmetric Dirichlet energies weighted by area. Degenerate faces and negligible needles do not count.
 #[derive(Clone, Copy, Default)]
 pub(super) struct MeanEnergy {
     area: f64,

@@ -1,4 +1,4 @@
-//! What the UVs of a document are worth, and what is proven of them, as its written bytes have them.
+//! Quality and proven properties of a document's UVs, as stored in its written bytes.
 
 pub(super) mod bound_report;
 pub(super) mod group_uvs;

@@ -1,4 +1,4 @@
-//! What certificates prove together.
+//! Combined certificates.
 
 use std::fmt;
 
@@ -69,7 +69,7 @@ pub struct ProvenBits {
 }
 
 impl Proven {
-    /// What holds of all of some groups, judged by the same claims.
+    /// Combines the certificates of groups that were judged by the same claims.
     pub(crate) fn of<'a>(certificates: impl Iterator<Item = &'a Certificate> + Clone) -> Self {
         let all = |holds: fn(&Certificate) -> bool| certificates.clone().all(holds);
         Self {
@@ -140,7 +140,7 @@ fn bits<'a>(certificates: impl Iterator<Item = &'a Certificate>) -> Option<Prove
 }
 
 impl Proven {
-    /// What is requested and does not hold, in words; with [`Overlap::Skip`] faces may overlap.
+    /// Returns the requested properties that do not hold, in words. With [`Overlap::Skip`] faces may overlap.
     pub fn lacks(&self, overlap: Overlap, mirrored: Mirrored) -> Vec<&'static str> {
         let overlaps = overlap == Overlap::Test && self.locally_injective && !self.bijective;
         let missing = [
@@ -169,16 +169,16 @@ impl Proven {
     }
 }
 
-/// Whether charts may be seen from behind.
+/// Permission of mirrored charts, which show the surface from behind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mirrored {
-    /// They may.
+    /// Mirrored charts are permitted.
     Allowed,
-    /// They may not.
+    /// Mirrored charts are rejected.
     Refused,
 }
 
-/// In words, with what was asked for and does not hold.
+/// Describes the properties in words, including requested ones that do not hold.
 impl fmt::Display for Proven {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let not = |holds: bool| if holds { "" } else { "not " };

@@ -1,25 +1,25 @@
-//! Which UVs of a document are judged, and what of them.
+//! Selection of the UVs to judge, and the properties to judge.
 //!
-//! A record in the file may name the UV set and add requirements. The faces that are judged, and what shares a UV space, follow
-//! from the file's meshes and materials and from the caller alone: a file cannot talk its way out of a test.
+//! A record in the file may name the UV set and add requirements. The judged faces, and the grouping into UV spaces,
+//! follow only from the file's meshes and materials and from the caller: a file cannot exempt itself from a test.
 
 use crate::PipelineError;
 use crate::options::{CommandOptions, MeasureOptions};
 use unwrapd_files::document::{Document, DocumentError, Mark, Marked, Sets, Warning};
 use unwrapd_maps::certificate::Overlap;
 
-/// Which UVs of a document are judged, and what of them.
+/// UVs of a document to judge, and the properties to judge.
 pub struct Question {
-    /// The options, with what the record adds.
+    /// Options, with the requirements that the record adds.
     pub options: MeasureOptions,
-    /// The record of the document, if it fits the UVs and no set was asked for.
+    /// Record of the document, if it matches the UVs and the caller named no set.
     pub mark: Option<Mark>,
-    /// What to tell users about the record.
+    /// Warning about the record.
     pub warning: Option<Warning>,
 }
 
 impl Question {
-    /// The question that `options` ask of a document, with what its record adds.
+    /// Creates the question that `options` ask of a document, with the requirements that its record adds.
     pub fn new(options: &MeasureOptions, document: &Document) -> Result<Self, PipelineError> {
         let marked = match options.texcoord {
             Some(_) => Marked::Not,
@@ -43,7 +43,7 @@ impl Question {
         Ok(question)
     }
 
-    /// The question that `options` ask of UVs without a record.
+    /// Creates the question that `options` ask of UVs without a record.
     pub fn of_options(options: &MeasureOptions) -> Self {
         Self {
             options: options.clone(),
@@ -52,7 +52,7 @@ impl Question {
         }
     }
 
-    /// The UV sets that are judged, by primitive.
+    /// Returns the UV sets to judge, by primitive.
     pub fn sets(&self) -> Sets {
         match &self.mark {
             Some(mark) => mark.sets.clone(),
@@ -60,7 +60,8 @@ impl Question {
         }
     }
 
-    /// The UV set of every primitive; `None` for one that lacks the set and is left out because the caller asked for that.
+    /// Returns the UV set of every primitive; `None` for one that lacks the set and is left out at the caller's
+    /// request.
     ///
     /// A primitive for which the record names no set is judged, too: in the lowest set that the record names.
     pub fn set_of_each(&self, document: &Document) -> Result<Vec<Option<u32>>, DocumentError> {
@@ -75,7 +76,7 @@ impl Question {
         (0..document.primitives().len()).map(set).collect()
     }
 
-    /// Whether pairs of faces have to be tested, where `asked` says whether they are asked for.
+    /// Returns whether pairs of faces have to be tested, if `asked` is what the caller requests.
     pub fn overlap(&self, asked: Overlap) -> Overlap {
         let options = &self.options;
         let needs_pairs = options.padding.is_some()
@@ -89,7 +90,7 @@ impl Question {
         }
     }
 
-    /// Whether faces may overlap: not if the record promises that they do not, whatever is `asked`.
+    /// Returns whether faces may overlap: not if the record promises that they do not, whatever is `asked`.
     pub fn promised(&self, asked: Overlap) -> Overlap {
         match &self.mark {
             Some(mark) if !mark.terms.overlaps => Overlap::Test,

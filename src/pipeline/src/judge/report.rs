@@ -1,4 +1,4 @@
-//! The report: what was read, what was done, and what the written bytes are worth.
+//! The report: input, work done, and quality of the written bytes.
 
 use serde::Serialize;
 
@@ -132,7 +132,7 @@ pub struct Seconds {
 }
 
 impl Report {
-    /// The report of UVs as they are: what only unwrapping knows is absent.
+    /// Creates the report of existing UVs, without facts that only unwrapping knows.
     pub(crate) fn new(groups: Vec<GroupReport>, warnings: Vec<Warning>) -> Self {
         let proven = Proven::of(groups.iter().map(|group| &group.certificate));
         Self {
@@ -153,7 +153,7 @@ impl Report {
 }
 
 impl GroupReport {
-    /// What UVs are worth.
+    /// Creates the report of a group's UVs.
     pub(crate) fn new(
         uvs: &GroupUvs,
         measures: Measures,
@@ -173,7 +173,7 @@ impl GroupReport {
         }
     }
 
-    /// Whether everything requested is proven for this atlas, as [`Report::certified`] says for all.
+    /// Returns whether everything requested is proven for this atlas; see [`Report::certified`].
     pub fn is_certified(&self) -> bool {
         let proven = Proven::of(std::iter::once(&self.certificate));
         proven.lacks(Overlap::Test, Mirrored::Refused).is_empty()

@@ -1,4 +1,4 @@
-//! What was asked for and is not proven of a group, in sentences: what, where and by how much.
+//! Warnings about requested properties that are not proven of a group: what, where and by how much.
 
 use super::bound_report::BoundReport;
 use super::group_uvs::GroupUvs;
@@ -7,10 +7,10 @@ use super::report::GroupReport;
 use unwrapd_files::document::Warning;
 use unwrapd_maps::certificate::{Certificate, Overlap, PaddingVerdict, chart_ids};
 
-/// Warnings of one code at most; the last of them counts the rest.
+/// Maximum number of warnings per code; the last one counts the rest.
 const MOST_OF_A_CODE: usize = 8;
 
-/// Everything that keeps a result from being certified, and bounds that it misses.
+/// Returns warnings about everything that prevents certification, and about missed bounds.
 pub fn shortfalls(groups: &[(&GroupUvs, &GroupReport)]) -> Vec<Warning> {
     let found = groups.iter().flat_map(|(uvs, report)| {
         let name = &uvs.label;
@@ -27,7 +27,7 @@ pub fn shortfalls(groups: &[(&GroupUvs, &GroupReport)]) -> Vec<Warning> {
     limited(found)
 }
 
-/// Everything that keeps UVs from being certified.
+/// Returns warnings about everything that prevents the certification of UVs.
 pub fn unproven(
     groups: &[GroupUvs],
     certificates: &[Certificate],
@@ -37,7 +37,7 @@ pub fn unproven(
     limited(groups.flat_map(|(uvs, certificate)| of_certificate(uvs, certificate, mirrored)))
 }
 
-/// What a certificate leaves unproven of what was asked for.
+/// Returns warnings about requested properties that a certificate does not prove.
 fn of_certificate(uvs: &GroupUvs, certificate: &Certificate, mirrored: Mirrored) -> Vec<Warning> {
     let proven = Proven::of(std::iter::once(certificate));
     if proven.lacks(Overlap::Test, mirrored).is_empty() {
@@ -53,7 +53,7 @@ fn of_certificate(uvs: &GroupUvs, certificate: &Certificate, mirrored: Mirrored)
     found
 }
 
-/// Faces that are no part of a map without flips.
+/// Warns of flipped, degenerate and nonfinite faces.
 fn faces(name: &str, certificate: &Certificate, charts: &[u32]) -> Vec<Warning> {
     let place = (certificate.offending_faces.first())
         .map(|&face| format!(", one of them triangle {face} in {}", chart(charts, face)))
@@ -109,7 +109,7 @@ fn overlapping(name: &str, certificate: &Certificate, charts: &[u32]) -> Option<
     ))
 }
 
-/// Charts that are seen from behind, have no side, or lie where they should not.
+/// Warns of charts that are mirrored, nonorientable, not aligned or not on one page.
 fn whole_charts(name: &str, certificate: &Certificate, mirrored: Mirrored) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let mut add = |code, n: usize, what: &str| {
@@ -202,7 +202,7 @@ fn count(n: usize, thing: &str) -> String {
     format!("{n} {thing}{plural}")
 }
 
-/// The first of each code, and how many more there are.
+/// Keeps the first warnings of each code and counts the rest.
 fn limited(found: impl Iterator<Item = Warning>) -> Vec<Warning> {
     let mut all: Vec<Warning> = found.collect();
     all.sort_by(|a, b| a.code.cmp(&b.code));

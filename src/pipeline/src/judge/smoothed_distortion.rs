@@ -1,4 +1,4 @@
-//! How far the map of a rough surface is from an isometry when the noise of both is left out.
+//! Distortion of the map of a rough surface without the noise of both.
 
 use super::group_uvs::GroupUvs;
 use super::mean_energy::MeanEnergy;
@@ -6,8 +6,8 @@ use unwrapd_layout::charts::smoothed_where_rough;
 use unwrapd_maps::measure::face_distortion;
 use unwrapd_maps::mesh::{CornerUvs, Surface};
 
-/// The mean symmetric Dirichlet energy of the smoothed map of the smoothed surface, if the surface is rough. Faces at borders of
-/// charts, which have neighbors on one side only, do not count.
+/// Returns the mean symmetric Dirichlet energy of the smoothed map of the smoothed surface; `None` if the surface is
+/// not rough. Leaves out faces at chart borders, which have neighbors on one side only.
 pub(super) fn smoothed_distortion(group: &GroupUvs, aspect: f64) -> Option<f64> {
     let surface = Surface::new(&group.positions, &group.triangles).ok()?;
     let smooth = smoothed_where_rough(&surface)?;
@@ -37,7 +37,8 @@ pub(super) fn smoothed_distortion(group: &GroupUvs, aspect: f64) -> Option<f64> 
     sum.mean()
 }
 
-/// The charts of a surface as surfaces in the plane, with the same triangles; none if one of them has no area there.
+/// Returns the charts of a surface as surfaces in the plane, with the same triangles; `None` if a face is degenerate
+/// there.
 fn charts_in_the_plane(surface: &Surface, group: &GroupUvs, aspect: f64) -> Option<Surface> {
     let of_faces = surface.faces.iter().flat_map(|&f| group.uvs[f as usize]);
     let places: Vec<[f64; 3]> = of_faces.map(|[u, v]| [u * aspect, v, 0.0]).collect();

@@ -1,4 +1,4 @@
-//! What the UVs of a document are worth, and what can be proven of them.
+//! Measurement and verification of a document's UVs.
 
 use std::fmt;
 
@@ -51,7 +51,7 @@ pub struct Judged {
     pub skipped_primitives: usize,
 }
 
-/// In words.
+/// Describes the judged UVs in words.
 impl fmt::Display for Judged {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let shared = match self.group_by {
@@ -85,7 +85,7 @@ pub struct VerifiedGroup {
     pub certificate: Certificate,
 }
 
-/// Measures the UVs that a document has.
+/// Measures the existing UVs of a document.
 pub fn measure_document(
     upload: &Upload,
     options: &MeasureOptions,
@@ -98,7 +98,7 @@ pub fn measure_document(
     })
 }
 
-/// Judges the UVs that a document has. Shares no code with the writer.
+/// Judges the existing UVs of a document. Shares no code with the writer.
 pub fn verify_document(
     upload: &Upload,
     options: &VerifyOptions,
@@ -114,7 +114,7 @@ pub fn verify_document(
     })
 }
 
-/// What is to be proven beside the orientation of every face.
+/// Properties to prove beside the orientation of every face.
 #[derive(Clone, Copy)]
 pub struct Promise {
     overlap: Overlap,
@@ -139,7 +139,7 @@ impl Promise {
 }
 
 impl Verified {
-    /// The judgment of UVs, without what only their file says.
+    /// Judges UVs, without the facts that only their file contains.
     pub(crate) fn new(uvs: WrittenUvs, question: &Question, promise: Promise) -> Self {
         let overlap = question.overlap(promise.overlap);
         let certificates = uvs.certify(&question.options.claims(overlap));
@@ -171,13 +171,13 @@ impl Verified {
     }
 }
 
-/// What is to be said of the document and of its mark.
+/// Returns the warnings about a document and its record.
 fn warnings(document: &Document, question: &Question) -> Vec<Warning> {
     let warnings = document.warnings().iter().chain(&question.warning);
     warnings.cloned().collect()
 }
 
-/// Answers a question about a document, within the limits.
+/// Answers a question about a document within the limits.
 fn with_uvs<T: Send>(
     upload: &Upload,
     options: &MeasureOptions,

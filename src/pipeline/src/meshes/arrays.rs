@@ -1,4 +1,4 @@
-//! Meshes given as arrays, and several as one.
+//! Meshes given as arrays, and their merging.
 
 use crate::PipelineError;
 use crate::arrays::placement::Placement;
@@ -11,21 +11,21 @@ use crate::judge::group_uvs::GroupUvs;
 use crate::options::{GivenSeams, Island, NamedSeams, Options};
 use unwrapd_maps::mesh::{CornerUvs, MeshError, VAxis};
 
-/// A mesh given as arrays. Each list of corners is absent or has an entry per triangle.
+/// A mesh given as arrays. Each list of corners is absent or has one entry per triangle.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshArrays {
     /// Positions of the vertices.
     pub positions: Vec<[f64; 3]>,
     /// Vertices of the triangles.
     pub triangles: Vec<[u32; 3]>,
-    /// UVs that it has, v up.
+    /// Existing UVs, v up.
     pub uvs: Option<Vec<CornerUvs>>,
-    /// Normals, for seams along hard edges.
+    /// Normals of corners, for seams along hard edges.
     pub normals: Option<Vec<[[f64; 3]; 3]>>,
 }
 
 impl MeshArrays {
-    /// Refuses triangles that name no vertex: among several meshes they might name one of another.
+    /// Rejects triangles whose vertices do not exist: in a merged mesh they might refer to another mesh's.
     pub(super) fn check(&self) -> Result<(), MeshError> {
         let n_vertices = self.positions.len();
         let outside = |v: &u32| *v as usize >= n_vertices;
@@ -40,7 +40,7 @@ impl MeshArrays {
     }
 }
 
-/// What several meshes are called together.
+/// Returns the name and the label of meshes that share an atlas.
 fn label(n_meshes: usize) -> (String, String) {
     if n_meshes == 1 {
         ("mesh0".to_owned(), "mesh 0".to_owned())
@@ -49,7 +49,7 @@ fn label(n_meshes: usize) -> (String, String) {
     }
 }
 
-/// Meshes as one, with the seams that the options ask for.
+/// Merges meshes and adds the seams that the options request.
 pub(super) fn merged(
     meshes: &[MeshArrays],
     options: &Options,
@@ -73,7 +73,7 @@ pub(super) fn merged(
     Ok(merged)
 }
 
-/// The UVs of meshes, to be judged as one.
+/// Gathers the UVs of meshes, to be judged together.
 pub(super) fn with_uvs(meshes: &[MeshArrays]) -> Result<GroupUvs, PipelineError> {
     let Merged {
         positions,
@@ -87,7 +87,7 @@ pub(super) fn with_uvs(meshes: &[MeshArrays]) -> Result<GroupUvs, PipelineError>
     Ok(judged(meshes.len(), positions, triangles, uvs))
 }
 
-/// UVs of so many meshes, to be judged as one.
+/// Returns the UVs of `n_meshes` meshes as a group to be judged.
 pub(super) fn judged(
     n_meshes: usize,
     positions: Vec<[f64; 3]>,
@@ -105,7 +105,7 @@ pub(super) fn judged(
     }
 }
 
-/// The islands of the meshes that stay where they are put; their primitives are meshes.
+/// Returns the placements of the meshes' islands, whose primitives are meshes.
 pub(super) fn placements(
     meshes: &[MeshArrays],
     islands: &[Island],

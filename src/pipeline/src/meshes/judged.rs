@@ -1,4 +1,4 @@
-//! What the UVs of meshes given as arrays are worth, and what can be proven of them.
+//! Measurement and verification of the UVs of meshes given as arrays.
 
 use super::arrays::{MeshArrays, with_uvs};
 use crate::PipelineError;
@@ -12,7 +12,7 @@ use crate::options::{CommandOptions, MeasureOptions, VerifyOptions};
 use unwrapd_maps::certificate::Overlap;
 use unwrapd_maps::mesh::VAxis;
 
-/// Measures the UVs that meshes have, which share one UV space.
+/// Measures the UVs of meshes that share a UV space.
 pub fn measure_meshes(
     meshes: &[MeshArrays],
     options: &MeasureOptions,
@@ -24,7 +24,7 @@ pub fn measure_meshes(
     })
 }
 
-/// Judges the UVs that meshes have, which share one UV space.
+/// Judges the UVs of meshes that share a UV space.
 pub fn verify_meshes(
     meshes: &[MeshArrays],
     options: &VerifyOptions,
@@ -34,7 +34,7 @@ pub fn verify_meshes(
     })
 }
 
-/// Answers a question about meshes, within the limits.
+/// Answers a question about meshes within the limits.
 fn with_question<T: Send>(
     meshes: &[MeshArrays],
     options: &MeasureOptions,

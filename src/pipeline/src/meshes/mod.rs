@@ -1,6 +1,7 @@
-//! Meshes given as arrays: unwrapped into one atlas, packed anew, measured and verified as those of files are.
+//! Meshes given as arrays: unwrapped into one atlas, repacked, measured and verified like those of files.
 //!
-//! UVs have v up. Vertices at equal positions are one, of several meshes too, as in a document whose meshes share an atlas.
+//! UVs have v up. Vertices at equal positions are identified, also across meshes, as in a document whose meshes share
+//! an atlas.
 
 pub(super) mod arrays;
 pub(super) mod judged;

@@ -1,4 +1,4 @@
-//! From meshes given as arrays to one atlas and its report.
+//! Unwrapping of meshes given as arrays into one atlas.
 
 use super::arrays::{MeshArrays, judged, merged, placements};
 use crate::PipelineError;
@@ -20,15 +20,15 @@ use unwrapd_maps::mesh::{CornerUvs, VAxis};
 /// Meshes that share an atlas.
 #[derive(Clone, Debug)]
 pub struct UnwrappedMeshes {
-    /// For each mesh the UVs of every corner of every triangle, v up, exact in f32.
+    /// UVs of every corner of every triangle, for each mesh; v up, exact in f32.
     pub uvs: Vec<Vec<CornerUvs>>,
-    /// For each mesh the chart of every triangle, counted over all meshes.
+    /// Chart of every triangle, for each mesh, numbered over all meshes.
     pub charts: Vec<Vec<u32>>,
-    /// What the UVs are worth.
+    /// Report on the UVs.
     pub report: Report,
 }
 
-/// Unwraps meshes into one atlas and judges the numbers that it gives. Of the options those that concern files have no effect.
+/// Unwraps meshes into one atlas and judges the resulting numbers. Options about files have no effect.
 pub fn unwrap_meshes(
     meshes: &[MeshArrays],
     options: &Options,
@@ -37,7 +37,7 @@ pub fn unwrap_meshes(
     unwrap_around(meshes, options, &[], observer)
 }
 
-/// Packs the UV islands of meshes into one atlas. Each stays as it is but for quarter turns, shifts and one scale for all.
+/// Packs the UV islands of meshes into one atlas. Islands only undergo quarter turns, shifts and a common scale.
 pub fn repack_meshes(
     meshes: &[MeshArrays],
     options: &RepackOptions,
@@ -73,6 +73,7 @@ fn unwrap_in_pool(
 ) -> Result<UnwrappedMeshes, PipelineError> {
     let mut seconds = Seconds::default();
     let mut watch = StopWatch::start(tracker);
+    // Merge the meshes.
     tracker.stage(Stage::Read);
     let plan = Plan::new(&options.settings());
     let mut mesh = merged(meshes, options, &plan)?;
@@ -80,10 +81,12 @@ fn unwrap_in_pool(
     mesh.seams.placed = placements(meshes, islands)?;
     seconds.read = watch.lap();
 
+    // Unwrap.
     let atlases = unwrap_all(&[mesh.soup()], &options.settings(), tracker)?;
     let uvs = corner_uvs(&atlases, mesh.seams.uvs.as_deref());
     seconds.unwrap = watch.lap();
 
+    // Judge the UVs as returned.
     tracker.stage(Stage::Judge);
     let group = judged(meshes.len(), mesh.positions, mesh.triangles, uvs);
     let charts = chart_ids(&group.positions, &group.triangles, &group.uvs);
@@ -96,6 +99,7 @@ fn unwrap_in_pool(
     add_history(&mut groups, &atlases, &uvs, (&plan, options));
     seconds.judge = watch.lap();
 
+    // Report.
     let pairs: Vec<_> = uvs.groups.iter().zip(&groups).collect();
     let missing = shortfalls(&pairs);
     promise_kept(&plan, &groups, &missing)?;
@@ -111,7 +115,7 @@ fn unwrap_in_pool(
     })
 }
 
-/// The UVs of an atlas, with those that were given where islands stay.
+/// Returns the UVs of an atlas, with the given UVs for islands that stay in place.
 fn corner_uvs(atlases: &[Unwrapped], given: Option<&[CornerUvs]>) -> Vec<CornerUvs> {
     let Some(atlas) = atlases.first() else {
         return Vec::new();
@@ -126,7 +130,7 @@ fn corner_uvs(atlases: &[Unwrapped], given: Option<&[CornerUvs]>) -> Vec<CornerU
     uvs
 }
 
-/// What all triangles have, mesh by mesh.
+/// Splits a list over all triangles by mesh.
 fn divided<T: Copy>(meshes: &[MeshArrays], all: &[T]) -> Vec<Vec<T>> {
     let mut rest = all;
     let own = meshes.iter().map(|mesh| {

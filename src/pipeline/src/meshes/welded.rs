@@ -1,23 +1,23 @@
-//! UVs of corners as those of vertices.
+//! Conversion of corner UVs to vertex UVs.
 
 use std::collections::HashMap;
 
 use unwrapd_maps::mesh::CornerUvs;
 
-/// A mesh in which every vertex has one UV: each vertex of the given mesh as often as its corners differ in UVs, in the
-/// order in which triangles name them. Vertices of no triangle are left out.
+/// A mesh in which every vertex has one UV: each given vertex appears once per distinct UV of its corners, in the
+/// order of first use. Vertices without triangles are left out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WeldedUvs {
-    /// For each vertex that of the given mesh.
+    /// Index of each vertex in the given mesh.
     pub origins: Vec<u32>,
-    /// Vertices of the triangles, which are as many, in the same order and with the same first corners as the given ones.
+    /// Vertices of the triangles, in the same number, order and rotation as the given ones.
     pub triangles: Vec<[u32; 3]>,
     /// UVs of the vertices.
     pub uvs: Vec<[f64; 2]>,
 }
 
 impl WeldedUvs {
-    /// Of triangles and the UVs of their corners.
+    /// Welds triangles with UVs of their corners.
     pub fn new(triangles: &[[u32; 3]], uvs: &[CornerUvs]) -> Self {
         let mut welded = Self::default();
         let mut known: HashMap<(u32, [u64; 2]), u32> = HashMap::with_capacity(triangles.len());

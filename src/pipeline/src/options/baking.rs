@@ -1,4 +1,4 @@
-//! Whether textures are resampled, and into what.
+//! Options of texture resampling.
 
 use crate::rebake::{ImageFormat, MOST_SIDE};
 use unwrapd_api::options::options;

@@ -1,12 +1,11 @@
-//! Settings of the code that calls the pipeline, beside the options of the user.
+//! Settings of the pipeline's caller, beside the options of the user.
 
 use super::{Budget, Workers};
 use crate::PipelineError;
 use unwrapd_api::Limits;
 use unwrapd_files::document::Upload;
 
-/// Settings of the code that calls the pipeline. They are options neither in JSON nor on the command
-/// line.
+/// Settings of the pipeline's caller. They are not options in JSON or on the command line.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Caller {
     /// Name of the written files without extension; the input's if absent.
@@ -16,19 +15,19 @@ pub struct Caller {
 }
 
 impl Caller {
-    /// The name of the files that are written, without extension.
+    /// Returns the name of the written files without extension.
     pub(crate) fn stem(&self, upload: &Upload) -> String {
         self.stem.clone().unwrap_or_else(|| stem(&upload.name))
     }
 
-    /// The workers asked for, as far as they are allowed.
+    /// Returns the requested workers within the limits.
     pub(crate) fn workers(&self, asked: Workers) -> Workers {
         Workers {
             threads: asked.threads.into_iter().chain(self.limits.threads).min(),
         }
     }
 
-    /// The time asked for, as far as it is allowed.
+    /// Returns the requested time budget within the limits.
     pub(crate) fn budget(&self, asked: Budget) -> Budget {
         let seconds = asked.time_budget.into_iter().chain(self.limits.seconds);
         Budget {
@@ -37,7 +36,7 @@ impl Caller {
     }
 }
 
-/// The file name without folders and extension.
+/// Returns the file name without folders and extension; `mesh` if nothing is left.
 fn stem(name: &str) -> String {
     let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
@@ -48,11 +47,11 @@ fn stem(name: &str) -> String {
     }
 }
 
-/// The options of a command.
+/// Options of a command.
 pub trait CommandOptions {
-    /// Checks what can be checked without the file; the error names the option.
+    /// Checks everything that does not need the file. The error names the option.
     fn check(&self) -> Result<(), PipelineError>;
 
-    /// What its caller says.
+    /// Returns the settings of the caller.
     fn caller_mut(&mut self) -> &mut Caller;
 }

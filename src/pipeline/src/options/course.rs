@@ -1,4 +1,4 @@
-//! What is done beside minimizing once.
+//! Options for additional steps of the solver.
 
 use crate::deform::plan::Plan;
 use unwrapd_api::options::options;

@@ -1,4 +1,4 @@
-//! Where to cut.
+//! Options of cutting.
 
 use serde::{Deserialize, Serialize};
 
@@ -55,7 +55,7 @@ options! {
 }
 
 impl Cutting {
-    /// How distorted the atlas may be.
+    /// Returns the bound on the distortion of the atlas.
     pub fn bound(&self) -> Bound {
         Bound {
             mean: self.max_distortion.unwrap_or(self.quality.bound()),
@@ -67,7 +67,7 @@ impl Cutting {
         }
     }
 
-    /// Checks what goes with what; the text names the option.
+    /// Checks dependencies between options. The error names the option.
     pub(crate) fn check(&self) -> Result<(), String> {
         for (name, given) in [
             ("max_distortion", self.max_distortion),

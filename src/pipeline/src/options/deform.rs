@@ -1,4 +1,4 @@
-//! What is deformed and how.
+//! Options of deformation.
 
 use super::{Budget, Caller, CommandOptions, Course, Pulling, Workers, idle};
 use crate::PipelineError;
@@ -56,7 +56,7 @@ options! {
 }
 
 impl DeformOptions {
-    /// Refuses what would do nothing.
+    /// Rejects options that would have no effect.
     fn check_idle(&self) -> Result<(), String> {
         idle::check_model(&self.model)?;
         let is_barrier_absent = self.model.barrier == BarrierKind::None;

@@ -1,4 +1,4 @@
-//! How UVs are edited.
+//! Options of UV editing.
 
 use super::{Budget, Caller, CommandOptions, Pulling, Workers, idle};
 use crate::PipelineError;
@@ -7,14 +7,12 @@ use unwrapd_deform::uv::{Anchor, UvEditOptions, UvRest};
 use unwrapd_deform::{Boundary, Model};
 use unwrapd_files::document::OutputFormat;
 
-/// What UVs are edited for.
+/// Purpose of editing UVs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Editing {
-    /// To move parts of a map: boundaries follow, and the present shapes are kept, unless the
-    /// options say otherwise.
+    /// Moving parts of a map: by default boundaries follow, and the current UV shapes are preserved.
     Map,
-    /// To align a surface with a texture: boundaries stay, and the surface's shapes are kept,
-    /// unless the options say otherwise.
+    /// Aligning a surface with a texture: by default boundaries stay, and the shapes of the surface are preserved.
     Texture,
 }
 

@@ -1,4 +1,4 @@
-//! Refuses options that would have no effect: their user expects one.
+//! Rejection of options that would have no effect, contrary to their user's expectation.
 
 use super::{Course, KeptMaps, Options, Preset, Pulling};
 use crate::rebake::ImageFormat;
@@ -7,7 +7,7 @@ use unwrapd_files::document::{GroupBy, OutputFormat};
 use unwrapd_layout::charts::Cut;
 use unwrapd_method::barrier::BarrierKind;
 
-/// An option, what it goes with, and whether it is given without effect.
+/// Name of an option, its requirement, and whether it is given without effect.
 type Idle = (&'static str, &'static str, bool);
 
 fn refused(all: impl IntoIterator<Item = Idle>) -> Result<(), String> {
@@ -17,7 +17,7 @@ fn refused(all: impl IntoIterator<Item = Idle>) -> Result<(), String> {
     }
 }
 
-/// Refuses options of the projected method where another one solves.
+/// Rejects options of the projected method if another method solves.
 pub(super) fn check_method(
     course: &Course,
     pulling: Pulling,
@@ -31,8 +31,8 @@ pub(super) fn check_method(
     ])
 }
 
-/// Refuses options of unwrapping that the others leave without effect. One that has its default value cannot be told from one that
-/// is absent.
+/// Rejects options of unwrapping that the other options leave without effect. An option with its default value counts
+/// as absent.
 pub(crate) fn check(options: &Options) -> Result<(), String> {
     let default = Options::default();
     let is_auto = options.cutting.cut == Cut::Auto && options.mapping.barrier != BarrierKind::None;
@@ -119,8 +119,8 @@ pub(crate) fn check(options: &Options) -> Result<(), String> {
     }
 }
 
-/// Refuses what tells materials of one atlas apart where each has its own. What shares an atlas may
-/// not be known before the file is read.
+/// Rejects options that distinguish materials within an atlas if each material has its own. The grouping may be
+/// unknown before the file is read.
 pub(crate) fn check_grouping(options: &Options, group_by: Option<GroupBy>) -> Result<(), String> {
     const WITH: &str = "an atlas with several materials: `group_by` mesh or scene";
     if !matches!(group_by, Some(GroupBy::Material | GroupBy::Primitive)) {
@@ -137,7 +137,7 @@ pub(crate) fn check_grouping(options: &Options, group_by: Option<GroupBy>) -> Re
     ])
 }
 
-/// The same of what a deformation costs.
+/// Rejects barrier options of a deformation that have no effect.
 pub(crate) fn check_model(model: &Model) -> Result<(), String> {
     // A bound of the conformal distortion and the boundary have barriers of their own, as strong.
     let has_others = model.max_conformal.is_some() || model.bijective;
@@ -150,7 +150,7 @@ pub(crate) fn check_model(model: &Model) -> Result<(), String> {
     )
 }
 
-/// A strength needs a barrier, a support the inverse spline.
+/// Checks that a strength has a barrier, and a support the inverse spline.
 fn check_barrier(
     barrier: BarrierKind,
     [is_strength_given, is_support_given]: [bool; 2],

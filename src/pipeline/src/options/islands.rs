@@ -1,4 +1,4 @@
-//! Islands that stay where they are put, as a user names them.
+//! Islands with placements given by the user.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,11 +6,11 @@ use crate::arrays::placement::Placement;
 use unwrapd_api::options::within;
 use unwrapd_maps::mesh::VAxis;
 
-/// How far an island may be moved, in UV, and its pivot lie from the origin.
+/// Maximum shift of an island, and maximum distance of its pivot from the origin, in UV.
 const FARTHEST: f64 = 1e6;
-/// Degrees that an island may turn at most: a hundred turns.
+/// Maximum turn of an island in degrees: a hundred turns.
 const MOST_DEGREES: f64 = 36_000.0;
-/// The factors that an island may be scaled by.
+/// Range of the scale of an island.
 const SCALES: [f64; 2] = [1e-6, 1e6];
 
 /// An island, named by one of its faces, that is put somewhere and stays there.
@@ -42,7 +42,7 @@ fn one() -> f64 {
 }
 
 impl Island {
-    /// Checks the numbers; the text names the island by its place in the list.
+    /// Checks the numbers. The error names the island by its position in the list.
     pub(super) fn check(&self, index: usize) -> Result<(), String> {
         let named = |what: &str| format!("islands[{index}].{what}");
         let far = |what: &str, value: f64| within(&named(what), value, -FARTHEST, FARTHEST);
@@ -53,7 +53,7 @@ impl Island {
         pivot.into_iter().try_for_each(|x| far("pivot", x))
     }
 
-    /// The same where v is up, for a face of a mesh.
+    /// Returns the placement of a mesh face's island with v up.
     pub(crate) fn placement(&self, (number, face): (usize, u32), v_axis: VAxis) -> Placement {
         let up = v_axis == VAxis::Up;
         let sign = if up { 1.0 } else { -1.0 };

@@ -1,4 +1,4 @@
-//! How charts are laid out on a texture.
+//! Options of the atlas layout.
 
 use serde::{Deserialize, Serialize};
 
@@ -19,7 +19,7 @@ pub enum PackingMode {
 }
 
 impl PackingMode {
-    /// The multiple of the usual search budget.
+    /// Returns the factor on the usual search budget.
     pub(crate) fn passes(self) -> u64 {
         match self {
             Self::Fast => 1,
@@ -55,7 +55,7 @@ options! {
 const _: () = assert!(Texture::MOST_PAGES == 10);
 
 impl Layout {
-    /// Checks what goes with what; the text names the option.
+    /// Checks dependencies between options. The error names the option.
     pub(crate) fn check(&self) -> Result<(), String> {
         check_texels(self.resolution, self.padding)
     }
@@ -77,10 +77,10 @@ pub(super) fn check_texels(resolution: Resolution, padding: u32) -> Result<(), S
         .map_err(|text| format!("{text}: at `resolution` {resolution}, {MOST_PADDING}"))
 }
 
-/// The bound on the padding in words.
+/// Bound on the padding, in words.
 const MOST_PADDING: &str = "an eighth of the shorter side is the most";
 
-/// Reads a padding as it is typed. The upper bound depends on the resolution and is checked with it.
+/// Parses a padding as it is typed. Its upper bound depends on the resolution and is checked with it.
 #[cfg(feature = "schema")]
 pub(super) fn padding_texels(text: &str) -> Result<u32, String> {
     text.parse().map_err(|_| {
@@ -88,12 +88,12 @@ pub(super) fn padding_texels(text: &str) -> Result<u32, String> {
     })
 }
 
-/// The largest padding, in texels.
+/// Returns the maximum padding in texels.
 fn most_padding(resolution: Resolution) -> u32 {
     resolution.shorter() / 8
 }
 
-/// Checks a padding that holds for so many mip levels.
+/// Checks a padding that holds for `mips` further mip levels.
 pub(super) fn check_mips(padding: u32, mips: u32, resolution: Resolution) -> Result<(), String> {
     check_texels(resolution, padding)?;
     let (texels, most) = (u64::from(padding) << mips, most_padding(resolution));

@@ -1,4 +1,4 @@
-//! How charts are mapped.
+//! Options of chart mapping.
 
 use unwrapd_api::options::options;
 use unwrapd_layout::charts::Cut;
@@ -32,7 +32,7 @@ options! {
 }
 
 impl Mapping {
-    /// Checks what goes with what; the text names the option.
+    /// Checks dependencies between options. The error names the option.
     pub(crate) fn check(&self, cut: Cut) -> Result<(), String> {
         match self.quantization_safe {
             None | Some(12 | 14 | 16) => {}

@@ -1,4 +1,4 @@
-//! What of a document is measured.
+//! Options of measurement.
 
 #[cfg(feature = "schema")]
 use super::layout::padding_texels;
@@ -73,12 +73,12 @@ impl CommandOptions for MeasureOptions {
 }
 
 impl MeasureOptions {
-    /// The texture that is judged.
+    /// Returns the texture in whose texels UVs are judged.
     pub(crate) fn resolution(&self) -> Resolution {
         self.resolution.unwrap_or(Layout::default().resolution)
     }
 
-    /// What shares one UV space in a document, and what counts as a surface.
+    /// Returns the grouping into UV spaces, and the definition of surfaces.
     pub(crate) fn spaces(&self, document: &Document) -> (GroupBy, Nodes) {
         let nodes = if self.separate_nodes {
             Nodes::Separate
@@ -88,7 +88,7 @@ impl MeasureOptions {
         (self.group_by.unwrap_or(document.grouping()), nodes)
     }
 
-    /// What the certificate is asked to speak of.
+    /// Returns the claims to certify.
     pub(crate) fn claims(&self, overlap: Overlap) -> Claims {
         Claims {
             overlap,
@@ -103,8 +103,8 @@ impl MeasureOptions {
         }
     }
 
-    /// Adds what a file's record requires. Distances in texels are one requirement: those of the options replace those of
-    /// the record, so that a file cannot choose the texture in which a caller's padding is counted.
+    /// Adds the requirements of a file's record. Distances in texels are one requirement: the options' replace the
+    /// record's, so that a file cannot choose the texture in which a caller's padding is counted.
     pub(crate) fn with_terms(&self, terms: &Terms) -> Self {
         let mut required = Self {
             pages: self.pages.or(terms.pages),

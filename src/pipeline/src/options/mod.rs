@@ -1,7 +1,7 @@
 //! The options of the applications: shared groups, and the options of each.
 //!
-//! Every option is written [once](mod@unwrapd_api::options). Arrays are unwrapped with
-//! [`Settings`](crate::Settings), which consists of the groups that concern the geometry.
+//! Every option is declared [once](mod@unwrapd_api::options). Arrays are unwrapped with
+//! [`Settings`](crate::Settings), which consists of the groups about geometry.
 
 mod cutting;
 mod layout;

@@ -1,4 +1,4 @@
-//! What UVs are for.
+//! Purposes of UVs.
 
 use serde::{Deserialize, Serialize};
 

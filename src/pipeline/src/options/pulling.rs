@@ -1,4 +1,4 @@
-//! Which ways handles go.
+//! Options for the paths of handles to their targets.
 
 use unwrapd_api::options::options;
 

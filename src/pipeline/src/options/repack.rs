@@ -1,4 +1,4 @@
-//! How the UVs of a document are packed.
+//! Options of repacking.
 
 use super::{Caller, CommandOptions, Cutting, Island, KeptMaps, Layout, Options, Sets, Workers};
 use crate::PipelineError;
@@ -37,7 +37,7 @@ options! {
 }
 
 impl RepackOptions {
-    /// The same as options of unwrapping, which then keeps islands and their maps.
+    /// Returns the equivalent options of unwrapping, which keep islands and their maps.
     pub(crate) fn to_unwrap(&self) -> Options {
         Options {
             cutting: Cutting {

@@ -1,4 +1,4 @@
-//! Which UVs are read and written.
+//! Options for the UV sets that are read and written.
 
 use unwrapd_api::options::options;
 
@@ -17,7 +17,7 @@ options! {
 }
 
 impl Sets {
-    /// The UV set that provides the islands.
+    /// Returns the UV set that provides the islands.
     pub(crate) fn source(self) -> u32 {
         self.source_texcoord.unwrap_or(0)
     }

@@ -1,4 +1,4 @@
-//! How a problem file is solved.
+//! Options of problem files.
 
 use super::{Budget, Caller, CommandOptions, Course, Pulling, Workers, idle};
 use crate::PipelineError;

@@ -1,4 +1,4 @@
-//! How a document is unwrapped.
+//! Options of unwrapping.
 
 use serde::{Deserialize, Serialize};
 
@@ -90,7 +90,7 @@ options! {
 }
 
 impl Options {
-    /// With what follows from the preset.
+    /// Returns the options with the settings of the preset filled in.
     pub(crate) fn resolved(&self) -> Self {
         let mut options = Self {
             mips: Some(self.mips()),
@@ -103,7 +103,7 @@ impl Options {
         options
     }
 
-    /// Mip levels beyond the first in which charts keep the padding.
+    /// Returns the number of mip levels beyond the first in which charts keep the padding.
     pub(crate) fn mips(&self) -> u32 {
         self.mips.unwrap_or(match self.preset {
             Preset::Material => 0,
@@ -111,7 +111,7 @@ impl Options {
         })
     }
 
-    /// What counts as a surface.
+    /// Returns the definition of surfaces.
     pub(crate) fn nodes(&self) -> Nodes {
         match self.preset {
             Preset::Material => Nodes::Shared,
@@ -119,7 +119,7 @@ impl Options {
         }
     }
 
-    /// The part that concerns the geometry, within the limits.
+    /// Returns the geometry part of the options, within the limits.
     pub fn settings(&self) -> Settings {
         Settings {
             cutting: self.cutting,
@@ -137,7 +137,7 @@ impl Options {
         }
     }
 
-    /// What the certificate is asked to speak of.
+    /// Returns the claims to certify.
     pub(crate) fn claims(&self) -> Claims {
         let layout = &self.layout;
         Claims {
@@ -153,7 +153,7 @@ impl Options {
         }
     }
 
-    /// What the written file says of its UVs, with what shares an atlas in it.
+    /// Returns the record about the UVs for the written file; `group_by` is the actual grouping.
     pub(crate) fn terms(&self, group_by: GroupBy) -> Terms {
         Terms {
             group_by,
@@ -169,6 +169,6 @@ impl Options {
     }
 }
 
-/// Mip levels for which padding of a lightmap holds: of a distant room a quarter of the texels is
-/// shown along a side.
+/// Number of mip levels for which the padding of a lightmap holds: a distant room shows a quarter of the texels along
+/// a side.
 const LIGHTMAP_MIPS: u32 = 2;

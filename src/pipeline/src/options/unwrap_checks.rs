@@ -1,4 +1,4 @@
-//! What is asked of options of unwrapping.
+//! Checks of the options of unwrapping.
 
 use super::layout::check_mips;
 use super::{Caller, CommandOptions, Options, idle};

@@ -1,4 +1,4 @@
-//! What of a document is proven.
+//! Options of verification.
 
 use super::{Caller, CommandOptions, MeasureOptions};
 use crate::PipelineError;

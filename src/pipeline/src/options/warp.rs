@@ -1,4 +1,4 @@
-//! How a picture is warped.
+//! Options of picture warping.
 
 use super::{Budget, Caller, CommandOptions, Pulling, Workers, idle};
 use crate::PipelineError;

@@ -1,4 +1,4 @@
-//! What the work may take.
+//! Options for threads and time.
 
 use unwrapd_api::options::options;
 

@@ -1,4 +1,4 @@
-//! The format of the files of resampled textures.
+//! File format of resampled textures.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +25,7 @@ pub enum ImageFormat {
 const _: () = assert!(MOST_SIDE <= u16::MAX as u32);
 
 impl ImageFormat {
-    /// The file of a texture made by `plane`.
+    /// Encodes the texture that `plane` produced.
     pub fn file(
         self,
         document: &GltfDocument,
@@ -42,7 +42,7 @@ impl ImageFormat {
     }
 }
 
-/// Whether a texture is made of JPEG files only.
+/// Returns whether all source images of a texture are JPEG files.
 fn is_all_jpeg(document: &GltfDocument, plane: &BakePlane) -> Result<bool, DocumentError> {
     const MAGIC: [u8; 3] = [0xFF, 0xD8, 0xFF];
     for source in plane.sources.values() {

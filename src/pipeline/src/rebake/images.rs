@@ -1,4 +1,4 @@
-//! The images that textures show.
+//! Source images of textures.
 
 use std::collections::BTreeMap;
 
@@ -6,13 +6,13 @@ use unwrapd_files::document::gltf::GltfDocument;
 use unwrapd_files::document::{BakePlane, DocumentError};
 use unwrapd_files::picture::Image;
 
-/// Pixels of all images together at most: a gigabyte.
+/// Maximum number of pixels of all images together: a gigabyte.
 const MOST_PIXELS: usize = 1 << 28;
 
 /// Images by index.
 pub(super) type Images = BTreeMap<usize, Image>;
 
-/// The images that are sampled, and why others cannot be read.
+/// Decodes the images that are sampled. Returns them, and the reasons why others cannot be read.
 pub(super) fn read_images(
     document: &GltfDocument,
     planes: &[BakePlane],

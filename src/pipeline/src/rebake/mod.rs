@@ -1,4 +1,4 @@
-//! The textures of a document, resampled for its new UVs.
+//! Resampling of a document's textures for its new UVs.
 
 mod format;
 mod images;
@@ -21,12 +21,13 @@ use unwrapd_files::document::{
     BakePlan, BakedTextures, Document, DocumentError, Group, NewUvs, Warning,
 };
 
-/// The largest side of a texture.
+/// Maximum side of a texture in texels.
 pub(super) const MOST_SIDE: u32 = 8192;
-/// The distance of charts from which on bilinear filtering does not mix them.
+/// Minimum distance of charts in texels at which bilinear filtering does not mix them.
 const FILTER_TEXELS: f64 = 2.0;
 
-/// Makes textures for `uvs`, v up, in place of all that can be read and are understood. The stage begins only if there are any.
+/// Resamples all textures that can be read and are understood for `uvs`, v up. Enters the stage only if there are
+/// any.
 pub(super) fn rebaked(
     document: &Document,
     groups: &[Group],
@@ -38,6 +39,7 @@ pub(super) fn rebaked(
         let what = "new textures for another format than glTF".to_owned();
         return Err(DocumentError::UnsupportedOutput(what).into());
     };
+    // Plan as if every image were readable; without anything to do, there is no stage.
     let hoped = document.bake_plan(groups, &BTreeMap::new())?;
     if hoped.planes.is_empty() && hoped.kept.is_empty() {
         return Ok(BakedTextures {
@@ -47,6 +49,7 @@ pub(super) fn rebaked(
             tangents: vec![None; document.primitives().len()],
         });
     }
+    // Read the images, and plan again with those that can be read.
     tracker.stage(Stage::Bake);
     let (images, unreadable) = read_images(document, &hoped.planes)?;
     let plan = document.bake_plan(groups, &unreadable)?;
@@ -70,7 +73,8 @@ pub(super) fn rebaked(
     })
 }
 
-/// The side and the file of each texture of a plan. Nothing is resampled if all together have too many texels.
+/// Returns the side and the file of each texture of a plan. Resamples nothing if they would have too many texels in
+/// total.
 fn files(
     bake: &Bake,
     plan: &BakePlan,
@@ -98,7 +102,7 @@ fn files(
     Ok(files)
 }
 
-/// The side of each texture of a plan: as asked for, or as fine as what it shows.
+/// Returns the side of each texture of a plan: as requested, or fine enough for its sources.
 fn sides(
     bake: &Bake,
     plan: &BakePlan,
@@ -127,8 +131,8 @@ fn sides(
     Ok(sides)
 }
 
-/// Says that nothing was there to resample, and in which textures charts are so near that bilinear filtering at the border of one
-/// reads texels of another.
+/// Warns if there was nothing to resample, and of textures whose charts are so close that bilinear filtering at the
+/// border of one reads texels of another.
 pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning> {
     let mut sides: Vec<u32> = baked.files.iter().map(|(side, _)| *side).collect();
     sides.sort_unstable();

@@ -1,4 +1,4 @@
-//! What is shown where.
+//! Sampling planes: sources of the texels of each group.
 
 use super::images::Images;
 use super::surface::Surface;
@@ -6,7 +6,7 @@ use unwrapd_files::bake::{Frames, Plane, Sampled, Texture};
 use unwrapd_files::document::gltf::{GltfDocument, tangents};
 use unwrapd_files::document::{BakePlane, DocumentError, Encoding, TextureSource};
 
-/// What textures are made of.
+/// Inputs of resampling.
 pub(super) struct Bake<'a> {
     pub document: &'a GltfDocument,
     pub images: &'a Images,
@@ -14,13 +14,13 @@ pub(super) struct Bake<'a> {
 }
 
 impl<'a> Bake<'a> {
-    /// The new UVs of a group, v down.
+    /// Returns the new UVs of a group, v down.
     pub fn faces(&self, members: &[usize]) -> Vec<[[f64; 2]; 3]> {
         let all = members.iter().flat_map(|&index| &self.surfaces[index].uvs);
         all.copied().collect()
     }
 
-    /// What a group shows in a texture.
+    /// Returns the sources of a group in one texture.
     pub fn plane(&self, wanted: &BakePlane, members: &[usize]) -> Result<Plane<'a>, DocumentError> {
         let mut plane = Plane {
             encoding: wanted.encoding,
@@ -35,6 +35,7 @@ impl<'a> Bake<'a> {
         };
         for &index in members {
             let n_faces = self.surfaces[index].uvs.len();
+            // Primitives without this texture have empty faces.
             let Some(source) = wanted.sources.get(&index) else {
                 plane.faces.extend(std::iter::repeat_n(None, n_faces));
                 frames.skip(n_faces);
@@ -63,7 +64,7 @@ impl<'a> Bake<'a> {
         Ok(plane)
     }
 
-    /// Where in its image the corners of a primitive lie; without UVs all at the place of (0, 0), as renderers have it.
+    /// Returns the places of a primitive's corners in its image. Without UVs all are at (0, 0), as in renderers.
     fn places(
         &self,
         index: usize,

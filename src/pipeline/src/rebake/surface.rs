@@ -6,16 +6,17 @@ use unwrapd_maps::mesh::VAxis;
 
 /// A primitive with its new UVs.
 pub(super) struct Surface {
-    /// v down.
+    /// New UVs, v down.
     pub uvs: Vec<[[f64; 2]; 3]>,
     pub directions: Option<Directions>,
 }
 
-/// What normal maps are relative to.
+/// Reference frames of normal maps.
 pub(super) struct Directions {
     pub normals: Vec<[[f32; 3]; 3]>,
     pub tangents: Vec<CornerTangents>,
-    /// Whether the document has these normals; else they are those of the flat faces, and tangents have no place in it.
+    /// Set if the document has these normals. Otherwise they are those of the flat faces, and tangents are not
+    /// written.
     are_given: bool,
 }
 
@@ -39,7 +40,7 @@ impl Surface {
         })
     }
 
-    /// Tangents that the document shall have.
+    /// Returns the tangents to write to the document.
     pub fn written_tangents(self) -> Option<Vec<CornerTangents>> {
         let directions = self.directions.filter(|directions| directions.are_given);
         directions.map(|directions| directions.tangents)
@@ -71,7 +72,7 @@ impl Directions {
     }
 }
 
-/// The normal of a face, not of unit length.
+/// Returns the unit normal of a flat face; zero if the face is degenerate.
 fn flat_normal([a, b, c]: [[f32; 3]; 3]) -> [f32; 3] {
     let (e, f) = (
         [0, 1, 2].map(|k| b[k] - a[k]),

@@ -99,8 +99,7 @@ async fn caller(
     }
 }
 
-/// Returns the rejection of a wrong key, which counts against the address. Good keys from the same address
-/// are still
+/// Returns the rejection of a wrong key, which counts against the address. Good keys from the same address are still
 /// accepted, because it may be that of a proxy.
 fn wrong_key(app: &App, peer: Option<Peer>) -> Problem {
     match peer.map(|Peer(address)| app.wrong_keys.take(address)) {
@@ -139,7 +138,7 @@ impl From<Denied> for Problem {
     }
 }
 
-/// Extracts the caller that [`admit`] let in.
+/// Extracts the caller that `admit` attached.
 impl FromRequestParts<Arc<App>> for Caller {
     type Rejection = Problem;
 

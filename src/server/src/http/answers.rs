@@ -61,7 +61,7 @@ impl IntoResponses for PictureAnswers {
     }
 }
 
-/// Responses to conditional and range requests.
+/// Returns the responses to conditional and range requests.
 fn parts() -> Responses {
     let mut answers = Responses::new();
     for (status, description) in [
@@ -115,7 +115,7 @@ impl IntoResponses for CallProblems {
     }
 }
 
-/// Groups codes by status.
+/// Returns one response per status, which lists the codes with that status.
 pub(super) fn problems(codes: &[Code]) -> Responses {
     let mut descriptions: BTreeMap<u16, Vec<String>> = BTreeMap::new();
     for code in codes {

@@ -53,8 +53,7 @@ impl Asset {
     }
 }
 
-/// Responds with the file, or that it is unchanged. A query `v=` with the present version allows caching for
-/// good.
+/// Responds with the file, or that it is unchanged. A query `v=` with the present version allows caching for good.
 pub(super) fn answer(asset: &'static Asset, query: Option<&str>, headers: &HeaderMap) -> Response {
     let made = asset.made();
     let is_compressed = !made.gzip.is_empty() && accepts_gzip(headers);

@@ -1,5 +1,4 @@
-//! Codes of invalid inputs. They come from the pipeline, mean the same on the command line, and have status
-//! 422.
+//! Codes of invalid inputs. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Codes with their meanings.
 pub(super) const CAUSES: [(&str, &str); 63] = [

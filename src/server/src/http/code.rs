@@ -3,7 +3,7 @@
 /// Declares the codes, each once: variant, code, status, title.
 macro_rules! codes {
     ($($name:ident => ($word:literal, $status:literal, $title:literal $(,)?),)*) => {
-        /// Codes of the service itself. Those of inputs that cannot be used are [`super::causes`],
+        /// Codes of the service itself. Those of unusable inputs are [`super::causes`],
         /// and have status 422.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Code {
@@ -11,10 +11,10 @@ macro_rules! codes {
         }
 
         impl Code {
-            /// All of them.
+            /// All codes.
             pub const ALL: &[Self] = &[$(Self::$name),*];
 
-            /// Its word, its status, and what it says.
+            /// Returns the word, the HTTP status and the title of the code.
             pub fn row(self) -> (&'static str, u16, &'static str) {
                 match self {
                     $(Self::$name => ($word, $status, $title)),*

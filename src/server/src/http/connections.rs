@@ -1,9 +1,8 @@
 //! Connections: their number, timeouts and shutdown.
 //!
-//! A silent peer loses its connection: without headers, between two requests, or within a body in either
-//! direction.
-//! Until then it keeps its slot, and others wait when all slots are taken. A limit per address keeps a single
-//! address from taking all of them (`gate.rs`).
+//! A silent peer loses its connection: without headers, between two requests, or within a body in either direction.
+//! Until then it keeps its slot, and others wait when all slots are taken. A limit per address keeps a single address
+//! from taking all of them (`gate.rs`).
 
 use super::admission::Peer;
 use super::counted::Counted;
@@ -106,8 +105,7 @@ impl Gate {
         }
     }
 
-    /// Waits for the next connection that may stay. Connections of addresses that have too many are refused
-    /// meanwhile
+    /// Waits for the next connection that may stay. Connections of addresses that have too many are refused meanwhile
     /// and take no slot.
     pub async fn next(&mut self) -> (TcpStream, IpAddr, Place) {
         // The semaphore is never closed.
@@ -153,8 +151,7 @@ fn is_of_client(error: &Error) -> bool {
 
 /// Time for the request of a refused client.
 const TIME: Duration = Duration::from_secs(1);
-/// Maximum number of refusals under way. Clients that send at once are answered before they are pushed out;
-/// each
+/// Maximum number of refusals under way. Clients that send at once are answered before they are pushed out; each
 /// connection takes an open file.
 const MOST: usize = 32;
 
@@ -177,8 +174,7 @@ impl Refused {
         }
     }
 
-    /// Answers the request of a connection with a refusal, then closes it. Closes it without an answer if no
-    /// request
+    /// Answers the request of a connection with a refusal, then closes it. Closes it without an answer if no request
     /// comes within a second, or if it is the oldest of too many. Never waits.
     pub fn add(&mut self, stream: TcpStream) {
         self.waiting.retain(|one| !one.is_finished());

@@ -12,8 +12,7 @@ use super::problem::{Code, Problem};
 use crate::jobs::{Job, Undrawn};
 use unwrapd_api::{Format, InputFile, OutputFile, Picture};
 
-/// Formats with a media type in responses, as in the OpenAPI document. Files of other formats are plain
-/// bytes.
+/// Formats with a media type in responses, as in the OpenAPI document. Files of other formats are plain bytes.
 const TYPED: [Format; 7] = [
     Format::Glb,
     Format::Gltf,
@@ -166,8 +165,7 @@ pub(super) fn names(headers: &HeaderMap, name: header::HeaderName, tag: &str) ->
         .any(|given| given == "*" || given.strip_prefix("W/").unwrap_or(given) == tag)
 }
 
-/// Parses a Range header with a single range. Ignores anything else, as RFC 9110 asks. Returns `Err` if the
-/// range
+/// Parses a Range header with a single range. Ignores anything else, as RFC 9110 asks. Returns `Err` if the range
 /// contains no byte of the file.
 fn range(value: &HeaderValue, size: u64) -> Result<Option<Range<u64>>, ()> {
     let spec = value
@@ -199,8 +197,7 @@ fn content_type(name: &str) -> String {
     }
 }
 
-/// Returns the Content-Disposition: pictures and reports are shown, other files are saved. The name is given
-/// in
+/// Returns the Content-Disposition: pictures and reports are shown, other files are saved. The name is given in
 /// ASCII, and also in UTF-8 if it has other characters.
 fn disposition(name: &str) -> String {
     let kind = match Format::of_name(name) {

@@ -116,8 +116,7 @@ fn server_sent(events: Subscription, app: Arc<App>, caller: Caller) -> Response 
     ([("x-accel-buffering", "no")], events).into_response()
 }
 
-/// Sends events until the last one, the close message of the client, the end of its key, or the stop of the
-/// service.
+/// Sends events until the last one, the close message of the client, the end of its key, or the stop of the service.
 async fn relay(mut socket: WebSocket, mut events: Subscription, app: Arc<App>, caller: Caller) {
     let mut lapsed = pin!(app.keys.lapsed(&caller));
     let mut quiet = tokio::time::interval(KEEP_ALIVE);

@@ -1,9 +1,7 @@
 //! Metrics in the text format of Prometheus.
 //!
-//! Metrics are pulled, not pushed. The `prometheus` receiver of an OpenTelemetry collector pulls like
-//! Prometheus, and
-//! pushes over OTLP. Pushing from here would take a dozen crates and a second registry. Gauges such as the
-//! depth of
+//! Metrics are pulled, not pushed. The `prometheus` receiver of an OpenTelemetry collector pulls like Prometheus, and
+//! pushes over OTLP. Pushing from here would take a dozen crates and a second registry. Gauges such as the depth of
 //! the queue are read on each request.
 
 use std::sync::Arc;

@@ -1,7 +1,6 @@
 //! Check of received files before a job is accepted.
 //!
-//! It looks only at the outermost layer of each format. A file that passes may still turn out to be unusable,
-//! which
+//! It looks only at the outermost layer of each format. A file that passes may still turn out to be unusable, which
 //! then fails the job.
 
 use std::fs::File;

@@ -67,8 +67,7 @@ async fn relay(socket: WebSocket, session: Arc<Session>, app: Arc<App>, caller: 
     }
 }
 
-/// Passes messages to the session until one cannot be read. Returns the close code; `None` if the client is
-/// gone.
+/// Passes messages to the session until one cannot be read. Returns the close code; `None` if the client is gone.
 async fn hear(stream: &mut SplitStream<WebSocket>, session: &Session) -> Option<u16> {
     loop {
         let said = match stream.next().await? {
@@ -84,9 +83,8 @@ async fn hear(stream: &mut SplitStream<WebSocket>, session: &Session) -> Option<
     }
 }
 
-/// Sends the mesh, frames and replies until the session ends. Returns the close code and reason; `None` if
-/// the
-/// client is gone.
+/// Sends the mesh, frames and replies until the session ends. Returns the close code and reason; `None` if the client
+/// is gone.
 async fn tell(
     sink: &mut SplitSink<WebSocket, Message>,
     session: &Session,

@@ -1,10 +1,8 @@
 //! The HTTP interface: routes, problems, OpenAPI, progress, the page.
 //!
-//! It accepts, records and relays; it computes nothing, and delegates the drawing of pictures. Every handler
-//! is a few
+//! It accepts, records and relays; it computes nothing, and delegates the drawing of pictures. Every handler is a few
 //! lines around one call of [`crate::jobs`], and its doc comment is the text that clients read in the OpenAPI
-//! document.
-//! Every error is an RFC 9457 problem with a stable code (`code.rs` has the table).
+//! document. Every error is an RFC 9457 problem with a stable code (`code.rs` has the table).
 
 mod admission;
 mod answers;
@@ -77,7 +75,7 @@ use crate::jobs::access::KeyRing;
 use crate::sessions::Sessions;
 use unwrapd_api::Catalog;
 
-/// Routes that need a key once one exists. The OpenAPI document lists these and the open routes.
+/// Returns the routes that need a key once one exists. The OpenAPI document lists these and the open routes.
 fn routes() -> OpenApiRouter<Arc<App>> {
     OpenApiRouter::with_openapi(openapi::preamble())
         .routes(routes!(create::create_job, list::list_jobs))
@@ -120,7 +118,7 @@ fn routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(probes::metrics))
 }
 
-/// Routes that need no key.
+/// Returns the routes that need no key.
 fn open_routes() -> OpenApiRouter<Arc<App>> {
     OpenApiRouter::new()
         .routes(routes!(probes::healthz))
@@ -128,7 +126,7 @@ fn open_routes() -> OpenApiRouter<Arc<App>> {
         .routes(routes!(probes::openapi_document))
 }
 
-/// Pages for people, with their assets.
+/// Returns the routes of the pages for people and of their assets.
 fn pages() -> Router<Arc<App>> {
     Router::new()
         .route("/", get(page::index))

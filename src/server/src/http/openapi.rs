@@ -110,10 +110,10 @@ fn members(value: &mut Value) -> impl Iterator<Item = &mut Value> {
     value.as_object_mut().into_iter().flat_map(Map::values_mut)
 }
 
-/// Completes an operation: adds a default problem, makes absent parameters absent rather than null, and
-/// describes
+/// Completes an operation: adds a default problem, makes absent parameters absent rather than null, and describes
 /// files and ranges of files as bytes.
 fn complete(operation: &mut Value) {
+    // A range of a file has the media types of the file, and both are bytes.
     if !operation["responses"]["206"].is_null() {
         let mut content = operation["responses"]["200"]["content"].clone();
         members(&mut content).for_each(|of_type| of_type["schema"] = bytes());
@@ -138,6 +138,7 @@ fn complete(operation: &mut Value) {
         "description": "Any other error",
         "content": { "application/problem+json": { "schema": reference("Problem") } },
     });
+    // Parameters are absent rather than null.
     let parameters = operation
         .get_mut("parameters")
         .and_then(Value::as_array_mut);
@@ -155,7 +156,7 @@ fn complete(operation: &mut Value) {
     }
 }
 
-/// Returns true for the schema of `Vec<u8>`, which stands for the bytes of a file, not for JSON.
+/// Returns whether this is the schema of `Vec<u8>`, which stands for the bytes of a file, not for JSON.
 fn is_list_of_bytes(schema: &Value) -> bool {
     let item = &schema["items"];
     schema["type"] == "array" && item["type"] == "integer" && item["minimum"] == 0

@@ -1,7 +1,6 @@
 //! Checks of the origin of requests and of the host name that they use.
 //!
-//! A page of another site can make a browser send requests to a service that only this machine reaches.
-//! Browsers
+//! A page of another site can make a browser send requests to a service that only this machine reaches. Browsers
 //! state the origin of a request in `Sec-Fetch-Site` and `Origin`; these are checked for requests that change
 //! something ([`CsrfLayer`]) and for WebSockets (here). A name that an attacker points at this machine (DNS
 //! rebinding) shows in `Host`.
@@ -86,7 +85,7 @@ async fn guard(State(allowed): State<Arc<Allowed>>, request: Request, next: Next
     next.run(request).await
 }
 
-/// Returns true if there is at most one `Host`, with a name and at most a port (RFC 9112, 3.2).
+/// Returns whether there is at most one `Host`, with a name and at most a port (RFC 9112, 3.2).
 fn names_one_host(headers: &HeaderMap) -> bool {
     let mut hosts = headers.get_all(header::HOST).iter();
     let (first, second) = (hosts.next(), hosts.next());
@@ -110,8 +109,7 @@ fn host(headers: &HeaderMap, uri: &Uri) -> Option<Authority> {
 }
 
 impl Allowed {
-    /// Returns whether a host is permitted: addresses and `localhost` always are, other names if they are
-    /// listed.
+    /// Returns whether a host is permitted: addresses and `localhost` always are, other names if they are listed.
     fn knows(&self, host: Option<&Authority>) -> bool {
         let Some(known) = &self.hosts else {
             return true;
@@ -125,8 +123,8 @@ impl Allowed {
             || known.iter().any(|known| known.eq_ignore_ascii_case(name))
     }
 
-    /// Returns whether a WebSocket may be opened: by anything but a browser, by our own page, or by a
-    /// permitted origin.
+    /// Returns whether a WebSocket may be opened: by anything but a browser, by our own page, or by a permitted
+    /// origin.
     fn may_connect(&self, headers: &HeaderMap, host: Option<&Authority>) -> bool {
         let Some(origin) = headers.get(header::ORIGIN) else {
             return true;

@@ -94,6 +94,7 @@ fn packed(app: &App, job: &Job, handle: &Handle) -> Result<(Scratch, File, u64),
         .write(true)
         .create_new(true)
         .open(path)?;
+    // Copy the results; of two files with one name, the second is named by its role.
     let mut archive = ZipWriter::new(file);
     let mut names = BTreeSet::new();
     for output in job.results() {
@@ -111,6 +112,7 @@ fn packed(app: &App, job: &Job, handle: &Handle) -> Result<(Scratch, File, u64),
             archive.write_all(&block?)?;
         }
     }
+    // Draw and add the pictures.
     for &picture in job.pictures() {
         let content = handle.block_on(download::picture(app, job, picture))?;
         let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);

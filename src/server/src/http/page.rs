@@ -56,17 +56,17 @@ static ASSETS: [(&str, Asset); 7] = [
     ),
 ];
 
-/// `/`: the page for unwrapping meshes and viewing results.
+/// Serves `/`: the page for unwrapping meshes and viewing results.
 pub(super) async fn index(headers: HeaderMap) -> Response {
     assets::answer(&INDEX, None, &headers)
 }
 
-/// `/docs`: the OpenAPI document for people.
+/// Serves `/docs`: the OpenAPI document for people.
 pub(super) async fn docs(headers: HeaderMap) -> Response {
     assets::answer(&DOCS, None, &headers)
 }
 
-/// `/assets/{name}`: an asset of the pages.
+/// Serves `/assets/{name}`: an asset of the pages.
 pub(super) async fn asset(
     PathName(name): PathName,
     RawQuery(query): RawQuery,

@@ -186,9 +186,8 @@ impl Receiver {
     }
 }
 
-/// Prepares the files of an upload: unpacks an archive, drops unreferenced resources, detects the format of
-/// the
-/// input and names it. The input comes first.
+/// Prepares the files of an upload: unpacks an archive, drops unreferenced resources, detects the format of the input
+/// and names it. The input comes first.
 fn looked_at(
     catalog: &dyn Catalog,
     mut files: Files,
@@ -237,9 +236,8 @@ fn retain_referenced(catalog: &dyn Catalog, files: &mut Files, kind: Kind) -> Re
     Ok(())
 }
 
-/// Returns a name for the input: the client's name without folders and control characters, with an extension
-/// of
-/// the kind's formats.
+/// Returns a name for the input: the client's name without folders and control characters, with an extension of the
+/// kind's formats.
 fn file_name(given: &str, kind: Kind, extension: &str) -> String {
     let name = given.rsplit(['/', '\\']).next().unwrap_or_default();
     let name: String = name.chars().filter(|c| !c.is_control()).collect();

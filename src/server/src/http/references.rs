@@ -1,5 +1,4 @@
-//! Selection of the files that an input references. A job keeps its files for weeks, and unused ones would
-//! waste
+//! Selection of the files that an input references. A job keeps its files for weeks, and unused ones would waste
 //! space.
 
 use std::collections::BTreeSet;
@@ -13,8 +12,7 @@ use unwrapd_api::{Catalog, Content, Format, Kind, START, Upload};
 /// Held while an input is in memory to find its references: it may be as large as an upload.
 static LOOKING: Mutex<()> = Mutex::new(());
 
-/// Returns the names among `known` that an input of a kind references. `input` reads the input, and
-/// `material` a
+/// Returns the names among `known` that an input of a kind references. `input` reads the input, and `material` a
 /// material file by name. An input without other files is not read.
 pub(super) fn referenced(
     catalog: &dyn Catalog,
@@ -55,9 +53,8 @@ fn of_surface(
     Ok(catalog.references(&upload))
 }
 
-/// Returns the files named by the strings of a problem file, by path or by name alone. If it is not JSON,
-/// returns
-/// all files; it is rejected later.
+/// Returns the files named by the strings of a problem file, by path or by name alone. If it is not JSON, returns all
+/// files; it is rejected later.
 fn of_problem(bytes: &[u8], known: &BTreeSet<String>) -> BTreeSet<String> {
     let Ok(problem) = serde_json::from_slice::<Value>(bytes) else {
         return known.clone();

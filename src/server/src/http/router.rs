@@ -15,14 +15,12 @@ use tower_http::set_header::SetResponseHeaderLayer;
 use super::problem::{Code, Problem};
 use super::{App, admission, observation, open_routes, origins, pages, routes};
 
-/// Allows scripts, workers, styles and connections of this host only; no frames, and no forms elsewhere.
-/// `blob:` is
+/// Allows scripts, workers, styles and connections of this host only; no frames, and no forms elsewhere. `blob:` is
 /// for data that the page creates: pictures inside meshes.
 const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; \
     img-src 'self' blob: data:; connect-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// Cache-Control of private responses: shared caches must not keep them, and they must not be shown after a
-/// sign-out.
+/// Cache-Control of private responses: shared caches must not keep them, and they must not be shown after a sign-out.
 const NOT_SHARED: &str = "private, no-cache";
 
 /// Returns all routes with their layers.

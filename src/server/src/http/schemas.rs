@@ -60,8 +60,7 @@ pub(super) fn bytes() -> Value {
     json!({ "type": "string", "format": "binary" })
 }
 
-/// Merges the groups of options into one object each and removes the groups' schemas: if each part rejects
-/// unknown
+/// Merges the groups of options into one object each and removes the groups' schemas: if each part rejects unknown
 /// members, no part accepts the members of all.
 pub(super) fn merge_groups(schemas: &mut Value) {
     let mut groups = BTreeSet::new();

@@ -82,8 +82,7 @@ pub(super) async fn sign_out(
     answer("", 0, &headers)
 }
 
-/// Sets the cookie. It has no path, so browsers send it to all paths beside this one, whatever prefix a proxy
-/// adds.
+/// Sets the cookie. It has no path, so browsers send it to all paths beside this one, whatever prefix a proxy adds.
 fn answer(value: &str, seconds: u64, headers: &HeaderMap) -> Result<Response, Problem> {
     let secure = if is_encrypted(headers) {
         "; Secure"

@@ -24,8 +24,7 @@ pub(super) fn refusal(error: axum::Error) -> Option<u16> {
     }
 }
 
-/// Waits a moment for the answer to a close frame. Closing a connection with unread data would reset it, and
-/// the
+/// Waits a moment for the answer to a close frame. Closing a connection with unread data would reset it, and the
 /// client would not see the frame.
 pub(super) async fn goodbye<E>(socket: &mut (impl Stream<Item = Result<Message, E>> + Unpin)) {
     let answer = async {

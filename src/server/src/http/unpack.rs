@@ -1,7 +1,6 @@
 //! Uploads as one ZIP: an input with the files that it references. Other files stay packed.
 //!
-//! The declared sizes of an archive are checked first, and the unpacked bytes are counted. Files on disk get
-//! names
+//! The declared sizes of an archive are checked first, and the unpacked bytes are counted. Files on disk get names
 //! chosen by this program; the names in the archive are only the paths that the input uses.
 
 use std::fs::File;
@@ -38,8 +37,7 @@ pub(super) fn is_archive(path: &Path) -> io::Result<bool> {
 /// An entry of an archive: its index and its name for the input.
 type Entry = (usize, String);
 
-/// Unpacks an archive of at most `limit` bytes into its folder: first the input of a kind, then the files
-/// that it
+/// Unpacks an archive of at most `limit` bytes into its folder: first the input of a kind, then the files that it
 /// references, named by the paths that it uses. Nothing else is unpacked.
 pub(super) fn unpacked(
     catalog: &dyn Catalog,
@@ -165,9 +163,8 @@ fn is_of_a_system(name: &str) -> bool {
     name.starts_with("__MACOSX/") || last == ".DS_Store" || last == "Thumbs.db"
 }
 
-/// Moves the only file of a format that the kind reads to the front, and renames the others in its folder
-/// relative
-/// to it.
+/// Moves the only file of a format that the kind reads to the front, and renames the others in its folder relative to
+/// it.
 fn with_input_first(mut entries: Vec<Entry>, kind: Kind) -> Result<Vec<Entry>, Problem> {
     let names = entries.iter().map(|(_, name)| name.as_str());
     let inputs: Vec<&str> = names.filter(|name| framing::is_named(name, kind)).collect();

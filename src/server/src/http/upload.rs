@@ -30,29 +30,27 @@ const BYTES: &str = "application/octet-stream";
 /// Content type of `curl --data-binary` unless another one is given.
 const CURL: &str = "application/x-www-form-urlencoded";
 
-/// Media types of surfaces.
+/// Returns the media types of surfaces.
 pub(super) fn surface_types() -> impl Iterator<Item = &'static str> {
     let named = Format::that_hold(Content::Surface).flat_map(Format::media_types);
     named.chain(&UNTOLD).copied()
 }
 
-/// Media types of pictures, drawings and problem files.
+/// Returns the media types of pictures, drawings and problem files.
 pub(super) fn other_types() -> impl Iterator<Item = &'static str> {
     let others = formats().filter(|format| !format.holds(Content::Surface));
     others.flat_map(Format::media_types).copied()
 }
 
-/// Formats that jobs of some kind read.
+/// Returns the formats that jobs of some kind read.
 fn formats() -> impl Iterator<Item = Format> {
     Format::all().filter(|format| Kind::ALL.iter().any(|kind| format.holds(kind.reads())))
 }
 
-/// Receives an upload to disk and checks what can be checked without computing: size, framing, options.
-/// `kind` is
+/// Receives an upload to disk and checks what can be checked without computing: size, framing, options. `kind` is
 /// given if the path determines it.
 ///
-/// The rest of a rejected body is read and discarded for a while: a client that is still sending when the
-/// connection
+/// The rest of a rejected body is read and discarded for a while: a client that is still sending when the connection
 /// closes may never see the response. A client that asks before it sends is answered at once.
 pub(super) async fn receive(
     app: &Arc<App>,
@@ -222,8 +220,7 @@ enum Tardy {
 struct Tempo {
     /// Timeout between two chunks.
     pub silence: Duration,
-    /// Minimum rate in bytes per second, on average over each period of `silence` spent waiting for chunks.
-    /// The first
+    /// Minimum rate in bytes per second, on average over each period of `silence` spent waiting for chunks. The first
     /// period is the grace of a body that starts slowly.
     pub rate: u64,
 }
@@ -233,8 +230,7 @@ struct Steady {
     body: BodyDataStream,
     tempo: Tempo,
     alarm: Pin<Box<Sleep>>,
-    /// Start of waiting for the next chunk. While this process is busy with the last one, the client is not
-    /// slow.
+    /// Start of waiting for the next chunk. While this process is busy with the last one, the client is not slow.
     waits: Option<Instant>,
     waited: Duration,
     /// Bytes received in the time waited.

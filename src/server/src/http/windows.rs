@@ -1,7 +1,6 @@
 //! Rate limits per key in fixed windows of time.
 //!
-//! The windows are the same for all keys, so nothing is kept of past ones. Each process counts its own
-//! requests.
+//! The windows are the same for all keys, so nothing is kept of past ones. Each process counts its own requests.
 
 use std::collections::HashMap;
 use std::hash::Hash;

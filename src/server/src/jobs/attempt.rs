@@ -43,9 +43,9 @@ pub(super) async fn run_logged(
     run(jobs, job, attempt, leave).instrument(span).await
 }
 
-/// Runs a claimed job to its end and records the outcome. `leave` asks to hand the job back. Returns the time
-/// for which this worker should pause: if files or space are unavailable, its next job would fare no better,
-/// but another worker may succeed.
+/// Runs a claimed job to its end and records the outcome. `leave` asks to hand the job back. Returns the time for
+/// which this worker should pause: if files or space are unavailable, its next job would fare no better, but another
+/// worker may succeed.
 async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken) -> Duration {
     let name = format!("attempt-{}-{}", job.id, job.token);
     let folder = jobs.settings.scratch.join(name);
@@ -121,8 +121,7 @@ async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
     Ok(write_json(folder, TASK, &task)?)
 }
 
-/// Runs the compute child and returns how the attempt ended; `None` if the job belongs to another worker by
-/// now.
+/// Runs the compute child and returns how the attempt ended; `None` if the job belongs to another worker by now.
 async fn compute(
     jobs: &Jobs,
     job: &Job,
@@ -179,8 +178,7 @@ async fn compute(
     })))
 }
 
-/// Registers an attempt at a job that was just claimed. Its lease counts from `sent`, before the claim was
-/// sent.
+/// Registers an attempt at a job that was just claimed. Its lease counts from `sent`, before the claim was sent.
 pub(super) fn started(jobs: &Jobs, job: &Job, sent: Instant) -> Arc<Attempt> {
     jobs.running.start(job, sent + jobs.settings.rules.lease)
 }
@@ -190,9 +188,9 @@ pub(super) fn started(jobs: &Jobs, job: &Job, sent: Instant) -> Arc<Attempt> {
 /// Delay between two tries to record an end.
 const RECORDING_PAUSE: Duration = Duration::from_secs(1);
 
-/// Records how an attempt ended, and retries until the store answers: an outage of the store must not discard
-/// the result. If the job has gone to another worker meanwhile, the store rejects the outcome. A worker that
-/// has to leave does not wait: another one takes the job when the lease expires.
+/// Records how an attempt ended, and retries until the store answers: an outage of the store must not discard the
+/// result. If the job has gone to another worker meanwhile, the store rejects the outcome. A worker that has to leave
+/// does not wait: another one takes the job when the lease expires.
 async fn conclude(
     jobs: &Jobs,
     job: &Job,
@@ -282,6 +280,7 @@ async fn watch(
                     is_asked = false;
                 }
             },
+            // Reasons to end the child.
             () = attempt.outdated.cancelled() => return Watched::Outdated,
             () = attempt.cancel.cancelled() => return Watched::EndedBy(Ending::Cancelled),
             () = leave.cancelled() => {
@@ -290,6 +289,7 @@ async fn watch(
             () = tokio::time::sleep_until(deadline) => {
                 return Watched::EndedBy(Ending::Failed(timed_out(limits.time)));
             }
+            // Commands, which the child understands once it is ready.
             () = attempt.finish.cancelled(), if is_ready && !is_told => {
                 child.interrupt();
                 is_told = true;
@@ -298,6 +298,7 @@ async fn watch(
                 child.ask_for_maps().await;
                 is_asked = true;
             }
+            // Limits that only polling reveals.
             _ = interval.tick() => {
                 attempt.set_cpu_ms(child.cpu_ms());
                 if attempt.has_lapsed() {
@@ -311,10 +312,9 @@ async fn watch(
     }
 }
 
-/// Decides on an attempt whose lease is over. With shared records, either this worker was silent and the job
-/// has
-/// gone to another one, or the store was unreachable: handing the job back tells which. An embedded process
-/// always reaches its store, so it was silent.
+/// Decides on an attempt whose lease is over. With shared records, either this worker was silent and the job has gone
+/// to another one, or the store was unreachable: handing the job back tells which. An embedded process always reaches
+/// its store, so it was silent.
 fn lapsed(jobs: &Jobs) -> Watched {
     match jobs.settings.deployment {
         Deployment::Embedded => Watched::Outdated,

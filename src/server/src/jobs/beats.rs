@@ -8,8 +8,8 @@ use super::meters;
 use super::queue::Jobs;
 
 impl Jobs {
-    /// Sends heartbeats for all attempts of this process every `interval`, and passes the answers on to them.
-    /// Never returns.
+    /// Sends heartbeats for all attempts of this process every `interval`, and passes the answers on to them. Never
+    /// returns.
     pub(super) async fn beat(&self, interval: Duration) {
         let mut interval = tokio::time::interval(interval);
         interval.set_missed_tick_behavior(MissedTickBehavior::Delay);

@@ -13,8 +13,7 @@ use super::store_id::StoreId;
 /// Content of a file as a stream of blocks.
 pub type Content = BoxStream<'static, StoreResult<Vec<u8>>>;
 
-/// Files of jobs, under keys such as `ID/input/0`. A file exists completely or not at all, and is never
-/// modified.
+/// Files of jobs, under keys such as `ID/input/0`. A file exists completely or not at all, and is never modified.
 pub trait Blobs: Send + Sync {
     /// Stores a local file under a key, durably. The local file may be moved away.
     fn put<'a>(&'a self, key: &'a str, from: &'a Path) -> BoxFuture<'a, StoreResult<()>>;
@@ -34,8 +33,7 @@ pub trait Blobs: Send + Sync {
     /// Returns the keys in this folder, with file sizes in bytes.
     fn list<'a>(&'a self, folder: &'a str) -> BoxFuture<'a, StoreResult<Vec<(String, u64)>>>;
 
-    /// Returns the id of the store that the files belong to; `None` for new storage and for that of version
-    /// 0.1.0.
+    /// Returns the id of the store that the files belong to; `None` for new storage and for that of version 0.1.0.
     fn identity(&self) -> BoxFuture<'_, StoreResult<Option<StoreId>>>;
 
     /// Records the id of the store that the files belong to.

@@ -63,8 +63,7 @@ impl Jobs {
         })
     }
 
-    /// Checks that the disks have room for what a job needs. Refusing early leaves room for running jobs to
-    /// end.
+    /// Checks that the disks have room for what a job needs. Refusing early leaves room for running jobs to end.
     pub fn has_room(&self) -> StoreResult<()> {
         let scratch = free_bytes(&self.settings.scratch)?;
         let free = self.blobs.free_bytes()?.unwrap_or(scratch).min(scratch);
@@ -99,9 +98,8 @@ impl Jobs {
         answer.unwrap_or_else(|_| Err(late()))
     }
 
-    /// Checks that a job would be accepted now: records and files can be written, disks have room, and the
-    /// quota
-    /// is not used up.
+    /// Checks that a job would be accepted now: records and files can be written, disks have room, and the quota is
+    /// not used up.
     pub async fn check(&self) -> StoreResult<()> {
         self.store.check().await?;
         self.has_room()?;

@@ -47,8 +47,8 @@ fn of_file(path: &Path) -> std::io::Result<String> {
     }
 }
 
-/// Passes a stream through and checks its checksum. On a mismatch it ends with an error in place of the last
-/// block, so no reader takes it for complete.
+/// Passes a stream through and checks its checksum. On a mismatch it ends with an error in place of the last block,
+/// so no reader takes it for complete.
 pub(super) fn checked(content: Content, expected: String) -> Content {
     let state = (content, Sha256::new(), None::<Vec<u8>>, Some(expected));
     let blocks = stream::unfold(state, async |(mut content, mut hash, mut held, mut end)| {

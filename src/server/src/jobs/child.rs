@@ -39,10 +39,8 @@ pub(super) enum Exit {
     OutOfMemory,
 }
 
-/// Starts the program with `WORD FOLDER` in its own process group, with pipes. Sets the allocator in its
-/// environment to return freed address space, which must not count against the memory limit. Dropping it
-/// kills
-/// the process.
+/// Starts the program with `WORD FOLDER` in its own process group, with pipes. Sets the allocator in its environment
+/// to return freed address space, which must not count against the memory limit. Dropping it kills the process.
 pub fn spawn(
     program: &Program,
     word: &str,
@@ -177,7 +175,7 @@ fn exit(status: ExitStatus, stderr: &str) -> Exit {
 }
 
 impl Exit {
-    /// Returns whether the child was ended by a signal that neither this program nor the child itself sends.
+    /// Returns whether the child was ended from outside, by SIGKILL, SIGTERM or SIGINT.
     pub fn is_from_outside(&self) -> bool {
         let outside = [Signal::SIGKILL, Signal::SIGTERM, Signal::SIGINT];
         matches!(self, Self::Signal(number) if outside.iter().any(|it| *it as i32 == *number))

@@ -7,12 +7,12 @@ use tokio::time::Instant;
 
 use super::timestamp::Timestamp;
 
-/// Maximum drift of the store's clock against the monotonic clock of this process between two readings.
-/// Disciplined clocks drift by two seconds per hour.
+/// Maximum drift of the store's clock against the monotonic clock of this process between two readings. Disciplined
+/// clocks drift by two seconds per hour.
 const TOLERANCE: Duration = Duration::from_mins(1);
 
-/// Compares the clock of the store, which can be set, with the monotonic clock of this process, which cannot.
-/// Reports how long both have advanced alike since the start or the last jump.
+/// Compares the clock of the store, which can be set, with the monotonic clock of this process, which cannot. Reports
+/// how long both have advanced alike since the start or the last jump.
 #[derive(Debug, Default)]
 pub struct SteadyClock {
     last: Mutex<Option<Look>>,

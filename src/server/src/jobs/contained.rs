@@ -27,10 +27,8 @@ pub struct Contained {
 }
 
 impl Contained {
-    /// Runs a job of this kind. Leaves the n-th output file as
-    /// [`output_file`](unwrapd_api::output_file)`(n)` in `folder`, which must exist and be empty. Dropping
-    /// the future
-    /// kills the child.
+    /// Runs a job of this kind. Leaves the n-th output file as [`output_file`](unwrapd_api::output_file)`(n)` in
+    /// `folder`, which must exist and be empty. Dropping the future kills the child.
     ///
     /// # Errors
     /// Returns the failure that the computation reports, or the reason why it could not report one.

@@ -3,8 +3,8 @@
 use std::time::Duration;
 use unwrapd_api::Failure;
 
-/// Grace period after the time limit for a computation to end with its current map: this share of the limit,
-/// but at least `LEAST_GRACE`.
+/// Grace period after the time limit for a computation to end with its current map: this share of the limit, but at
+/// least `LEAST_GRACE`.
 const GRACE_SHARE: f64 = 0.25;
 const LEAST_GRACE: Duration = Duration::from_secs(10);
 

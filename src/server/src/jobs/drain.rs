@@ -6,8 +6,7 @@ use super::queue::Jobs;
 use super::store_error::StoreResult;
 
 impl Jobs {
-    /// Starts or stops draining: a draining process neither accepts nor starts jobs, but finishes those it
-    /// has.
+    /// Starts or stops draining: a draining process neither accepts nor starts jobs, but finishes those it has.
     pub fn set_draining(&self, draining: bool) {
         self.draining.store(draining, Ordering::Relaxed);
         tracing::info!(draining, "drain");

@@ -13,8 +13,7 @@ pub enum Gate {
     Certified,
     /// It has at most this many charts.
     MaxCharts(u64),
-    /// The mean symmetric Dirichlet energy of its worst atlas is at most this. The name is that of the option
-    /// with
+    /// The mean symmetric Dirichlet energy of its worst atlas is at most this. The name is that of the option with
     /// the same bound; `max_symmetric_dirichlet` is accepted, too.
     MaxDistortion(f64),
     /// The 99th percentile of the stretch of its worst atlas is at most this.

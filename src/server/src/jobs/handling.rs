@@ -19,9 +19,8 @@ pub struct Handling {
 }
 
 impl Handling {
-    /// Returns the digest of everything that a request with the same idempotency key must repeat. `digest` is
-    /// that of its
-    /// computation. The priority may differ.
+    /// Returns the digest of everything that a request with the same idempotency key must repeat. `digest` is that of
+    /// its computation. The priority may differ.
     pub fn fingerprint(&self, digest: &str) -> String {
         let Self {
             metadata,

@@ -1,9 +1,8 @@
 //! The identity that a database and its files share.
 //!
-//! If a database is missing, empty or belongs to another service, every file looks like one without a job. So
-//! both carry the same random id, and a process starts only if they match. A store of version 0.1.0 has no
-//! id;
-//! it gets one when a job of the database has files.
+//! If a database is missing, empty or belongs to another service, every file looks like one without a job. So both
+//! carry the same random id, and a process starts only if they match. A store of version 0.1.0 has no id; it gets one
+//! when a job of the database has files.
 
 use super::blobs::Blobs;
 use super::job::JobId;

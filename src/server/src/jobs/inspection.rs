@@ -74,8 +74,8 @@ pub async fn inspect(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreResult<Ins
     Ok(inspection)
 }
 
-/// Quarantines what an inspection found: orphaned files will be deleted after some days, and damaged results
-/// are no longer copied to other jobs.
+/// Quarantines what an inspection found: orphaned files will be deleted after some days, and damaged results are no
+/// longer copied to other jobs.
 pub async fn repair(store: &dyn JobStore, found: &Inspection) -> StoreResult<()> {
     store.quarantine(&found.unknown).await?;
     for file in found.lost.iter().filter(|file| file.is_output) {

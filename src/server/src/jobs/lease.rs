@@ -31,8 +31,8 @@ impl FromStr for WorkerId {
     }
 }
 
-/// Fencing token of a job's holder. It rises whenever the job changes hands, so a former holder is recognized
-/// by its lower number.
+/// Fencing token of a job's holder. It rises whenever the job changes hands, so a former holder is recognized by its
+/// lower number.
 pub type Token = u64;
 
 /// Rules for losing and retrying jobs.
@@ -42,9 +42,8 @@ pub struct Rules {
     pub lease: Duration,
     /// Maximum number of attempts whose computation is killed, as for lack of memory, before the job fails.
     pub attempts: u32,
-    /// Maximum number of attempts lost with their workers before the job fails. Jobs rarely kill workers, so
-    /// this
-    /// is much larger than `attempts`; but a job that kills every worker must end.
+    /// Maximum number of attempts lost with their workers before the job fails. Jobs rarely kill workers, so this is
+    /// much larger than `attempts`; but a job that kills every worker must end.
     pub interruptions: u32,
     /// Pause after the first lost attempt; it doubles with each further one.
     pub pause: Duration,
@@ -52,8 +51,8 @@ pub struct Rules {
 
 /// Upper bound of the pause: the twentieth would take a week otherwise.
 const LONGEST_PAUSE: Duration = Duration::from_mins(5);
-/// Number of lost workers after which a job is suspected of killing them. From then on a worker computes it
-/// alone, so that it takes no other job down with it.
+/// Number of lost workers after which a job is suspected of killing them. From then on a worker computes it alone, so
+/// that it takes no other job down with it.
 pub const SUSPECT: u32 = 2;
 
 impl Default for Rules {

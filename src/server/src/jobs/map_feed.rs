@@ -65,8 +65,7 @@ impl MapFeed {
 }
 
 impl MapListener {
-    /// Waits for the first frame with a number above `after`, requesting one if needed. Returns `None` when
-    /// the
+    /// Waits for the first frame with a number above `after`, requesting one if needed. Returns `None` when the
     /// attempt has ended.
     pub async fn next(mut self, after: u64) -> Option<Bytes> {
         self.asked.notify_one();

@@ -26,9 +26,8 @@ const COUNTERS: [(&str, &str, &str); 2] = [
     ("memory", "/sys/fs/cgroup/memory", "memory.oom_control"),
 ];
 
-/// Number of processes that the system killed for lack of memory in the cgroups of this process, which
-/// include
-/// its compute children.
+/// Number of processes that the system killed for lack of memory in the cgroups of this process, which include its
+/// compute children.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Kills(u64);
 
@@ -47,9 +46,9 @@ impl Kills {
     }
 }
 
-/// Returns the counter files listed by the text of `/proc/self/cgroup`: version 2 has one line `0::PATH`,
-/// version 1 one line `N:CONTROLLERS:PATH` per controller. Within a container, the path may be that of the
-/// host, and the files lie at the top.
+/// Returns the counter files listed by the text of `/proc/self/cgroup`: version 2 has one line `0::PATH`, version 1
+/// one line `N:CONTROLLERS:PATH` per controller. Within a container, the path may be that of the host, and the files
+/// lie at the top.
 fn counters(groups: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for line in groups.lines() {

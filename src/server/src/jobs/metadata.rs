@@ -11,9 +11,7 @@ use super::digest::Digest;
 const MOST_BYTES: usize = 4096;
 const MOST_MEMBERS: usize = 64;
 
-/// Client metadata: a JSON object that is repeated wherever the job is shown, and by whose members jobs can
-/// be
-/// found.
+/// Client metadata: a JSON object that is repeated wherever the job is shown, and by whose members jobs can be found.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Metadata(Map<String, Value>);

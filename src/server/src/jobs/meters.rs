@@ -1,7 +1,7 @@
 //! Metrics of jobs, their stages and errors.
 //!
-//! Names follow the conventions of Prometheus and do not change, because dashboards and alerts refer to them.
-//! Each process counts its own actions; figures read from the store are the same in all.
+//! Names follow the conventions of Prometheus and do not change, because dashboards and alerts refer to them. Each
+//! process counts its own actions; figures read from the store are the same in all.
 
 use metrics::{
     Unit, counter, describe_counter, describe_gauge, describe_histogram, gauge, histogram,

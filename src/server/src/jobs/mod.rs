@@ -1,8 +1,7 @@
 //! Jobs: states, queue, compute children and progress events.
 //!
-//! A job is a recorded request: input files, options, a state. It is queued once its record and its files are
-//! safely stored. From then on it ends succeeded, failed with a cause, or cancelled, despite any crash or
-//! restart:
+//! A job is a recorded request: input files, options, a state. It is queued once its record and its files are safely
+//! stored. From then on it ends succeeded, failed with a cause, or cancelled, despite any crash or restart:
 //!
 //! ```text
 //!          ┌── retried ───────────┐
@@ -12,30 +11,25 @@
 //!    └── worker lost ────┘   (with a pause and a limit: see [`Rules`])
 //! ```
 //!
-//! [`after`] is that picture as a function: it maps a record and an event to the next record. A worker holds
-//! a
-//! job under a fencing token and a lease by the store's clock, which its heartbeats renew. Any process that
-//! finds
-//! an expired lease requeues the job and raises the token. From then on, reports of the former worker are
-//! rejected, and its files have names of their own. One process or many, the four operations are the same:
-//! claim, beat, sweep, end.
+//! [`after`] is that picture as a function: it maps a record and an event to the next record. A worker holds a job
+//! under a fencing token and a lease by the store's clock, which its heartbeats renew. Any process that finds an
+//! expired lease requeues the job and raises the token. From then on, reports of the former worker are rejected, and
+//! its files have names of their own. One process or many, the four operations are the same: claim, beat, sweep, end.
 //!
-//! The worker itself computes nothing. Every attempt runs in a child process of the same program
-//! (`unwrapd compute`, [`Program`]), which gets a folder with the input and writes its results there. A mesh
-//! that exhausts memory, overflows a stack or finds a bug ends only its own attempt; memory goes back to
-//! the system; and a cancel always works, because it is a signal. The child exits when its standard
-//! input closes, so a killed worker leaves no orphans. A worker that cannot renew its lease in time
-//! ends its child and hands the job back. After an outage of the store, workers get the time of a
-//! lease to do so before jobs are taken from them.
+//! The worker itself computes nothing. Every attempt runs in a child process of the same program (`unwrapd compute`,
+//! [`Program`]), which gets a folder with the input and writes its results there. A mesh that exhausts memory,
+//! overflows a stack or finds a bug ends only its own attempt; memory goes back to the system; and a cancel always
+//! works, because it is a signal. The child exits when its standard input closes, so a killed worker leaves no
+//! orphans. A worker that cannot renew its lease in time ends its child and hands the job back. After an outage of
+//! the store, workers get the time of a lease to do so before jobs are taken from them.
 //!
-//! A job whose input, options and engine equal those of an earlier one gets a copy of its result
-//! instead (`reuse.rs`), unless the client refuses. Pictures of a result are drawn on first request
-//! (`pictures.rs`).
+//! A job whose input, options and engine equal those of an earlier one gets a copy of its result instead
+//! (`reuse.rs`), unless the client refuses. Pictures of a result are drawn on first request (`pictures.rs`).
 //!
 //! A finished job is kept for a time ([`Settings::retention`]) and then removed with its files.
 //!
-//! Owners take turns, and priorities order the waiting jobs of each owner ([`JobStore::claim`]).
-//! A process reserves one slot for small jobs, so that they do not wait for large ones.
+//! Owners take turns, and priorities order the waiting jobs of each owner ([`JobStore::claim`]). A process reserves
+//! one slot for small jobs, so that they do not wait for large ones.
 //!
 //! Every job belongs to an owner, and every lookup states its visibility ([`access`]).
 //!

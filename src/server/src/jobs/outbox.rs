@@ -58,12 +58,11 @@ impl Notice {
     }
 }
 
-/// Queue of notices to be delivered. They are recorded in the transaction that ends the job, and stay until
-/// they
-/// are settled.
+/// Queue of notices to be delivered. They are recorded in the transaction that ends the job, and stay until they are
+/// settled.
 pub trait Outbox: Send + Sync {
-    /// Takes at most `most` notices that are due. Nobody else gets them during `lease`; afterwards they are
-    /// due again.
+    /// Takes at most `most` notices that are due. Nobody else gets them during `lease`; afterwards they are due
+    /// again.
     fn take(&self, most: u32, lease: Duration) -> BoxFuture<'_, StoreResult<Vec<Notice>>>;
 
     /// Deletes a notice that was delivered or given up.

@@ -14,11 +14,9 @@ use super::queue::Jobs;
 use super::store_error::{StoreError, StoreResult};
 use unwrapd_api::{InputFile, OutputFile};
 
-/// Maximum size in bytes of files that are verified before their first byte is passed on, even if only a
-/// range
-/// of them is read. They are read twice, which takes a tenth of a second at most. Larger files are verified
-/// in
-/// passing, if they are read as a whole.
+/// Maximum size in bytes of files that are verified before their first byte is passed on, even if only a range of
+/// them is read. They are read twice, which takes a tenth of a second at most. Larger files are verified in passing,
+/// if they are read as a whole.
 const VERIFIED_FIRST: u64 = 16 << 20;
 
 /// A stored file of a job: key, size and checksum, if known.
@@ -29,10 +27,8 @@ struct Stored<'a> {
 }
 
 impl Jobs {
-    /// Reads a byte range of an output file. If the file is damaged, a small one fails before the first byte
-    /// and a
-    /// large one in place of its last block. If the failure comes first, the job is no longer copied for
-    /// equal jobs.
+    /// Reads a byte range of an output file. If the file is damaged, a small one fails before the first byte and a
+    /// large one in place of its last block. If the failure comes first, the job is no longer copied for equal jobs.
     pub async fn read(
         &self,
         job: &Job,

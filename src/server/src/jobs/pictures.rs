@@ -1,17 +1,13 @@
 //! Pictures of results, drawn on first request and then kept.
 //!
-//! Drawing a small mesh costs more than unwrapping it, and most pictures are never viewed. So a job keeps
-//! only the
-//! sources of its pictures: its result and its report. The first request for a picture starts a child
-//! (`unwrapd draw FOLDER`) in the process that answers it, whether or not that process computes jobs. The
-//! child
-//! draws exactly what the computation would have drawn. The picture is stored beside the result and recorded.
+//! Drawing a small mesh costs more than unwrapping it, and most pictures are never viewed. So a job keeps only the
+//! sources of its pictures: its result and its report. The first request for a picture starts a child (`unwrapd draw
+//! FOLDER`) in the process that answers it, whether or not that process computes jobs. The child draws exactly what
+//! the computation would have drawn. The picture is stored beside the result and recorded.
 //!
-//! The record decides. A picture that it does not list does not exist; one of a job that was removed
-//! meanwhile is
-//! removed again; and one that is missing or damaged is redrawn. The key contains the checksum of the
-//! content, so
-//! two processes that draw the same picture do not overwrite each other.
+//! The record decides. A picture that it does not list does not exist; one of a job that was removed meanwhile is
+//! removed again; and one that is missing or damaged is redrawn. The key contains the checksum of the content, so two
+//! processes that draw the same picture do not overwrite each other.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -70,8 +66,7 @@ impl Job {
         self.output.iter().filter(move |file| !is_picture(file))
     }
 
-    /// Returns a picture that exists: drawn on request, or by a version of the program that drew all pictures
-    /// at the
+    /// Returns a picture that exists: drawn on request, or by a version of the program that drew all pictures at the
     /// end of a job.
     pub fn drawn(&self, picture: Picture) -> Option<&OutputFile> {
         let drawn = self.drawn.iter().chain(&self.output);

@@ -23,8 +23,7 @@ impl Program {
         std::env::current_exe().map(Self::from)
     }
 
-    /// Returns a command with these arguments and an empty environment. Only an interpreter keeps the library
-    /// search
+    /// Returns a command with these arguments and an empty environment. Only an interpreter keeps the library search
     /// path, where it may find its own libraries.
     pub(super) fn command(&self, word: &str, folder: &Path) -> tokio::process::Command {
         let mut command = tokio::process::Command::new(&self.file);

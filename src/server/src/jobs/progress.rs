@@ -33,8 +33,7 @@ pub struct Event {
 /// Event numbers reserved for each attempt.
 const EVENTS_PER_ATTEMPT: u64 = 1_000_000;
 
-/// Returns the first event number of the next attempt. It is above all numbers that a lost attempt may have
-/// sent
+/// Returns the first event number of the next attempt. It is above all numbers that a lost attempt may have sent
 /// without recording them.
 pub fn next_attempt_seq(seq: u64) -> u64 {
     (seq / EVENTS_PER_ATTEMPT + 1) * EVENTS_PER_ATTEMPT

@@ -1,14 +1,10 @@
 //! Quarantine of files whose job is not in the database.
 //!
-//! A crash leaves a few such files: between storing files and their record, or between removing a record and
-//! its
-//! files. A database restored from an older backup leaves many. So files are never deleted when they are
-//! found.
-//! They stay in place, are listed, count against the quota, and are deleted only after they have been unknown
-//! for
-//! days, by a clock that advances normally and without a gap between checks. A job that becomes known again
-//! takes
-//! its files back.
+//! A crash leaves a few such files: between storing files and their record, or between removing a record and its
+//! files. A database restored from an older backup leaves many. So files are never deleted when they are found. They
+//! stay in place, are listed, count against the quota, and are deleted only after they have been unknown for days, by
+//! a clock that advances normally and without a gap between checks. A job that becomes known again takes its files
+//! back.
 
 use std::collections::{HashMap, HashSet};
 use std::time::Duration;
@@ -22,14 +18,12 @@ use super::timestamp::Timestamp;
 
 /// Number of jobs looked up at once.
 const TOGETHER: usize = 1000;
-/// Threshold above which unknown files are no accident: more than this percentage of all, and more than
-/// `MOST`.
+/// Threshold above which unknown files are no accident: more than this percentage of all, and more than `MOST`.
 const MOST_PERCENT: usize = 1;
 const MOST: usize = 20;
 
 impl Jobs {
-    /// Quarantines files without a job if the job's id is older than `age`, and deletes those that have been
-    /// in
+    /// Quarantines files without a job if the job's id is older than `age`, and deletes those that have been in
     /// quarantine long enough. Deletes nothing while too many are unknown.
     pub(super) async fn sweep_unknown_files(&self, age: Duration) -> StoreResult<()> {
         let owners = self.blobs.owners().await?;
@@ -73,8 +67,7 @@ impl Jobs {
         Ok(())
     }
 
-    /// Returns the jobs at least this old that have files but no record. Removes files of cancelled jobs,
-    /// which need
+    /// Returns the jobs at least this old that have files but no record. Removes files of cancelled jobs, which need
     /// none.
     async fn unknown(&self, owners: &[JobId], age: Duration) -> StoreResult<HashSet<JobId>> {
         let is_old = |id: &JobId| age.as_millis() <= u128::from(Timestamp::now().since(id.made()));

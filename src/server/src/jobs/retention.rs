@@ -16,23 +16,20 @@ use super::transition::Wish;
 
 /// Number of searches for expired jobs per retention time, so that a job outlives it by a tenth at most.
 const SEARCHES: u32 = 10;
-/// Bounds on the time between searches: jobs outlive their retention by an hour at most, and searching more
-/// often than once per second would keep the server busy.
+/// Bounds on the time between searches: jobs outlive their retention by an hour at most, and searching more often
+/// than once per second would keep the server busy.
 const LONGEST_PAUSE: Duration = Duration::from_hours(1);
 const SHORTEST_PAUSE: Duration = Duration::from_secs(1);
-/// Minimum age of files without a job. Younger ones may belong to a submission under way in another process,
-/// whose clock may differ.
+/// Minimum age of files without a job. Younger ones may belong to a submission under way in another process, whose
+/// clock may differ.
 const SUBMISSION: Duration = Duration::from_hours(24);
-/// Time for which the clock of the store must have advanced normally before anything expires. The retention
-/// time
+/// Time for which the clock of the store must have advanced normally before anything expires. The retention time
 /// applies if that is shorter.
 const STEADY: Duration = Duration::from_hours(1);
 
 impl Jobs {
-    /// Checks that records and files belong together, and cleans up after a start: empties the scratch
-    /// folder. If
-    /// this is the only process, also requeues its former jobs, removes jobs of requests that nobody waits
-    /// for, and
+    /// Checks that records and files belong together, and cleans up after a start: empties the scratch folder. If
+    /// this is the only process, also requeues its former jobs, removes jobs of requests that nobody waits for, and
     /// quarantines files without a job.
     pub async fn recover(&self) -> StoreResult<()> {
         let identity = shared_identity(self.store.as_ref(), self.blobs.as_ref()).await?;
@@ -112,8 +109,7 @@ impl Jobs {
         }
     }
 
-    /// Returns whether the clock of the store has advanced normally for long enough to trust it with expiry.
-    /// Logs
+    /// Returns whether the clock of the store has advanced normally for long enough to trust it with expiry. Logs
     /// jumps and the first wait.
     pub(super) async fn clock_is_steady(&self) -> StoreResult<bool> {
         let wait = self.settings.retention.unwrap_or(STEADY).min(STEADY);

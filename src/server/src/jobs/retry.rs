@@ -23,8 +23,7 @@ pub struct Retried {
     pub next: Option<JobId>,
 }
 
-/// Retries up to 1000 failed jobs that match a listing, oldest first. If a code is given, retries only jobs
-/// that
+/// Retries up to 1000 failed jobs that match a listing, oldest first. If a code is given, retries only jobs that
 /// failed with it.
 pub async fn retry_failed(
     store: &dyn JobStore,

@@ -15,8 +15,7 @@ impl Jobs {
         engine.await.map(String::as_str)
     }
 
-    /// Completes a new job with copies of the results of an equal, undamaged job of its owner, if there is
-    /// one. If
+    /// Completes a new job with copies of the results of an equal, undamaged job of its owner, if there is one. If
     /// copying fails, the job stays queued and is computed; partial copies are removed with the job.
     pub(super) async fn reuse(&self, job: &mut Job) {
         match self.copy_equal(job).await {

@@ -26,8 +26,7 @@ struct Claimed {
 }
 
 impl Jobs {
-    /// Starts attempts as jobs arrive and slots are free, and keeps the store in order. When stopped, claims
-    /// no more
+    /// Starts attempts as jobs arrive and slots are free, and keeps the store in order. When stopped, claims no more
     /// jobs, gives running attempts the grace period to finish, hands back the jobs of the rest, and returns.
     pub async fn run(self: Arc<Self>, stop: CancellationToken) {
         // Start the background tasks: retention, sweeping, watching, hints, heartbeats.

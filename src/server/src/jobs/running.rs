@@ -69,8 +69,7 @@ impl Attempt {
         }
     }
 
-    /// Returns whether the lease is over, so that another worker may have the job. The lease counts from when
-    /// the
+    /// Returns whether the lease is over, so that another worker may have the job. The lease counts from when the
     /// last renewal was sent, by the monotonic clock of this machine: by the store's clock it started later.
     pub fn has_lapsed(&self) -> bool {
         self.state().lease_end <= Instant::now()
@@ -156,8 +155,7 @@ impl Running {
             .collect()
     }
 
-    /// Handles the answer to a heartbeat: renews the lease and passes on commands, or marks the attempt
-    /// outdated.
+    /// Handles the answer to a heartbeat: renews the lease and passes on commands, or marks the attempt outdated.
     pub fn answered(&self, (id, token, _): &Beat, changed: &Changed, lease_end: Instant) {
         let attempt = self.attempt(*id).filter(|it| it.token == *token);
         match (attempt, changed) {

@@ -18,8 +18,7 @@ pub enum Deployment {
 }
 
 impl Deployment {
-    /// Returns the interval between heartbeats. It bounds the delay of progress shown by other processes, and
-    /// of
+    /// Returns the interval between heartbeats. It bounds the delay of progress shown by other processes, and of
     /// commands to the worker.
     pub(super) fn beat_interval(self, rules: &Rules) -> Duration {
         match self {
@@ -28,8 +27,7 @@ impl Deployment {
         }
     }
 
-    /// Returns the interval at which idle workers look for jobs, and at which records of watched jobs are
-    /// polled.
+    /// Returns the interval at which idle workers look for jobs, and at which records of watched jobs are polled.
     pub(super) fn look_interval(self) -> Duration {
         match self {
             Self::Embedded => Duration::from_secs(1),
@@ -45,8 +43,7 @@ pub struct Settings {
     pub deployment: Deployment,
     /// Rules for losing and retrying jobs.
     pub rules: Rules,
-    /// Folder for uploads under way and for attempts. It belongs to this process alone and is emptied at
-    /// startup.
+    /// Folder for uploads under way and for attempts. It belongs to this process alone and is emptied at startup.
     pub scratch: PathBuf,
     /// Program started as the compute child.
     pub program: Program,
@@ -58,8 +55,7 @@ pub struct Settings {
     pub cores: usize,
     /// Maximum number of jobs of one owner that run at a time, in all processes.
     pub owner_running: Option<u32>,
-    /// Size in bytes up to which a job counts as small: one small job at a time may start although all
-    /// `workers`
+    /// Size in bytes up to which a job counts as small: one small job at a time may start although all `workers`
     /// slots are taken, so that it does not wait for large ones. `None` if small jobs wait like all others.
     pub small: Option<u64>,
     /// Maximum number of queued jobs.
@@ -76,8 +72,7 @@ pub struct Settings {
     pub of_owner: OwnerQuotas,
     /// Bytes that must be free for a job to be accepted or started.
     pub min_free: u64,
-    /// Time for which a job is kept after its end, with its files; `None` if another process takes care of
-    /// that.
+    /// Time for which a job is kept after its end, with its files; `None` if another process takes care of that.
     pub retention: Option<Duration>,
     /// Time for which files without a job are kept before they are deleted.
     pub quarantine: Duration,
@@ -86,8 +81,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Returns the number of threads for a new attempt when `attempts` run here, including itself: cores /
-    /// attempts,
+    /// Returns the number of threads for a new attempt when `attempts` run here, including itself: cores / attempts,
     /// at least 1.
     pub fn threads(&self, attempts: usize) -> usize {
         (self.cores / attempts.max(1)).max(1)

@@ -49,8 +49,7 @@ pub struct Share {
     pub largest: Option<u64>,
     /// Maximum number of running jobs of its owner, in all processes, including the new one.
     pub of_owner: Option<u32>,
-    /// Set if the worker computes other jobs. A busy worker gets no suspected job, and when a suspected job
-    /// has
+    /// Set if the worker computes other jobs. A busy worker gets no suspected job, and when a suspected job has
     /// waited for minutes, it gets no job at all, so that it becomes free.
     pub is_busy: bool,
 }
@@ -116,13 +115,11 @@ pub struct Quarantined {
     pub held: Duration,
 }
 
-/// Store of job records. Every call is one transaction, durable when it returns. Times are those of the
-/// store's
-/// own clock. Only [`after`](super::after) decides how a record changes. Jobs outside the reach of a call are
-/// reported as missing.
+/// Store of job records. Every call is one transaction, durable when it returns. Times are those of the store's own
+/// clock. Only [`after`](super::after) decides how a record changes. Jobs outside the reach of a call are reported as
+/// missing.
 pub trait JobStore: Send + Sync {
-    /// Records a job that is queued or has ended, unless it would exceed the capacity or its key has been
-    /// used. Sets
+    /// Records a job that is queued or has ended, unless it would exceed the capacity or its key has been used. Sets
     /// its times.
     fn enqueue<'a>(
         &'a self,
@@ -147,10 +144,8 @@ pub trait JobStore: Send + Sync {
     /// Returns the latest succeeded jobs with the digest and the owner of this one.
     fn equal<'a>(&'a self, job: &'a Job) -> BoxFuture<'a, StoreResult<Vec<Job>>>;
 
-    /// Assigns a queued job that may start to a worker. Takes the owner with the fewest running jobs, and
-    /// among
-    /// those the one whose last start was longest ago. Of that owner's jobs, takes the oldest of the highest
-    /// priority.
+    /// Assigns a queued job that may start to a worker. Takes the owner with the fewest running jobs, and among those
+    /// the one whose last start was longest ago. Of that owner's jobs, takes the oldest of the highest priority.
     fn claim(&self, worker: WorkerId, share: Share) -> BoxFuture<'_, StoreResult<Option<Job>>>;
 
     /// Pauses or resumes claiming, for all processes.
@@ -190,8 +185,8 @@ pub trait JobStore: Send + Sync {
     /// Returns whether there was a job until it expired. This is known for a year.
     fn has_expired<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<bool>>;
 
-    /// Returns some jobs that ended longer ago than `kept`. A job that belongs to a request is included a few
-    /// minutes after its end.
+    /// Returns some jobs that ended longer ago than `kept`. A job that belongs to a request is included a few minutes
+    /// after its end.
     fn ended_before(&self, kept: Duration) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
 
     /// Deletes the idempotency keys of submissions made more than a day ago.
@@ -218,8 +213,7 @@ pub trait JobStore: Send + Sync {
     /// Returns the numbers of records.
     fn census(&self) -> BoxFuture<'_, StoreResult<Census>>;
 
-    /// Records files without a job, with their sizes in bytes. Restarts the time of files that were last
-    /// recorded
+    /// Records files without a job, with their sizes in bytes. Restarts the time of files that were last recorded
     /// more than three days ago, or at a time that the clock has not reached.
     fn quarantine<'a>(&'a self, files: &'a [(JobId, u64)]) -> BoxFuture<'a, StoreResult<()>>;
 

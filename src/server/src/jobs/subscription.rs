@@ -36,8 +36,7 @@ impl Subscription {
         self
     }
 
-    /// Waits for the next event newer than the last one. Returns `None` after a final event, or when the job
-    /// is
+    /// Waits for the next event newer than the last one. Returns `None` after a final event, or when the job is
     /// removed.
     pub async fn next(&mut self) -> Option<Event> {
         while self.last != Last::Final {

@@ -13,8 +13,7 @@ use super::store_error::StoreResult;
 const SWEEPS: u32 = 3;
 
 impl Jobs {
-    /// Sweeps periodically until stopped. Takes no job before the store has answered without delay for the
-    /// time of a
+    /// Sweeps periodically until stopped. Takes no job before the store has answered without delay for the time of a
     /// lease: workers that could not reach the store are not silent, and hand their jobs back themselves.
     pub(super) async fn sweep_until(&self, stop: &CancellationToken) {
         let lease = self.settings.rules.lease;

@@ -48,14 +48,13 @@ pub enum Ending {
     Succeeded(Vec<OutputFile>, Verdict),
     /// It failed and would fail again.
     Failed(Failure),
-    /// It was canceled.
+    /// It was cancelled.
     Cancelled,
     /// Its computation was killed while its worker lived, possibly because of the job. A retry may succeed.
     Lost(Failure),
     /// It was stopped from outside, as on shutdown, which says nothing about the job.
     Interrupted(Failure),
-    /// The worker cannot go on, for a reason unrelated to the job. Any worker may take the job after this
-    /// time.
+    /// The worker cannot go on, for a reason unrelated to the job. Any worker may take the job after this time.
     HandedBack(Duration),
 }
 
@@ -70,8 +69,7 @@ pub enum Refusal {
     TooEarly,
 }
 
-/// Returns the record after an event at time `now`, or why it stays unchanged. Reporting an end twice is not
-/// an
+/// Returns the record after an event at time `now`, or why it stays unchanged. Reporting an end twice is not an
 /// error.
 pub fn after(
     job: &Job,
@@ -168,8 +166,8 @@ fn lost(job: &mut Job, cause: &Failure, rules: &Rules, now: Timestamp) {
     try_again(job, cause, (job.lost, rules.attempts), rules, now);
 }
 
-/// Counts an attempt lost with its worker. These are counted apart from killed computations, because most of
-/// them are not the job's fault.
+/// Counts an attempt lost with its worker. These are counted apart from killed computations, because most of them are
+/// not the job's fault.
 fn interrupted(job: &mut Job, cause: &Failure, rules: &Rules, now: Timestamp) {
     job.interrupted += 1;
     try_again(
@@ -181,8 +179,7 @@ fn interrupted(job: &mut Job, cause: &Failure, rules: &Rules, now: Timestamp) {
     );
 }
 
-/// Requeues a job after a pause, or fails it if `lost` has reached the limit `most`. Ends it if it is
-/// canceled.
+/// Requeues a job after a pause, or fails it if `lost` has reached the limit `most`. Ends it if it is cancelled.
 fn try_again(
     job: &mut Job,
     cause: &Failure,

@@ -42,8 +42,8 @@ impl Jobs {
         Ok(Some(subscription))
     }
 
-    /// Waits for the next frame of maps after `after`. Frames are only available in the process that computes
-    /// the job.
+    /// Waits for the next frame of maps after `after`. Frames are only available in the process that computes the
+    /// job.
     pub async fn next_maps(&self, id: JobId, after: u64) -> NextMaps {
         let Some(listener) = self.map_listener(id).await else {
             return match self.settings.deployment {

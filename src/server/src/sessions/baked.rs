@@ -15,8 +15,7 @@ pub struct Baked {
 }
 
 impl Session {
-    /// Turns the present state of the session into a job: the same input and options, with the current
-    /// handles, and
+    /// Turns the present state of the session into a job: the same input and options, with the current handles, and
     /// the current map as its [start](START). The session goes on.
     ///
     /// # Errors

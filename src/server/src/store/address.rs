@@ -8,8 +8,7 @@ use super::files::FileBlobs;
 use super::objects::ObjectBlobs;
 use crate::jobs::{Blobs, StoreError, StoreResult};
 
-/// Opens the file storage at a URL: `file:///FOLDER`, `s3://BUCKET` or `s3://BUCKET/PREFIX`. Environment
-/// variables
+/// Opens the file storage at a URL: `file:///FOLDER`, `s3://BUCKET` or `s3://BUCKET/PREFIX`. Environment variables
 /// tell how to connect to a bucket.
 pub fn blobs_at(url: &str) -> StoreResult<Box<dyn Blobs>> {
     match url.split_once("://") {

@@ -1,9 +1,7 @@
 //! Assignment of jobs to workers: owners take turns.
 //!
-//! The next job belongs to the owner with the fewest running jobs, and among those to the one whose last
-//! start was
-//! longest ago. Priorities order the jobs of one owner, never those of different owners. So an owner who
-//! submits a
+//! The next job belongs to the owner with the fewest running jobs, and among those to the one whose last start was
+//! longest ago. Priorities order the jobs of one owner, never those of different owners. So an owner who submits a
 //! thousand jobs delays nobody else.
 
 use sqlx::{Any, Row, Transaction};
@@ -12,8 +10,7 @@ use super::database::Database;
 use super::transitions::written;
 use crate::jobs::{Changed, Happening, Job, Rules, SUSPECT, Share, StoreResult, WorkerId};
 
-/// Condition for queued jobs of at most `$2` bytes that may start. A job whose pause exceeds the longest one
-/// (`$1`)
+/// Condition for queued jobs of at most `$2` bytes that may start. A job whose pause exceeds the longest one (`$1`)
 /// is due, because the clock was set back since. A busy worker (`$3 = 1`) gets no job that was lost with `$4`
 /// workers, and no job at all while such a job has been due for five minutes.
 const DUE: &str = "job.state = 'queued' AND (job.due <= {now} OR {now} + $1 < job.due)

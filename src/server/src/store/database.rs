@@ -10,8 +10,7 @@ use sqlx::{Any, AnyConnection, AnyPool, AssertSqlSafe, Connection, Row, SqlSafeS
 use super::dialect::Dialect;
 use crate::jobs::{StoreError, StoreResult};
 
-/// Migrations: the n-th one leads from version n to the next. Programs of the previous version must keep
-/// working
+/// Migrations: the n-th one leads from version n to the next. Programs of the previous version must keep working
 /// after it: columns are added, never removed.
 const SQLITE: [&str; 14] = [
     include_str!("schema/sqlite/1.sql"),
@@ -43,8 +42,7 @@ const POSTGRES: [&str; 11] = [
     include_str!("schema/postgres/11.sql"),
 ];
 
-/// Settings of every connection to SQLite. Commits are durable; the log is copied into the database after a
-/// quarter
+/// Settings of every connection to SQLite. Commits are durable; the log is copied into the database after a quarter
 /// of the usual number of pages. Sorting stays in memory, because an image has no folder for temporary files.
 const PRAGMAS: &str = "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;
     PRAGMA wal_autocheckpoint = 256; PRAGMA foreign_keys = ON; PRAGMA busy_timeout = 5000;
@@ -61,8 +59,7 @@ const REACH_PAUSE: Duration = Duration::from_millis(200);
 pub(super) struct Database {
     /// Connections for reading.
     pub readers: AnyPool,
-    /// Connections for writing. SQLite allows one writer at a time and makes others poll, so there is only
-    /// one
+    /// Connections for writing. SQLite allows one writer at a time and makes others poll, so there is only one
     /// connection here, for which writers queue.
     pub writers: AnyPool,
     pub dialect: Dialect,
@@ -191,10 +188,9 @@ fn pool(dialect: Dialect, connections: u32) -> AnyPoolOptions {
     }
 }
 
-/// Returns whether a connection may be reused. SQLite ends a transaction by itself when a disk is full; sqlx
-/// then
-/// fails to roll it back, considers it open forever, and refuses every further one. A connection that was
-/// silently cut does not answer, and must not keep its place.
+/// Returns whether a connection may be reused. SQLite ends a transaction by itself when a disk is full; sqlx then
+/// fails to roll it back, considers it open forever, and refuses every further one. A connection that was silently
+/// cut does not answer, and must not keep its place.
 async fn is_usable(connection: &mut AnyConnection) -> sqlx::Result<bool> {
     // After this, a rollback that a dropped transaction asked for is done.
     let answer = tokio::time::timeout(PATIENCE, connection.ping()).await;

@@ -19,8 +19,7 @@ impl Dialect {
         }
     }
 
-    /// Returns the statement that begins a writing transaction. SQLite has a single lock, which a transaction
-    /// that
+    /// Returns the statement that begins a writing transaction. SQLite has a single lock, which a transaction that
     /// reads first could not get later.
     pub fn begin(self) -> &'static str {
         match self {
@@ -29,9 +28,8 @@ impl Dialect {
         }
     }
 
-    /// Returns the statement that lets one submission at a time count the queued jobs and look for its key;
-    /// `None` for
-    /// SQLite, which has one writer anyway.
+    /// Returns the statement that lets one submission at a time count the queued jobs and look for its key; `None`
+    /// for SQLite, which has one writer anyway.
     pub fn lock_submissions(self) -> Option<&'static str> {
         match self {
             Self::Sqlite => None,
@@ -39,8 +37,7 @@ impl Dialect {
         }
     }
 
-    /// Returns the statement that lets one claim at a time count the running jobs of an owner; `None` for
-    /// SQLite.
+    /// Returns the statement that lets one claim at a time count the running jobs of an owner; `None` for SQLite.
     pub fn lock_claims(self) -> Option<&'static str> {
         match self {
             Self::Sqlite => None,
@@ -48,9 +45,8 @@ impl Dialect {
         }
     }
 
-    /// Expands a statement: `{columns}` to the columns of a job, `{now}` to the clock, `{locked}` to a lock
-    /// on the rows
-    /// after waiting for others, `{free}` to a lock on the job rows that no other transaction has locked.
+    /// Expands a statement: `{columns}` to the columns of a job, `{now}` to the clock, `{locked}` to a lock on the
+    /// rows after waiting for others, `{free}` to a lock on the job rows that no other transaction has locked.
     pub fn sql(self, text: &str) -> String {
         let (locked, free) = match self {
             Self::Sqlite => ("", ""),
@@ -62,8 +58,7 @@ impl Dialect {
             .replace("{free}", free)
     }
 
-    /// Returns the expression for milliseconds since 1970 by the clock of the database, which advances within
-    /// a
+    /// Returns the expression for milliseconds since 1970 by the clock of the database, which advances within a
     /// transaction.
     fn now(self) -> &'static str {
         match self {

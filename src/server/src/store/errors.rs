@@ -8,8 +8,7 @@ use crate::jobs::StoreError;
 /// SQLite's codes, in the low byte, for a full disk, and for a database or a table in use.
 const SQLITE_FULL: i32 = 13;
 const SQLITE_BUSY: [i32; 2] = [5, 6];
-/// PostgreSQL's code for a full disk, and the classes of its temporary errors: connections, deadlocks, lack
-/// of
+/// PostgreSQL's code for a full disk, and the classes of its temporary errors: connections, deadlocks, lack of
 /// resources, interventions of an operator such as a restart, its disk.
 const POSTGRES_FULL: &str = "53100";
 const POSTGRES_PASSING: [&str; 5] = ["08", "40", "53", "57", "58"];

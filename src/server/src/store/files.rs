@@ -21,8 +21,7 @@ const IDENTITY: &str = "store-id";
 /// Number of further attempts to remove a folder into which one of a job's three pictures was stored meanwhile.
 const REMOVALS: usize = 3;
 
-/// A folder with one subfolder per job. Files are moved rather than copied if they are on the same file
-/// system.
+/// A folder with one subfolder per job. Files are moved rather than copied if they are on the same file system.
 pub struct FileBlobs {
     root: PathBuf,
 }
@@ -36,8 +35,7 @@ impl FileBlobs {
         })
     }
 
-    /// Syncs all folders on the path of a file, so that its name is durable. They are synced concurrently,
-    /// which the
+    /// Syncs all folders on the path of a file, so that its name is durable. They are synced concurrently, which the
     /// file system can combine.
     async fn sync_folders_of(&self, path: &Path) -> StoreResult<()> {
         let folders = path.ancestors().skip(1);
@@ -64,8 +62,7 @@ fn is_absent(error: &std::io::Error, path: &Path) -> bool {
     error.kind() == ErrorKind::NotFound && !path.exists()
 }
 
-/// Lists the files below a folder by their paths from the root, with sizes in bytes. Skips files that
-/// disappear
+/// Lists the files below a folder by their paths from the root, with sizes in bytes. Skips files that disappear
 /// meanwhile.
 fn listed(root: &Path, folder: &Path) -> std::io::Result<Vec<(String, u64)>> {
     let mut files = Vec::new();

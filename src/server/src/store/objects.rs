@@ -42,9 +42,8 @@ pub struct ObjectBlobs {
 }
 
 impl ObjectBlobs {
-    /// Opens the bucket and prefix of `s3://BUCKET/PREFIX`. Endpoint, region, credentials and the like are
-    /// set by their
-    /// usual variables, such as `AWS_ENDPOINT_URL`; other variables are ignored.
+    /// Opens the bucket and prefix of `s3://BUCKET/PREFIX`. Endpoint, region, credentials and the like are set by
+    /// their usual variables, such as `AWS_ENDPOINT_URL`; other variables are ignored.
     pub fn open(url: &str, variables: impl Iterator<Item = (String, String)>) -> StoreResult<Self> {
         // Another user of TLS in this process may have chosen first.
         let _ = rustls::crypto::ring::default_provider().install_default();

@@ -12,8 +12,7 @@ use super::rows::damaged;
 use crate::jobs::access::Owner;
 use crate::jobs::{Notice, Outbox, StoreResult};
 
-/// Condition for notices that are due. No pause exceeds a day: a longer one means that the clock was set
-/// back.
+/// Condition for notices that are due. No pause exceeds a day: a longer one means that the clock was set back.
 const DUE: &str = "(due <= {now} OR {now} + 86400000 < due)";
 
 impl Outbox for RecordStore {

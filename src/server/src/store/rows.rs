@@ -8,9 +8,8 @@ use sqlx::{Any, Row, Transaction};
 use crate::jobs::access::Owner;
 use crate::jobs::{Event, Job, JobId, StoreError, StoreResult, Timestamp, Token};
 
-/// Columns of a job, each by name: a statement for all columns would fail in processes that are still running
-/// when
-/// a newer program adds one.
+/// Columns of a job, each by name: a statement for all columns would fail in processes that are still running when a
+/// newer program adds one.
 pub(super) const COLUMNS: &str =
     "id, owner, kind, state, options, input, output, verdict, attempt, digest,
     priority, token, worker, lease, due, lost, cancel, finish_early, ephemeral, seq, progress,
@@ -63,8 +62,7 @@ pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) ->
     Ok(())
 }
 
-/// Updates the mutable columns of a job if its record has this token. Returns `false` if it has a different
-/// one.
+/// Updates the mutable columns of a job if its record has this token. Returns `false` if it has a different one.
 pub(super) async fn update(
     job: &Job,
     token: Token,

@@ -1,7 +1,6 @@
 //! Changes of job records: heartbeat, sweep, end, client command, deletion.
 //!
-//! Each is one transaction: it locks and reads a row, [`after`] computes the next record, and the row is
-//! written with
+//! Each is one transaction: it locks and reads a row, [`after`] computes the next record, and the row is written with
 //! its former token in the WHERE clause.
 
 use sqlx::any::AnyRow;

@@ -163,8 +163,7 @@ impl Courier {
     }
 }
 
-/// Formats an error with its causes on one line. Callers remove URLs, which may contain secrets of the
-/// receiver.
+/// Formats an error with its causes on one line. Callers remove URLs, which may contain secrets of the receiver.
 fn text(error: &dyn std::error::Error) -> String {
     let causes = std::iter::successors(Some(error), |error| error.source());
     let mut words: Vec<String> = causes.map(ToString::to_string).collect();

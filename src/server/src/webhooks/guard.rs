@@ -36,8 +36,7 @@ pub fn check(webhook: &Webhook, reachable: Reachable) -> Result<(), NotPublic> {
     if is_allowed { Ok(()) } else { Err(NotPublic) }
 }
 
-/// Resolves names to their permitted addresses only. Connections use these addresses, so a name that changes
-/// its
+/// Resolves names to their permitted addresses only. Connections use these addresses, so a name that changes its
 /// meaning a moment later has no effect.
 pub(super) struct Guard(pub Reachable);
 
@@ -58,9 +57,8 @@ impl Resolve for Guard {
 
 // Classification of network addresses.
 
-/// Returns whether an address belongs to the public network: not to this host, not to a private network, and
-/// not to
-/// a special-purpose range (RFC 6890). Addresses that embed an IPv4 address are judged by it.
+/// Returns whether an address belongs to the public network: not to this host, not to a private network, and not to a
+/// special-purpose range (RFC 6890). Addresses that embed an IPv4 address are judged by it.
 pub fn is_public(address: IpAddr) -> bool {
     match address {
         IpAddr::V4(address) => is_public_v4(address),

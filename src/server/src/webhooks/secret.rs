@@ -13,9 +13,8 @@ use crate::jobs::access::Owner;
 /// Minimum length of a secret in bytes.
 const LEAST: usize = 24;
 
-/// Secret of the service, from which a secret per owner is derived: no owner can sign for another, and
-/// nothing has
-/// to be stored.
+/// Secret of the service, from which a secret per owner is derived: no owner can sign for another, and nothing has to
+/// be stored.
 #[derive(Clone)]
 pub struct Secret(String);
 

@@ -56,8 +56,7 @@ fn session(folder: &Path, out: &File) -> Result<(), Failure> {
     served.map_err(|error| Failure::new(error.code(), error.to_string()))?
 }
 
-/// Starts the thread that listens to the server. The process exits when standard input ends, because the
-/// server is
+/// Starts the thread that listens to the server. The process exits when standard input ends, because the server is
 /// gone or closed the session.
 fn listen() -> std::io::Result<Receiver<Said>> {
     let (say, said) = sync_channel(MOST_WAITING);
@@ -97,8 +96,7 @@ fn serve(mut course: Course, said: &Receiver<Said>, folder: &Path, out: &File) {
     }
 }
 
-/// Handles the records since the last iteration. Among moves of one handle with nothing but moves between
-/// them, only
+/// Handles the records since the last iteration. Among moves of one handle with nothing but moves between them, only
 /// the last one has an effect, so outdated positions do not delay a drag.
 fn take(course: &mut Course, batch: Vec<Said>, folder: &Path, out: &File) {
     let is_late = superseded(&batch);

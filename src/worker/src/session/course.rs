@@ -23,8 +23,8 @@ pub struct Course {
 }
 
 impl Course {
-    /// Opens a session on what such a job would deform, at rest, with the handles of the options, numbered in
-    /// list order.
+    /// Opens a session on what such a job would deform, at rest, with the handles of the options, numbered in list
+    /// order.
     ///
     /// # Errors
     /// Fails like the job, or if its kind has no handles.

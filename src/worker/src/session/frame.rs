@@ -94,8 +94,7 @@ impl<'a> Elements<'a> {
     }
 }
 
-/// Encodes a frame. Rounds coordinates to f32 unless that would flip an element; `flips` counts the encoded
-/// numbers.
+/// Encodes a frame. Rounds coordinates to f32 unless that would flip an element; `flips` counts the encoded numbers.
 pub(super) fn frame(header: &Header, elements: &Elements, x: &[f64]) -> Vec<u8> {
     let rounded: Vec<f64> = x.iter().map(|&x| f64::from(x as f32)).collect();
     let mut flips = elements.flips(&rounded);
@@ -138,6 +137,7 @@ pub(super) fn mesh(drawn: &Drawn, elements: &Elements) -> Vec<u8> {
         Some(skin) => (&skin.corners, &skin.weights),
         None => (&[], &[]),
     };
+    // The header.
     let mut bytes = vec![
         MESH,
         dim as u8,
@@ -157,6 +157,7 @@ pub(super) fn mesh(drawn: &Drawn, elements: &Elements) -> Vec<u8> {
     for count in counts {
         bytes.extend((count as u32).to_le_bytes());
     }
+    // Coordinates, then indices, then weights.
     bytes.extend(drawn.rest.iter().flat_map(|x| x.to_le_bytes()));
     let skin_corners: &[[u32; 4]] = skin.0;
     for list in [

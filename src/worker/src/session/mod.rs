@@ -1,7 +1,6 @@
 //! The child of a live session: messages in, frames out.
 //!
-//! [`Course`] is the whole state between the pipes of the child: it handles messages in order and produces a
-//! frame
+//! [`Course`] is the whole state between the pipes of the child: it handles messages in order and produces a frame
 //! after each iteration, so the frames can be reproduced from input and messages.
 
 mod body_hand;

@@ -76,8 +76,8 @@ pub struct Key {
     pub used: Option<Timestamp>,
 }
 
-/// Store of key records. It lies beside the job records, so all processes that share these share the keys.
-/// Times are those of the store's clock.
+/// Store of key records. It lies beside the job records, so all processes that share these share the keys. Times are
+/// those of the store's clock.
 pub trait KeyStore: Send + Sync {
     /// Records a key.
     fn add_key<'a>(&'a self, new: &'a NewKey) -> BoxFuture<'a, StoreResult<Key>>;

@@ -147,8 +147,7 @@ impl KeyRing {
         }
     }
 
-    /// Creates a key for a page of the caller. Returns `None` if the caller has no key, or if it was just
-    /// revoked.
+    /// Creates a key for a page of the caller. Returns `None` if the caller has no key, or if it was just revoked.
     pub async fn sign_in(&self, caller: &Caller) -> StoreResult<Option<Signed>> {
         let Some(key) = caller.key() else {
             return Ok(None);
