@@ -1,16 +1,16 @@
-//! Which handle pulls what.
+//! The vertices and points that each handle pulls.
 
-/// What one handle takes hold of.
+/// The vertices and points that one handle pulls.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Aim {
-    /// Vertices.
+    /// Indices of the vertices.
     pub vertices: Vec<u32>,
-    /// Points, by their places in [`Handles::points`](unwrapd_method::solver::Handles::points).
+    /// Points, as indices into [`Handles::points`](unwrapd_method::solver::Handles::points).
     pub points: Vec<usize>,
 }
 
 impl Aim {
-    /// At one vertex.
+    /// Pulls one vertex.
     pub(super) fn at_vertex(vertex: u32) -> Self {
         Self {
             vertices: vec![vertex],
@@ -18,7 +18,7 @@ impl Aim {
         }
     }
 
-    /// At one point.
+    /// Pulls one point.
     pub(super) fn at_point(point: usize) -> Self {
         Self {
             vertices: Vec::new(),

@@ -1,22 +1,22 @@
-//! Bends that keep handles apart from each other on their ways.
+//! Bends that keep handles apart from each other on their paths.
 
 use super::way::{BEND, Way};
 use unwrapd_method::numerics::vec3;
 
-/// Places of a way at which it is compared with others.
+/// Samples of a path at which it is compared with others.
 const PLACES: usize = 16;
 
-/// How often every way chooses its bend anew, at most.
+/// Most sweeps in which every path chooses its bend anew.
 const SWEEPS: usize = 10;
 
-/// More ways than this are not compared pair by pair.
+/// Most paths that are compared pair by pair.
 const MOST: usize = 300;
 
-/// How far a way may bend, in units of [`BEND`].
+/// Heights of bends to choose from, in units of [`BEND`].
 const HEIGHTS: [f64; 6] = [-2.0, -1.0, -0.5, 0.5, 1.0, 2.0];
 
-/// For each way its bend, such that those who are on their way at the same time come as little closer to each other than they are
-/// at the start or at the end as choosing one bend after another achieves.
+/// Greedily chooses a bend for each path, in several sweeps, so that handles moving at the same time come as little
+/// closer to each other than at the start or the end as possible. With more than [`MOST`] paths all stay straight.
 pub(super) fn apart(ways: &[Way], axes: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let mut bends = vec![[0.0; 3]; ways.len()];
     if ways.len() > MOST {
@@ -65,7 +65,7 @@ fn choices(way: &Way, axes: &[[f64; 3]]) -> impl Iterator<Item = [f64; 3]> {
     axes.iter().flat_map(bent).chain([[0.0; 3]])
 }
 
-/// Where a handle is at equal times.
+/// Returns the positions of a handle at equal time steps.
 fn track(way: &Way, bend: [f64; 3]) -> Track {
     let straight = vec3::sub(way.to, way.from);
     std::array::from_fn(|k| {
@@ -75,7 +75,7 @@ fn track(way: &Way, bend: [f64; 3]) -> Track {
     })
 }
 
-/// How much closer two come than they are at the start or at the end: the sum of the squared ratios.
+/// Measures by how much two handles come closer than at the start or the end: the sum of the squared ratios.
 fn closeness(one: &Track, other: &Track) -> f64 {
     let squared = |k: usize| {
         let apart = vec3::sub(one[k], other[k]);

@@ -1,4 +1,4 @@
-//! A map whose handles are on their way.
+//! An attempt to bring handles to their targets.
 
 use super::problem::Problem;
 use super::problem_error::ProblemError;
@@ -9,7 +9,7 @@ use unwrapd_method::solver::{
     Continued, Handles, Journey, Objective, Pace, Settings, Status, Summary, Watch,
 };
 
-/// What is tried with, and the work of all attempts so far.
+/// Shared state of all attempts: the problem, the objective, the settings, and the work done so far.
 pub(super) struct Trial<'a> {
     pub problem: &'a Problem,
     pub objective: Objective,
@@ -19,17 +19,17 @@ pub(super) struct Trial<'a> {
 }
 
 impl Trial<'_> {
-    /// Is the effort spent?
+    /// Returns whether the iterations are used up.
     pub fn is_spent(&self) -> bool {
         self.total.iterations >= self.settings.max_iterations
     }
 
-    /// Adds the work of one more.
+    /// Adds the work of one more attempt.
     pub fn add(&mut self, more: &Summary) {
         self.total = self.total.followed_by(more);
     }
 
-    /// A map as a solution, with the work of all attempts.
+    /// Turns a map into a solution, with the work of all attempts.
     pub fn solution(&self, x: Vec<f64>, status: Status, energy_last: f64) -> Solution {
         let summary = Summary {
             status,
@@ -40,7 +40,7 @@ impl Trial<'_> {
     }
 }
 
-/// A map and the journey that its handles are on.
+/// A map and the journey of its handles.
 pub(super) struct Attempt<const D: usize> {
     x: Vec<f64>,
     journey: Journey<D>,
@@ -51,7 +51,7 @@ impl<const D: usize> Attempt<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
-    /// From the map `x` to these stations, in so many iterations at most to each.
+    /// Starts from the map `x` through these stations, with at most `max_iterations` iterations.
     pub fn new(
         trial: &mut Trial,
         x: Vec<f64>,
@@ -69,7 +69,7 @@ where
         })
     }
 
-    /// From the start on ways with these bends, straight ones if there are none.
+    /// Starts from `start` on paths with these bends, or on straight ones if `bends` is empty.
     pub fn bent(
         trial: &mut Trial,
         start: &[f64],
@@ -83,7 +83,7 @@ where
         Self::new(trial, start.to_vec(), course)
     }
 
-    /// Goes on as long as it keeps the pace.
+    /// Continues as long as it keeps the pace.
     pub fn go_on(&mut self, trial: &mut Trial, pace: Pace) -> Result<(), ProblemError> {
         let before = self.journey.summary();
         let watch = Continued {
@@ -101,7 +101,7 @@ where
         Ok(())
     }
 
-    /// May it go on at a slower pace?
+    /// Returns whether it may continue at a slower pace.
     pub fn is_paused(&self) -> bool {
         self.journey.is_paused()
     }
@@ -110,7 +110,7 @@ where
         self.journey.summary().status == Status::Stopped
     }
 
-    /// Need no more be tried? With `search` all is, unless it is stopped.
+    /// Returns whether no more attempts are needed. With `search` all are made, unless stopped.
     pub fn is_enough(&self, search: bool) -> bool {
         self.is_stopped() || self.has_arrived() && !search
     }
@@ -120,12 +120,13 @@ where
         !matches!(status, Status::TargetsUnreachable | Status::Stopped)
     }
 
-    /// The energy of its map.
+    /// Returns the energy of its map.
     pub fn energy(&self) -> f64 {
         self.journey.summary().energy_last
     }
 
-    /// The better one: that of the lower energy where both have arrived, otherwise the one that has or has come farther.
+    /// Returns the better attempt: that of the lower energy if both have arrived, otherwise the one that has or has
+    /// come farther.
     pub fn or(self, other: Self) -> Self {
         let is_better = match (self.has_arrived(), other.has_arrived()) {
             (true, true) => other.energy() < self.energy(),
@@ -135,12 +136,12 @@ where
         if is_better { other } else { self }
     }
 
-    /// Its map.
+    /// Returns its map.
     pub fn into_map(self) -> Vec<f64> {
         self.x
     }
 
-    /// Its map as a solution.
+    /// Returns its map as a solution.
     pub fn into_solution(self, trial: &Trial) -> Solution {
         let summary = self.journey.summary();
         trial.solution(self.x, summary.status, summary.energy_last)

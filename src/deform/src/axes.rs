@@ -1,9 +1,10 @@
-//! Axes that ways are bent about.
+//! Axes about which paths are bent.
 
 use super::body::Body;
 use unwrapd_method::numerics::principal_axes::PrincipalAxes;
 
-/// The axis of the plane, or of a body of space its principal axes, that of its least extent first: they turn with the body.
+/// Returns the axis of the plane, or the principal axes of a body of space, that of its least extent first: they turn
+/// with the body.
 pub(super) fn axes(body: &Body) -> Vec<[f64; 3]> {
     if body.dim() == 2 {
         return vec![[0.0, 0.0, 1.0]];

@@ -1,18 +1,18 @@
-//! Which bends are tried.
+//! Bends of paths to try.
 
 use super::apart::apart;
 use super::axes::axes;
 use super::problem::Problem;
 use super::way::{BEND, Way, ways};
 
-/// Bends that are tried at most.
+/// Most bends that are tried.
 const MOST: usize = 8;
 
-/// A way shorter than this share of the longest is none.
+/// A path shorter than this share of the longest counts as having length zero.
 const SHORTEST: f64 = 1e-9;
 
 impl Problem {
-    /// What bends are tried, one after the other: all to the left and to the right of a few axes, those that keep the handles
+    /// Returns the bends to try, in order: all to the left and to the right of a few axes, those that keep the handles
     /// apart, stronger ones, and mixed ones.
     pub(super) fn bends(&self) -> Vec<Vec<[f64; 3]>> {
         let Some(last) = self.stations.last() else {
@@ -42,7 +42,7 @@ impl Problem {
     }
 }
 
-/// The first of those that differ from straight ways and from each other.
+/// Returns the first bends that differ from straight paths and from each other, at most [`MOST`].
 fn distinct(all: Vec<Vec<[f64; 3]>>) -> Vec<Vec<[f64; 3]>> {
     let mut kept: Vec<Vec<[f64; 3]>> = Vec::new();
     for bends in all {

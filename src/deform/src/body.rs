@@ -1,4 +1,4 @@
-//! What is deformed.
+//! Bodies to deform.
 
 use super::problem_error::ProblemError;
 use unwrapd_maps::mesh::{ElementError, PlanarMesh, TetMesh, validate};
@@ -12,25 +12,25 @@ use unwrapd_method::numerics::vec3;
 pub struct Body {
     /// Rest positions, coordinates one after another.
     pub rest: Vec<f64>,
-    /// What it consists of.
+    /// Elements of the body.
     pub elements: BodyElements,
 }
 
 /// Elements of one kind; the size and the weight of a rest shape are its true area or volume.
 #[derive(Clone, Debug)]
 pub enum BodyElements {
-    /// Of the plane.
+    /// Triangles of the plane.
     Triangles {
-        /// Three vertices each.
+        /// Three vertices per triangle.
         corners: Vec<[u32; 3]>,
-        /// One each.
+        /// One rest shape per triangle.
         rest: Vec<RestShape<2>>,
     },
-    /// Of space.
+    /// Tetrahedra of space.
     Tetrahedra {
-        /// Four vertices each.
+        /// Four vertices per tetrahedron.
         corners: Vec<[u32; 4]>,
-        /// One each.
+        /// One rest shape per tetrahedron.
         rest: Vec<RestShape<3>>,
     },
 }
@@ -59,7 +59,7 @@ impl From<&TetMesh> for Body {
 }
 
 impl Body {
-    /// Counter-clockwise triangles of the plane.
+    /// Creates a body of counter-clockwise triangles of the plane.
     pub(super) fn planar(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> Self {
         let shape = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|v| vertices[v as usize]);
@@ -74,10 +74,11 @@ impl Body {
         }
     }
 
-    /// A surface whose triangles are laid flat one by one; its rest positions are the first two coordinates.
+    /// Creates a body from a surface whose triangles are laid flat one by one; its rest positions are the first two
+    /// coordinates.
     ///
     /// # Errors
-    /// For indices out of range, coordinates that are not finite, and triangles without an area.
+    /// For indices out of range, coordinates that are not finite, and triangles without area.
     pub fn flattened(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Self, ElementError> {
         validate(vertices, triangles, "triangles")?;
         let corners = |t: &[u32; 3]| t.map(|v| vertices[v as usize]);
@@ -100,7 +101,7 @@ impl Body {
         })
     }
 
-    /// Coordinates per vertex.
+    /// Returns the number of coordinates per vertex.
     pub fn dim(&self) -> usize {
         match self.elements {
             BodyElements::Triangles { .. } => 2,
@@ -108,12 +109,12 @@ impl Body {
         }
     }
 
-    /// Number of vertices.
+    /// Returns the number of vertices.
     pub fn n_vertices(&self) -> usize {
         self.rest.len() / self.dim()
     }
 
-    /// Are there as many coordinates as the body has?
+    /// Checks the number of coordinates of `x` against that of the body.
     pub fn check(&self, x: &[f64]) -> Result<(), ProblemError> {
         let (found, expected) = (x.len(), self.rest.len());
         if found == expected {
@@ -123,7 +124,7 @@ impl Body {
         }
     }
 
-    /// The vertices of each element.
+    /// Returns the vertices of each element.
     pub fn corners(&self) -> Vec<&[u32]> {
         match &self.elements {
             BodyElements::Triangles { corners, .. } => {
@@ -135,7 +136,7 @@ impl Body {
         }
     }
 
-    /// The determinant of each element's edges: twice its area or six times its volume.
+    /// Returns the determinant of each element's edges: twice its area or six times its volume.
     pub fn determinants(&self) -> Vec<f64> {
         match &self.elements {
             BodyElements::Triangles { rest, .. } => {
@@ -147,7 +148,8 @@ impl Body {
         }
     }
 
-    /// The same determinants where the vertices are at `x`: not positive where an element is inverted or has no size.
+    /// Returns the determinant of each element's edges with the vertices at `x`: not positive if it is inverted or
+    /// degenerate.
     pub fn determinants_at(&self, x: &[f64]) -> Vec<f64> {
         match &self.elements {
             BodyElements::Triangles { corners, .. } => {
@@ -169,7 +171,7 @@ impl Body {
         }
     }
 
-    /// Lumped masses: hybrid Voronoi areas in the plane, a quarter of the volume per corner in space.
+    /// Returns lumped masses: hybrid Voronoi areas in the plane, a quarter of the volume per corner in space.
     pub fn masses(&self) -> Vec<f64> {
         match &self.elements {
             BodyElements::Triangles { corners, .. } => {
@@ -187,7 +189,7 @@ impl Body {
         }
     }
 
-    /// Groups the vertices of `chosen` by the elements' edges between them: the number of each one's group.
+    /// Groups the vertices of `chosen` by the elements' edges between them; returns the group number of each.
     pub fn groups(&self, chosen: &[u32]) -> Vec<u32> {
         let mut group = vec![u32::MAX; self.n_vertices()];
         for (i, &v) in chosen.iter().enumerate() {

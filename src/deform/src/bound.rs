@@ -1,35 +1,35 @@
-//! Ways of handles from rest to their targets.
+//! Paths of handles from rest to their targets.
 
 use unwrapd_method::numerics::rotation::Rotation;
 use unwrapd_method::numerics::square::{Matrix, Square, apply};
 use unwrapd_method::solver::Handles;
 
-/// From half a turn on the way is not the shortest one any more, so that it has to be prescribed; in degrees.
+/// Turn, in degrees, from which the path is no longer the shortest one and must be prescribed.
 const HALF_TURN: f64 = 180.0;
 
-/// A station is at most so many degrees from the next. Each is settled before the next; 15 degrees are what twisted bars were
-/// measured to keep their turns with, at three or four factorizations a station.
+/// Largest turn between two stations, in degrees. Each station is settled before the next; twisted bars keep their
+/// turns at 15 degrees, by measurement, with three or four factorizations per station.
 const BETWEEN_STATIONS: f64 = 15.0;
 
-/// What a disc of vertices turns by.
+/// Turn of a disc of vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Turned {
-    /// Its handle's place in the user's list.
+    /// Index of its handle in the user's list.
     pub handle: usize,
-    /// The vertices.
+    /// Vertices of the disc.
     pub vertices: Vec<u32>,
-    /// The unit vector that it turns about; in the plane it says nothing.
+    /// Unit vector of the axis; ignored in the plane.
     pub axis: [f64; 3],
     /// Degrees, counter-clockwise seen against the axis.
     pub degrees: f64,
 }
 
-/// The way of a vertex or a point: an arm about a center that moves straight, turning at constant speed.
+/// Path of a vertex or a point: an arm that turns at constant speed about a center that moves straight.
 pub(super) struct Way<const D: usize> {
     pub from: [f64; D],
     pub to: [f64; D],
     pub arm: [f64; D],
-    /// The logarithm of the turn.
+    /// Logarithm of the turn.
     pub spin: Matrix<D>,
 }
 
@@ -46,15 +46,15 @@ where
         }
     }
 
-    /// Where it leads to after a share of it.
+    /// Returns the position after this share of the path.
     pub fn at(&self, share: f64) -> [f64; D] {
         let arm = apply(&Matrix::<D>::exp(&self.spin, share), &self.arm);
         std::array::from_fn(|k| (1.0 - share) * self.from[k] + share * self.to[k] + arm[k])
     }
 }
 
-/// The stations of handles on their ways, `last` with the targets at the ends: as many as turns of half a turn and more take,
-/// otherwise the last one alone.
+/// Returns the stations of handles along their paths; the last has the targets at the ends. Only turns of half a turn
+/// or more need more than the last one.
 pub(super) fn stations<const D: usize>(
     last: Handles,
     of_vertex: &dyn Fn(u32) -> usize,

@@ -1,4 +1,4 @@
-//! Whether the boundary of a map of the plane stays.
+//! Treatment of the boundary of a map of the plane.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,7 +17,7 @@ pub enum Boundary {
 }
 
 impl Boundary {
-    /// The vertices of `triangles` that stay, ascending.
+    /// Returns the vertices of `triangles` that stay fixed, in increasing order.
     pub(super) fn held(self, n_vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
         if self == Self::Free {
             return Vec::new();

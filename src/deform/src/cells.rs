@@ -1,4 +1,4 @@
-//! What a map does to each element, for those who look at it.
+//! Data about the deformation of each element, for visualization.
 
 use super::body::BodyElements;
 use super::problem::Problem;
@@ -7,8 +7,9 @@ use unwrapd_method::energy::{Density, RestShape};
 use unwrapd_method::numerics::square::{Matrix, Square, times};
 
 impl Problem {
-    /// For each element of the body at the positions `x`: its singular values, greatest first; its size over its rest size, the
-    /// product of these; and its energy before it is weighted by its rest size, where that is a function of the singular values.
+    /// Returns for each element of the body at the positions `x`: its singular values, greatest first; its size over
+    /// its rest size, which is their product; and its energy before weighting by its rest size, if that is a function
+    /// of the singular values.
     pub fn cells(&self, x: &[f64]) -> Vec<CellData> {
         match &self.body.elements {
             BodyElements::Triangles { corners, rest } => {
@@ -44,7 +45,7 @@ fn cells_of<const D: usize>(
     cells
 }
 
-/// Of each element with N = D + 1 corners, that of an inverted one with a negative last.
+/// Returns the singular values of each element with N = D + 1 corners; the last is negative for an inverted element.
 fn singular_values<const D: usize, const N: usize>(
     corners: &[[u32; N]],
     rest: &[RestShape<D>],

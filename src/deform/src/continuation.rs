@@ -1,27 +1,28 @@
-//! What the barrier costs, and less of it.
+//! Continuation to a weaker barrier, and the barrier's bias.
 
 use super::problem::Problem;
 use super::problem_error::ProblemError;
 use super::solve::Solution;
 use unwrapd_method::solver::{Settings, Status, Watch};
 
-/// By how much β falls at a time.
+/// Factor of β per step.
 const STEP: f64 = 0.1;
 
-/// Times at most.
+/// Most steps.
 const MAX_STEPS: usize = 10;
 
-/// What the unmodified energy must fall by for another step to be worth while, as a share of itself.
+/// Least decrease of the unmodified energy that makes another step worthwhile, as a share of that energy.
 const LEAST_GAIN: f64 = 1e-3;
 
-/// The same where the limit is wanted.
+/// Least decrease when the limit for β → 0 is wanted.
 const LEAST_CHANGE: f64 = 1e-6;
 
 impl Problem {
-    /// Lowers β tenfold, again and again, while the unmodified energy falls, each time from the last map; returns the best. Every
-    /// iterate is without inversion, as in [`solve`](Self::solve). A solution whose handles have not arrived stays as it is.
+    /// Lowers β tenfold, again and again, while the unmodified energy falls, each time from the last map; returns the
+    /// best. No iterate has an inversion, as in [`solve`](Self::solve). A solution whose handles have not arrived is
+    /// returned unchanged.
     ///
-    /// Costs a minimization for each step, most of them short.
+    /// Costs one minimization per step, most of them short.
     pub fn with_weaker_barrier(
         &self,
         solution: Solution,
@@ -31,9 +32,9 @@ impl Problem {
         self.lowered(solution, LEAST_GAIN, settings, watch)
     }
 
-    /// The unmodified energy that the map tends to as β tends to 0, to about six digits. What it is below the energy of the
-    /// solution is the barrier's bias: both belong to the same minimum, and no element inverts on the way from one to the
-    /// other, as it may where the barrier is left out at once.
+    /// Returns the limit of the unmodified energy of the map as β tends to 0, to about six digits. Its difference from
+    /// the energy of the solution is the barrier's bias: both belong to the same minimum, and no element inverts
+    /// between them, as one might if the barrier were dropped at once.
     pub fn energy_without_barrier(
         &self,
         solution: &Solution,
@@ -44,7 +45,7 @@ impl Problem {
         Ok(limit.worth.energy)
     }
 
-    /// The map after as many lowerings of β as each gain such a share of the energy.
+    /// Lowers β as long as each step decreases the energy by the share `least_gain`; returns the last map that did.
     fn lowered(
         &self,
         solution: Solution,
@@ -74,7 +75,7 @@ impl Problem {
         Ok(best)
     }
 
-    /// The same problem with its targets met, starting from a solution.
+    /// Returns the problem of moving nothing: its targets are met and it starts from a solution.
     fn from(&self, solution: &Solution) -> Self {
         Self {
             start: solution.x.clone(),

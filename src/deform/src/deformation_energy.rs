@@ -47,7 +47,7 @@ pub enum DeformationEnergy {
     Formula(OwnEnergy),
 }
 
-/// By name or formula.
+/// Parses a name or a formula.
 impl FromStr for DeformationEnergy {
     type Err = FormulaError;
 
@@ -60,7 +60,7 @@ impl FromStr for DeformationEnergy {
 }
 
 impl DeformationEnergy {
-    /// Is it an energy? A formula can be none.
+    /// Checks that it is an energy; only a formula can fail.
     pub fn check(&self) -> Result<(), FormulaError> {
         match self {
             Self::Formula(own) => own.check(),
@@ -69,7 +69,7 @@ impl DeformationEnergy {
     }
 }
 
-/// The names as an enum, and any text that is short enough for a formula.
+/// Lists the names as an enum, and allows any text that is short enough for a formula.
 #[cfg(feature = "schema")]
 impl utoipa::PartialSchema for DeformationEnergy {
     fn schema() -> utoipa::openapi::RefOr<utoipa::openapi::Schema> {

@@ -5,10 +5,11 @@ use super::normalized::Frame;
 use unwrapd_method::energy::{Positional, Row};
 use unwrapd_method::solver::{Continued, Flow, Handles, Settings, flow};
 
-/// Iterations at most.
+/// Most iterations.
 const MOST: usize = 500;
 
-/// Moves the map `x` until the handles come no nearer to these targets: those that can be reached stand close to them then.
+/// Moves the map `x` until the handles come no nearer to these targets; handles that can reach their targets are then
+/// close to them.
 pub(super) fn flow_to(trial: &mut Trial, targets: &Handles, x: &mut [f64]) {
     let dim = trial.problem.body.dim();
     let place = |v: u32| &x[dim * v as usize..dim * (v as usize + 1)];

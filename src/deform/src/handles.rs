@@ -1,4 +1,4 @@
-//! Handles as a user names them.
+//! Handles in the form in which users name them.
 
 use std::collections::HashMap;
 
@@ -17,10 +17,10 @@ use unwrapd_method::numerics::square::{Matrix, Square};
 use unwrapd_method::numerics::vec3;
 use unwrapd_method::solver::Handles;
 
-/// What rounding leaves of the distance between equal coordinates, as a share of them.
+/// Rounding error of the distance between equal coordinates, as a share of them.
 const ROUNDING: f64 = 1e-12;
 
-/// Degrees that a disc may turn at most: a hundred turns, in 2400 stations.
+/// Largest turn of a disc in degrees: a hundred turns, in 2400 stations.
 const MOST_DEGREES: f64 = 36_000.0;
 
 /// One handle; positions have as many coordinates as the body.
@@ -65,8 +65,8 @@ pub enum Handle {
     },
 }
 
-/// Reads `{"handles": [{"vertex": i, "to": […]}, {"at": […], "to": …}, {"center": …, "radius": r, "to": …, "turn": d, "axis": […]},
-/// …]}`.
+/// Parses `{"handles": [{"vertex": i, "to": […]}, {"at": […], "to": …}, {"center": …, "radius": r, "to": …, "turn": d,
+/// "axis": […]}, …]}`.
 pub fn parse_body_handles(json: &[u8]) -> Result<Vec<Handle>, ProblemError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -78,21 +78,21 @@ pub fn parse_body_handles(json: &[u8]) -> Result<Vec<Handle>, ProblemError> {
     Ok(file.handles)
 }
 
-/// Handles that have found what they pull.
+/// Handles bound to the vertices and points that they pull.
 #[derive(Clone, Debug)]
 pub struct Bound {
-    /// Their stations, the last of them their targets.
+    /// Stations of the handles, the last of them their targets.
     pub stations: Vec<Handles>,
-    /// What each takes hold of.
+    /// Vertices and points that each handle pulls.
     pub aims: Vec<Aim>,
-    /// What turns.
+    /// Turns of discs.
     pub turns: Vec<Turned>,
 }
 
-/// Finds the vertices and elements of a body that handles name, and the stations on their ways: several where a disc makes half
-/// a turn or more, which the nearest way to the target would not.
+/// Finds the vertices and elements of a body that handles name, and the stations along their paths. A disc that makes
+/// half a turn or more gets several stations, because the shortest path to its target would turn less.
 ///
-/// A vertex may be named twice if both say the same. Errors name the handle by its place in the list, from 0.
+/// A vertex may be named twice with the same target. Errors name the handle by its index in the list, from 0.
 pub fn bind(body: &Body, handles: &[Handle]) -> Result<Bound, ProblemError> {
     match body.elements {
         BodyElements::Triangles { .. } => Binder::<2>::new(body).bind(handles),
@@ -152,8 +152,8 @@ where
         })
     }
 
-    /// Vertices that are connected travel together, but for handles that stay: they are a group of their own, so that no
-    /// neighbor's travel moves them on the way.
+    /// Groups vertices that are connected, so that they move together. Handles that stay form a group of their own, so
+    /// that no neighbor's motion moves them.
     fn groups(&self) -> Vec<u32> {
         let mut is_moving = vec![false; self.vertices.len()];
         let mut first = 0;
@@ -175,7 +175,7 @@ where
         groups.map(|group| group.unwrap_or(staying)).collect()
     }
 
-    /// Does a vertex turn, or go elsewhere but for rounding?
+    /// Returns whether a vertex turns, or its target differs from its rest position by more than rounding.
     fn moves(&self, i: usize) -> bool {
         let rest = &self.body.rest[D * self.vertices[i] as usize..];
         let differ = |(x, to): (&f64, f64)| (x - to).abs() > ROUNDING * x.abs().max(to.abs());
@@ -270,7 +270,7 @@ where
     }
 }
 
-/// The unit vector to turn about; in the plane there is none to give.
+/// Returns the unit vector to turn about; zero in the plane, where no axis may be given.
 fn turning_axis<const D: usize>(
     turn: f64,
     axis: Option<[f64; 3]>,

@@ -1,9 +1,9 @@
-//! States that can be returned to.
+//! An undo history.
 
-/// So many at most; the oldest are forgotten.
+/// Most states that are kept; the oldest are dropped.
 const MOST: usize = 100;
 
-/// The states before the present one and, where some were left, those after it.
+/// The states before the present one and, after undoing, those after it.
 pub(super) struct History<T> {
     before: Vec<T>,
     after: Vec<T>,
@@ -17,7 +17,7 @@ impl<T> History<T> {
         }
     }
 
-    /// Remembers the present state. Those after it are forgotten.
+    /// Records the present state and drops those after it.
     pub fn remember(&mut self, present: T) {
         self.after.clear();
         if self.before.len() == MOST {
@@ -26,14 +26,14 @@ impl<T> History<T> {
         self.before.push(present);
     }
 
-    /// The state to return to, if there is one; the present one comes after it.
+    /// Returns the state before, if any, and stores `present` after it.
     pub fn back(&mut self, present: T) -> Option<T> {
         let state = self.before.pop()?;
         self.after.push(present);
         Some(state)
     }
 
-    /// The reverse.
+    /// Returns the state after, if any, and stores `present` before it.
     pub fn forth(&mut self, present: T) -> Option<T> {
         let state = self.after.pop()?;
         self.before.push(present);

@@ -5,7 +5,7 @@ use super::problem::Problem;
 use unwrapd_maps::mesh::UnionFind;
 
 impl Problem {
-    /// Holds at rest the parts of the body, connected by elements, that have no handle, and returns how many these are.
+    /// Holds at rest the parts of the body, connected by elements, that have no handle; returns their number.
     ///
     /// Nothing else would keep them in place: energies do not change when a part moves as a rigid body.
     pub fn hold_idle_parts(&mut self) -> usize {
@@ -38,7 +38,7 @@ impl Problem {
     }
 }
 
-/// For each vertex the number of its part, and how many parts there are.
+/// Returns the part number of each vertex, and the number of parts.
 fn parts(body: &Body) -> (Vec<u32>, usize) {
     let mut sets = UnionFind::new(body.n_vertices());
     for element in body.corners() {

@@ -1,11 +1,11 @@
-//! Bodies pulled by handles, no element inverted, and what lies in them carried along.
+//! Bodies deformed by handles without inverting elements, and objects embedded in them that follow.
 //!
-//! A [`Body`] is a planar or tetrahedral mesh with rest shapes, a [`Problem`] a body with handles, their targets, a
-//! [`DeformationEnergy`] and a barrier; [`Problem::solve`] moves the handles to their targets over maps that are all valid;
-//! a [`Session`] does so an iteration at a time while handles are added, moved and removed. What is minimized is at hand as a
-//! function of positions, with gradient and Hessian ([`Problem::potential`]).
-//! Bodies come from mesh files, from pictures and drawings (`outline`) and from surfaces put into a [`cage`], which carries
-//! them along. Maps of the plane are pulled too: pictures by a grid over them ([`warp`]), UVs by anchors ([`uv`]).
+//! A [`Body`] is a planar or tetrahedral mesh with rest shapes; a [`Problem`] is a body with handles, their targets, a
+//! [`DeformationEnergy`] and a barrier. [`Problem::solve`] moves the handles to their targets over maps that are all
+//! valid; a [`Session`] does so an iteration at a time while handles are added, moved and removed. The objective is
+//! available as a function of positions, with gradient and Hessian ([`Problem::potential`]). Bodies come from mesh
+//! files, from pictures and drawings (`outline`) and from surfaces in a [`cage`], which carries them along. Maps of the
+//! plane are pulled too: pictures by a grid over them ([`warp`]), UVs by anchors ([`uv`]).
 #![doc = include_str!("guide.md")]
 
 mod aims;

@@ -6,19 +6,20 @@ use super::problem_error::ProblemError;
 use unwrapd_maps::plane::are_disjoint;
 use unwrapd_method::solver::{Drag, Handles, Objective, Stage, Summary};
 
-/// Handles that are nearer to their targets than this, the mean element having size 1, are there: a body at rest stays so.
+/// Distance from their targets, for mean elements of size 1, within which handles have arrived: a body at rest stays at
+/// rest.
 const NEAR: f64 = 1e-9;
 
-/// A problem in the units in which its numbers are meant, with its energy, its map and the drag of its handles.
+/// A problem in its own units, with its energy, its map and the drag of its handles.
 pub(super) struct Live {
-    /// Its only station are the present handles.
+    /// The problem; its only station holds the present handles.
     problem: Problem,
     objective: Objective,
     x: Vec<f64>,
     drag: Drags,
 }
 
-/// In the plane, or in space.
+/// A drag in the plane or in space.
 enum Drags {
     Planar(Drag<2>),
     Spatial(Drag<3>),
@@ -44,7 +45,7 @@ impl Live {
         Ok(live)
     }
 
-    /// Takes these handles in place of those before.
+    /// Replaces the handles.
     pub fn aim(&mut self, handles: Handles) -> Result<(), ProblemError> {
         let (objective, x) = (&mut self.objective, &mut self.x);
         handles.check(objective.dim(), x.len())?;
@@ -60,7 +61,7 @@ impl Live {
         Ok(())
     }
 
-    /// One iteration, unless there is nothing left to do.
+    /// Runs one iteration, unless nothing is left to do.
     pub fn step(&mut self) -> Stage {
         let (objective, x) = (&mut self.objective, &mut self.x);
         match &mut self.drag {
@@ -87,13 +88,13 @@ impl Live {
         &self.x
     }
 
-    /// Puts the map back to where it was, with the handles that there are.
+    /// Moves the map back to `x`, with the present handles.
     pub fn put(&mut self, x: Vec<f64>) -> Result<(), ProblemError> {
         self.x = x;
         self.aim(self.problem.stations[0].clone())
     }
 
-    /// Refuses a map that is outside the domain of the energy.
+    /// Refuses a map outside the domain of the energy.
     pub fn check_domain(&self) -> Result<(), ProblemError> {
         let is_apart = match (&self.problem.boundary_barrier, &self.problem.body.elements) {
             (Some(_), BodyElements::Triangles { corners, .. }) => {

@@ -1,13 +1,14 @@
-//! Which element holds a point.
+//! Point location: the element that contains a point.
 
 use super::body::Body;
 use unwrapd_method::energy::Row;
 use unwrapd_method::numerics::square::{Matrix, Square, apply, transposed};
 
-/// Points on an edge between two elements may lie outside both by this share of them.
+/// Share of an element by which points on an edge between two elements may lie outside both.
 const ROUNDING: f64 = 1e-9;
 
-/// The element at rest that holds a point, as the point's barycentric coordinates; the first, where several do.
+/// Finds the element at rest that contains a point and returns the point's barycentric coordinates; the first if there
+/// are several.
 pub(super) fn locate<const D: usize>(body: &Body, at: [f64; D]) -> Option<Row>
 where
     Matrix<D>: Square<D>,
@@ -36,13 +37,13 @@ where
     None
 }
 
-/// The vertex that a point is, if it is one.
+/// Returns the vertex at which a point lies, if any.
 pub(super) fn sole_vertex(row: &Row) -> Option<u32> {
     let is_all = |&&(_, weight): &&(u32, f64)| weight >= 1.0 - ROUNDING;
     row.iter().find(is_all).map(|&(vertex, _)| vertex)
 }
 
-/// Does the element's box, a little enlarged, hold the point? Cheaper to say than whether the element does.
+/// Returns whether the element's box, slightly enlarged, contains the point: a cheap test before the exact one.
 fn is_within_reach<const D: usize>(edges: &Matrix<D>, arm: &[f64; D]) -> bool {
     (0..D).all(|k| {
         let along = edges.iter().map(|edge| edge[k]);

@@ -1,4 +1,4 @@
-//! Handles that can be reached, beside those that cannot.
+//! Handles that can reach their targets although others cannot.
 
 use super::aims::Aim;
 use super::attempt::{Attempt, Trial};
@@ -13,26 +13,27 @@ use unwrapd_method::numerics::rotation::Rotation;
 use unwrapd_method::numerics::square::{Matrix, Square};
 use unwrapd_method::solver::{Handles, Pace, Status};
 
-/// Iterations at most, of all attempts and of each.
+/// Most iterations, of all attempts and of each.
 const MOST: usize = 1000;
 const MOST_EACH: usize = 300;
 
-/// Handles within so many edges of a mean element of their targets go there together.
+/// Distance from their targets, in edges of a mean element, within which handles are moved there together.
 const NEAR: f64 = 2.0;
 
-/// A handle that is tried alone goes straight, or else to the left or to the right.
+/// Bends for a handle that is tried alone: straight, then to the left and to the right.
 const SIDES: [f64; 3] = [0.0, BEND, -BEND];
 
-/// A map whose handles did not all arrive: each that can be reached is, while the others are held where they are. The rest stay as
-/// near as they came.
+/// A map in which some handles did not arrive. Brings each handle that can be reached to its target, with the others
+/// held where they are; the rest stay as near as they came.
 ///
-/// Of a set that does not arrive together each half is tried, so that few of many cost few attempts.
+/// If a set of handles does not arrive together, each half is tried, so that a few missing ones of many cost few
+/// attempts.
 pub(super) struct Missing<'a, const D: usize> {
     problem: &'a Problem,
     parts: Vec<Aim>,
-    /// The parts that have a way to go at the start.
+    /// Number of parts that had to move at the start.
     n_moving: usize,
-    /// Those that have not arrived.
+    /// Parts that have not arrived.
     away: Vec<usize>,
     x: Vec<f64>,
     energy: f64,
@@ -43,7 +44,7 @@ impl<'a, const D: usize> Missing<'a, D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
-    /// In the map `x` of this energy that began at `start`.
+    /// Finds the missing handles of the map `x`, which has this energy and began at `start`.
     pub fn new(problem: &'a Problem, start: &[f64], (x, energy): (Vec<f64>, f64)) -> Self {
         let parts = problem.parts();
         let away = |x: &[f64]| away(problem, &parts, x, problem.least_gap(), f64::INFINITY);
@@ -58,7 +59,7 @@ where
         }
     }
 
-    /// The share of the handles that are missing.
+    /// Returns the share of the moving handles that are missing.
     pub fn share(&self) -> f64 {
         self.away.len() as f64 / self.n_moving.max(1) as f64
     }
@@ -71,12 +72,12 @@ where
         self.is_stopped
     }
 
-    /// The energy of the map.
+    /// Returns the energy of the map.
     pub fn energy(&self) -> f64 {
         self.energy
     }
 
-    /// Brings all of them to their targets or, if they do not arrive together, those that are near.
+    /// Moves all missing handles to their targets or, if they do not arrive together, those that are near.
     pub fn together(&mut self, trial: &mut Trial) -> Result<(), ProblemError> {
         if self.away.len() > 1 {
             self.try_set(trial, &self.away.clone(), MOST_EACH)?;
@@ -91,12 +92,12 @@ where
         Ok(())
     }
 
-    /// Brings those to their targets that get there together, or by halves, or alone.
+    /// Moves the missing handles to their targets together, by halves, or one by one.
     pub fn alone(&mut self, trial: &mut Trial) -> Result<(), ProblemError> {
         self.reach(trial, vec![self.away.clone()])
     }
 
-    /// The map as a solution.
+    /// Returns the map as a solution.
     pub fn into_solution(self, trial: &Trial) -> Solution {
         let status = if self.is_stopped {
             Status::Stopped
@@ -124,7 +125,7 @@ where
         Ok(())
     }
 
-    /// Do these arrive, within so many iterations a way?
+    /// Tries to bring these parts to their targets, within `most` iterations per path; returns whether they arrive.
     fn try_set(
         &mut self,
         trial: &mut Trial,
@@ -156,7 +157,8 @@ where
         Ok(false)
     }
 
-    /// The handles of these parts pulled to their targets, on ways bent so far to the left, and all others held where they are.
+    /// Returns the handles of these parts with their targets, on paths with the bend `side` to the left, and all others
+    /// held in place.
     fn only(&self, set: &[usize], side: f64) -> Handles {
         let targets = &self.problem.stations[0];
         let is_pulled = |v: u32| {
@@ -191,7 +193,8 @@ where
 }
 
 impl Problem {
-    /// What is pulled together: what one handle of the user's list holds, or else a group or a point.
+    /// Returns the parts that are pulled together: those of each handle of the user's list, or else each group and each
+    /// point.
     fn parts(&self) -> Vec<Aim> {
         if !self.aims.is_empty() {
             return self.aims.clone();
@@ -206,7 +209,7 @@ impl Problem {
     }
 }
 
-/// The parts that are farther than `least` from their targets, but not as far as `most`.
+/// Returns the parts that are farther than `least` from their targets, but nearer than `most`.
 fn away(problem: &Problem, parts: &[Aim], x: &[f64], least: f64, most: f64) -> Vec<usize> {
     let gaps = Gaps::new(problem.body.dim(), &problem.stations[0], x);
     let is_away = |part: &usize| {
@@ -216,7 +219,7 @@ fn away(problem: &Problem, parts: &[Aim], x: &[f64], least: f64, most: f64) -> V
     (0..parts.len()).filter(is_away).collect()
 }
 
-/// A set in two parts, the last of them first; one alone as it is.
+/// Splits a set into halves, the second first; a single item stays one set.
 fn halves<T: Copy>(set: &[T]) -> Vec<Vec<T>> {
     let (first, second) = set.split_at(set.len() / 2);
     let parts = [second, first].into_iter().filter(|part| !part.is_empty());

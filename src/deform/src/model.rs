@@ -1,4 +1,4 @@
-//! What a deformation costs, in words and numbers.
+//! Energies of a body as terms for the solver.
 
 use super::body::{Body, BodyElements};
 use super::deformation_energy::DeformationEnergy;
@@ -10,11 +10,11 @@ use unwrapd_method::energy::{
     uniform_biharmonic,
 };
 
-/// The Lamé parameters λ and μ of an ordinary solid, Poisson's ratio ⅓, in its own unit.
+/// Lamé parameters λ and μ of an ordinary solid with Poisson's ratio ⅓, in its own unit.
 const LAME: [f64; 2] = [1.0, 0.5];
 
 impl DeformationEnergy {
-    /// The paper's β for this energy.
+    /// Returns the paper's β for this energy.
     pub fn default_beta(&self) -> f64 {
         match self {
             Self::Green => 100.0,
@@ -22,12 +22,12 @@ impl DeformationEnergy {
         }
     }
 
-    /// Is it a sum over elements, without a weight?
+    /// Returns whether it is a sum over elements without weights.
     fn is_unweighted(&self) -> bool {
         *self == Self::Green
     }
 
-    /// The mean weight of an element.
+    /// Returns the mean weight of an element.
     pub(super) fn mean_weight(&self, body: &Body) -> f64 {
         let weights: Vec<f64> = match &body.elements {
             _ if self.is_unweighted() => return 1.0,
@@ -37,11 +37,12 @@ impl DeformationEnergy {
         weights.iter().sum::<f64>() / weights.len().max(1) as f64
     }
 
-    /// The terms of the energy of `body` with a barrier, in which an element's size is the determinant of its edges, twice
-    /// its area or six times its volume, and with a bound of the conformal distortion if one is given.
+    /// Returns the terms of the energy of `body` with a barrier, and with a bound on the conformal distortion if one is
+    /// given. The barrier takes the determinant of an element's edges as its size: twice its area or six times its
+    /// volume.
     ///
     /// # Errors
-    /// If the body's dimension does not have such an energy or bound.
+    /// If the energy or bound is not defined in the body's dimension.
     pub fn terms(
         &self,
         body: &Body,
@@ -74,7 +75,7 @@ impl DeformationEnergy {
         }
     }
 
-    /// The quadratic form that the energy is, if it is one, and its density, which is zero then.
+    /// Splits the energy into a quadratic form, if it is one, and a density, which is then zero.
     fn parts<const D: usize>(
         &self,
         body: &Body,
@@ -92,7 +93,7 @@ impl DeformationEnergy {
         (quadratic, density.unwrap_or_else(|| Box::new(Zero)))
     }
 
-    /// The energy of a triangle as a function of its singular values; `None` for quadratic forms.
+    /// Returns the energy of a triangle as a function of its singular values; `None` for quadratic forms.
     pub(super) fn planar_density(&self) -> Result<Option<Box<dyn Density<2>>>, ProblemError> {
         Ok(match self {
             Self::Lscm => Some(Box::new(Lscm)),
@@ -101,7 +102,7 @@ impl DeformationEnergy {
         })
     }
 
-    /// The same of a tetrahedron.
+    /// Returns the energy of a tetrahedron as a function of its singular values; `None` for quadratic forms.
     pub(super) fn spatial_density(&self) -> Result<Option<Box<dyn Density<3>>>, ProblemError> {
         Ok(match self {
             Self::Lscm => return Err(ProblemError::PlanarEnergy),
@@ -110,7 +111,7 @@ impl DeformationEnergy {
         })
     }
 
-    /// The density of a name that both dimensions have.
+    /// Returns the density of a name that exists in both dimensions.
     fn named_density<const D: usize>(&self) -> Option<Box<dyn Density<D>>> {
         let [lambda, mu] = LAME;
         Some(match self {

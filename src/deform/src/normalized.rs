@@ -1,8 +1,8 @@
-//! Problems taken to the unit in which their numbers are meant.
+//! Conversion of problems to the unit in which their numbers are meant.
 //!
-//! β, ε, tolerances and energies have the same meaning for a ring and a city where the mean element
-//! has size 1 and the body lies around the origin. A problem is taken there, solved, and brought
-//! back; whoever poses it and sees its solution does not notice.
+//! β, ε, tolerances and energies have the same meaning for a ring and a city if the mean element has size 1 and the
+//! body lies around the origin. A problem is converted to this frame, solved, and converted back; the caller does not
+//! notice.
 
 use std::cell::RefCell;
 
@@ -13,14 +13,14 @@ use super::units::Units;
 use unwrapd_method::energy::RestShape;
 use unwrapd_method::solver::{Control, Handles, Iterate, Watch};
 
-/// Where normalized positions lie in those that were given.
+/// Position and scale of the normalized frame in the given coordinates.
 pub(super) struct Frame {
     origin: Vec<f64>,
     unit: f64,
 }
 
 impl Frame {
-    /// The center of a body's box, and the unit in which its mean element has size 1.
+    /// Computes the center of a body's box, and the unit in which its mean element has size 1.
     pub fn of(body: &Body) -> Self {
         let dim = body.dim();
         let mean = match &body.elements {
@@ -61,7 +61,7 @@ impl Frame {
         x.iter().zip(origin).map(|(x, o)| o + x * self.unit)
     }
 
-    /// Handles with their targets in the unit of normalized positions.
+    /// Converts the targets of handles to normalized positions.
     pub fn handles(&self, handles: &Handles) -> Handles {
         Handles {
             targets: self.inward(&handles.targets),
@@ -70,7 +70,7 @@ impl Frame {
         }
     }
 
-    /// A squared distance as one of those that were given.
+    /// Converts a squared distance to given coordinates.
     pub fn squared(&self, distance: f64) -> f64 {
         distance * self.unit * self.unit
     }
@@ -93,7 +93,7 @@ impl Frame {
     }
 }
 
-/// Bodies without elements have the unit of their positions.
+/// Returns the mean size of elements; 1 without elements.
 fn mean_size<const D: usize>(rest: &[RestShape<D>]) -> f64 {
     match rest.len() {
         0 => 1.0,
@@ -102,7 +102,7 @@ fn mean_size<const D: usize>(rest: &[RestShape<D>]) -> f64 {
 }
 
 impl Problem {
-    /// The same problem in the unit in which its numbers are meant, and where that lies.
+    /// Returns the problem in the unit in which its numbers are meant, and the frame of that unit.
     pub(super) fn normalized(&self) -> (Self, Frame) {
         let frame = Frame::of(&self.body);
         let (body, start) = (frame.body(&self.body), frame.inward(&self.start));
@@ -128,11 +128,11 @@ impl Problem {
     }
 }
 
-/// Shows the iterates of a normalized problem to who posed it.
+/// Shows the iterates of a normalized problem in the caller's coordinates.
 pub(super) struct Restored<'a> {
     watch: &'a dyn Watch,
     frame: &'a Frame,
-    /// Room for positions, so that iterations allocate nothing.
+    /// Workspace for positions, so that iterations allocate nothing.
     x: RefCell<Vec<f64>>,
 }
 

@@ -1,22 +1,22 @@
-//! Coordinates as JSON has them.
+//! Coordinates in JSON.
 //!
-//! JSON has no word for a number that is not finite. JavaScript writes `null` in its place, Python the bare words `NaN` and
-//! `Infinity`. Both are read as NaN here: a target that is no place is then named as such instead of as a fault of the syntax.
+//! JSON cannot express a number that is not finite. JavaScript writes `null` in its place, Python the bare words `NaN`
+//! and `Infinity`. Both are read as NaN here, so that a bad target is reported as such and not as a syntax error.
 
 use serde::{Deserialize, Deserializer};
 
-/// A position of as many coordinates as there are.
+/// Deserializes a position with any number of coordinates.
 pub(super) fn position<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
     let numbers = Vec::<Option<f64>>::deserialize(from)?;
     Ok(numbers.into_iter().map(or_nan).collect())
 }
 
-/// A position in the plane.
+/// Deserializes a position in the plane.
 pub(super) fn planar<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
     <[Option<f64>; 2]>::deserialize(from).map(|numbers| numbers.map(or_nan))
 }
 
-/// A list of positions.
+/// Deserializes a list of positions.
 pub(super) fn positions<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Vec<f64>>, D::Error> {
     let positions = Vec::<Vec<Option<f64>>>::deserialize(from)?;
     let finite = |numbers: Vec<Option<f64>>| numbers.into_iter().map(or_nan).collect();

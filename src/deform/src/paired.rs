@@ -6,7 +6,7 @@ use super::problem_error::ProblemError;
 use unwrapd_method::energy::Row;
 use unwrapd_method::solver::Handles;
 
-/// Vertices paired with their targets, each vertex once.
+/// Pairs vertices with their targets, each vertex once.
 pub(super) fn handles(
     dim: usize,
     vertices: &[u32],
@@ -39,7 +39,7 @@ pub(super) fn handles(
     })
 }
 
-/// Handles with points inside elements besides; of one point all targets must be the same.
+/// Adds points inside elements to handles; all targets of one point must be equal.
 pub(super) fn with_points(
     handles: Handles,
     points: Vec<Row>,

@@ -7,22 +7,22 @@ use super::units::Units;
 use unwrapd_method::numerics::csr::Csr;
 use unwrapd_method::solver::Objective;
 
-/// The sum of energy, barriers and bound of a [`Problem`] at any positions, for those who look at it or minimize it themselves.
-/// Handles have no share in it.
+/// The sum of energy, barriers and bound of a [`Problem`] at any positions, for inspection or for other optimizers.
+/// Handles do not contribute.
 ///
-/// Positions are those of the problem, and derivatives are derivatives in them. The value has the unit in which the problem's
-/// numbers are meant ([`Units`]).
+/// Positions are those of the problem, and derivatives are derivatives in them. The value has the unit in which the
+/// problem's numbers are meant ([`Units`]).
 pub struct Potential {
     objective: Objective,
-    /// Where the problem's numbers are meant, if that is not where positions are.
+    /// The frame in which the problem's numbers are meant, if that differs from the frame of positions.
     frame: Option<Frame>,
 }
 
 impl Problem {
-    /// Its energy as a function of positions.
+    /// Returns the energy of the problem as a function of positions.
     ///
     /// # Errors
-    /// If the body does not have such an energy.
+    /// If the energy is not defined for the body.
     pub fn potential(&self) -> Result<Potential, ProblemError> {
         let of = |problem: &Self| {
             let terms = problem.terms(problem.barrier)?;
@@ -41,15 +41,15 @@ impl Problem {
 }
 
 impl Potential {
-    /// E(x), +∞ outside the domain.
+    /// Returns E(x), +∞ outside the domain.
     ///
     /// # Errors
-    /// If there are not as many coordinates as the problem has.
+    /// If the number of coordinates is not that of the problem.
     pub fn value(&self, x: &[f64]) -> Result<f64, ProblemError> {
         Ok(self.objective.value(&self.inward(x)?))
     }
 
-    /// ∂E/∂x.
+    /// Returns ∂E/∂x.
     ///
     /// # Errors
     /// As [`value`](Self::value), or if that is infinite.
@@ -59,7 +59,7 @@ impl Potential {
         Ok(gradient.map(|slope| slope / self.unit()).collect())
     }
 
-    /// ∂²E/∂x², as it is: nothing is projected.
+    /// Returns ∂²E/∂x² without any projection.
     ///
     /// # Errors
     /// As [`gradient`](Self::gradient).

@@ -15,35 +15,35 @@ use unwrapd_method::barrier::{Barrier, BarrierKind};
 use unwrapd_method::energy::Term;
 use unwrapd_method::solver::{Handles, LevenbergSettings};
 
-/// A problem with its mesh, checked.
+/// A validated problem with its mesh.
 #[derive(Clone, Debug)]
 pub struct Problem {
-    /// What is deformed.
+    /// Body to deform.
     pub body: Body,
     /// Start positions, coordinates one after another.
     pub start: Vec<f64>,
-    /// How many elements of the start were inverted and had to be untangled.
+    /// Number of elements of the start that were inverted and had to be untangled.
     pub untangled: usize,
     /// The energy.
     pub energy: DeformationEnergy,
     /// The barrier.
     pub barrier: Barrier,
-    /// What the conformal distortion σ₁/σ₂ of every triangle must stay below, if anything.
+    /// Upper bound on the conformal distortion σ₁/σ₂ of every triangle, if any.
     pub bound: Option<f64>,
-    /// What keeps the boundary from crossing itself, if anything does.
+    /// Barrier that keeps the boundary from crossing itself, if any.
     pub boundary_barrier: Option<BoundaryBarrier>,
-    /// The stations of the handles, the last of them their targets.
+    /// Stations of the handles, the last of them their targets.
     pub stations: Vec<Handles>,
-    /// What turns on the way, for those who ask which [turns](Self::turns) a map holds.
+    /// Turns of discs, for [`turns`](Self::turns).
     pub turned: Vec<Turned>,
-    /// What each handle of a user's list takes hold of; none where nobody asks which of them are
-    /// [unreached](Self::unreached).
+    /// Vertices and points that each handle of a user's list pulls, for [`unreached`](Self::unreached); may be empty if
+    /// that is not needed.
     pub aims: Vec<Aim>,
-    /// Are all bent ways tried, for the map with the lowest energy, even where straight ones lead to the targets?
+    /// Tries all bent paths, for the map with the lowest energy, even if straight ones lead to the targets.
     pub search: bool,
-    /// What `levenberg` is told.
+    /// Settings of the paper's iteration.
     pub levenberg: LevenbergSettings,
-    /// What β, ε, tolerances and energies are measured in.
+    /// Units of β, ε, tolerances and energies.
     pub units: Units,
 }
 
@@ -72,7 +72,7 @@ options! {
 }
 
 impl Model {
-    /// Checks every number against its range, and a formula for being an energy.
+    /// Checks every number against its range, and that a formula is an energy.
     pub fn check(&self) -> Result<(), ProblemError> {
         self.energy.check()?;
         let is_positive = |x: f64| x > 0.0 && x.is_finite();
@@ -95,8 +95,8 @@ impl Model {
         Ok(())
     }
 
-    /// The barrier with its numbers; ε is the paper's share, 1e-4 as its authors have it, of the smallest element unless
-    /// given.
+    /// Returns the barrier with its parameters. Unless given, ε is the paper's share, 1e-4 in its authors' code, of the
+    /// smallest element.
     pub(super) fn barrier(
         &self,
         body: &Body,
@@ -124,7 +124,7 @@ impl Model {
 }
 
 impl Problem {
-    /// A body at rest and handles to pull it by.
+    /// Creates the problem of a body at rest and handles.
     pub fn new(body: Body, handles: &[Handle], model: &Model) -> Result<Self, ProblemError> {
         let Bound {
             stations,
@@ -139,7 +139,7 @@ impl Problem {
         })
     }
 
-    /// A body at rest, and nothing to pull it by yet.
+    /// Creates the problem of a body at rest, without handles.
     pub fn at_rest(body: Body, model: &Model) -> Result<Self, ProblemError> {
         let problem = Self {
             start: body.rest.clone(),
@@ -159,8 +159,8 @@ impl Problem {
         problem.guarded(model)
     }
 
-    /// The same with a barrier between the parts of its boundary, if the model wants it. The start must not overlap itself, and
-    /// something must keep elements from inverting: a boundary alone does not make a map bijective.
+    /// Adds a barrier between the parts of the boundary, if the model asks for it. The start must not overlap itself,
+    /// and something must keep elements from inverting: a boundary barrier alone does not make a map bijective.
     pub(super) fn guarded(mut self, model: &Model) -> Result<Self, ProblemError> {
         if !model.bijective {
             return Ok(self);
@@ -184,8 +184,8 @@ impl Problem {
         Ok(self)
     }
 
-    /// With a barrier no element of the start may be at ε or below: those that are are untangled, as little as possible moved.
-    /// Handles move too; they travel from where they are then.
+    /// With a barrier, untangles elements of the start at or below ε, moving as little as possible. Handles may move
+    /// too; their paths then start from there.
     pub fn untangle_start(&mut self) -> Result<(), ProblemError> {
         if self.barrier.kind == BarrierKind::None {
             return Ok(());
@@ -207,7 +207,7 @@ impl Problem {
         Ok(())
     }
 
-    /// Does the energy or the barrier keep every element from inverting?
+    /// Returns whether the energy or the barrier keeps every element from inverting.
     pub fn forbids_inversion(&self) -> bool {
         let terms = self
             .energy

@@ -1,11 +1,11 @@
-//! Why a problem cannot be solved.
+//! Errors of problems.
 
 use unwrapd_files::io::ReadError;
 use unwrapd_maps::mesh::ElementError;
 use unwrapd_method::energy::FormulaError;
 use unwrapd_method::solver::HandlesError;
 
-/// Why a problem cannot be solved.
+/// Reason why a problem cannot be solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ProblemError {
     /// The file is not a problem.
@@ -20,29 +20,29 @@ pub enum ProblemError {
     /// The mesh cannot be deformed.
     #[error(transparent)]
     Element(#[from] ElementError),
-    /// A handle names a vertex that there is not.
+    /// A handle names a vertex that does not exist.
     #[error("handle {handle} names vertex {vertex}, but there are only {n_vertices} vertices")]
     UnknownHandle {
         /// Index of the handle.
         handle: usize,
-        /// The vertex it names.
+        /// Vertex that it names.
         vertex: u32,
-        /// How many there are.
+        /// Number of vertices of the body.
         n_vertices: usize,
     },
-    /// A session has no such handle any more.
+    /// A session has no such handle, or no longer.
     #[error("handle {handle} was removed, or never added")]
     RemovedHandle {
-        /// Its number, from 0 in the order of adding.
+        /// Number of the handle, from 0 in the order of adding.
         handle: u32,
     },
     /// The handles of a problem do not fit each other or the body.
     #[error(transparent)]
     Handles(#[from] HandlesError),
-    /// There is nothing to pull at.
+    /// There is no handle to pull.
     #[error("there is no handle")]
     NoHandle,
-    /// A handle names no place of the body.
+    /// A handle names a place outside the body.
     #[error("handle {handle} lies outside the mesh")]
     HandleOutside {
         /// Index of the handle.
@@ -59,24 +59,24 @@ pub enum ProblemError {
     BadTarget {
         /// Index of the handle.
         handle: usize,
-        /// Coordinates of a position.
+        /// Coordinates per position.
         dim: usize,
     },
     /// Handles and targets do not pair up.
     #[error("there are {handles} handles but {targets} targets")]
     Unpaired {
-        /// How many handles.
+        /// Number of handles.
         handles: usize,
-        /// How many targets.
+        /// Number of targets.
         targets: usize,
     },
-    /// One vertex is to be at two places.
+    /// One vertex has two different targets.
     #[error("vertex {vertex} has two handles with different targets")]
     ContradictoryHandles {
-        /// The vertex.
+        /// Index of the vertex.
         vertex: u32,
     },
-    /// One point of an element is to be at two places.
+    /// One point of an element has two different targets.
     #[error("a point has two handles with different targets")]
     ContradictoryPoints,
     /// The start has an element at or below ε and cannot be untangled.
@@ -84,7 +84,7 @@ pub enum ProblemError {
         "element {element} of the start has determinant {determinant:e}, not above epsilon {epsilon:e}, and untangling failed"
     )]
     InfeasibleStart {
-        /// The element.
+        /// Index of the element.
         element: usize,
         /// Twice its area or six times its volume.
         determinant: f64,
@@ -94,38 +94,38 @@ pub enum ProblemError {
     /// A number is not in its range.
     #[error("`{name}` must be {range}")]
     BadParameter {
-        /// Which.
+        /// Name of the number.
         name: &'static str,
-        /// What it may be.
+        /// Its range.
         range: &'static str,
     },
-    /// The energy is neither one that has a name nor one by a formula that the body's dimension has.
+    /// The energy is neither the name of an energy nor a formula of one in the body's dimension.
     #[error("`energy` is neither the name of an energy nor the formula of one: {0}")]
     Formula(#[from] FormulaError),
     /// The energy is not defined for the body.
     #[error("this energy exists only in the plane")]
     PlanarEnergy,
-    /// Only a map of the plane can be kept bijective.
+    /// Only maps of the plane can be kept bijective.
     #[error("`bijective` applies only to maps of the plane")]
     PlanarBijectivity,
-    /// The map should be kept bijective, which it is not at the start.
+    /// The map is to be kept bijective, but the start overlaps itself.
     #[error("the start overlaps or touches itself, so no map from it can stay bijective")]
     OverlappingStart,
     /// The present map has no finite energy under another model.
     #[error("the present map is outside the domain of this energy, barrier or bound")]
     OutsideDomain,
-    /// The start does not belong to the mesh.
+    /// The start does not match the mesh.
     #[error("the start has {found} coordinates, but the mesh has {expected}")]
     WrongStart {
-        /// Numbers found.
+        /// Number of coordinates found.
         found: usize,
-        /// Numbers needed.
+        /// Number of coordinates expected.
         expected: usize,
     },
 }
 
 impl ProblemError {
-    /// The column of a formula that is wrong, from 1.
+    /// Returns the column of the error in a formula, from 1.
     pub fn column(&self) -> Option<usize> {
         match self {
             Self::Formula(error) => error.column(),
@@ -133,7 +133,7 @@ impl ProblemError {
         }
     }
 
-    /// A word for programs; it does not change.
+    /// Returns the stable code of the error, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Malformed(_) => "malformed_problem",

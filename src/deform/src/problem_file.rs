@@ -95,12 +95,12 @@ impl ProblemFile {
         Ok(file)
     }
 
-    /// The files that it names.
+    /// Returns the paths of the files that it names.
     pub fn references(&self) -> impl Iterator<Item = String> {
         std::iter::once(self.mesh.clone()).chain(self.initial.clone())
     }
 
-    /// The problem on this mesh, starting from these positions or from rest.
+    /// Creates the problem on this mesh, starting from these positions or from rest.
     pub fn with(self, mesh: Elements, start: Option<Vec<f64>>) -> Result<Problem, ProblemError> {
         let body = if !mesh.tets.is_empty() {
             Body::from(&mesh.into_tet_mesh()?)

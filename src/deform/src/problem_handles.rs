@@ -1,4 +1,4 @@
-//! What a problem file is pulled by, in either of two forms.
+//! Handles of a problem file, in either of two forms.
 
 use serde::Deserialize;
 
@@ -19,11 +19,11 @@ pub enum ProblemHandles {
     Handles(Vec<Handle>),
 }
 
-/// Where vertices should come, one position each.
+/// One target position per vertex.
 pub(super) type Targets = Vec<Vec<f64>>;
 
 impl ProblemHandles {
-    /// Checks that targets are given once.
+    /// Checks that targets are given exactly once.
     pub(super) fn check(
         &self,
         targets: &Targets,
@@ -41,8 +41,8 @@ impl ProblemHandles {
         }
     }
 
-    /// The handles, which have found what they pull, and their stations: target sets that vertices
-    /// go through one after another, the last of them their targets.
+    /// Binds the handles to the body and returns their stations: sets of targets through which vertices pass one after
+    /// another, the last of them the final ones.
     pub(super) fn bound(
         &self,
         body: &Body,

@@ -1,4 +1,4 @@
-//! Vertices of a map of the plane pulled to targets while others stay.
+//! Vertices of a map of the plane pulled to targets while others stay fixed.
 
 use serde::Serialize;
 
@@ -14,8 +14,8 @@ use unwrapd_method::barrier::epsilon;
 use unwrapd_method::energy::Row;
 use unwrapd_method::solver::{Handles, LevenbergSettings, Settings, Status, Watch};
 
-/// A vertex counts as arrived within this distance of its target, in units of the map, where a mean triangle has area 1; it
-/// is then put on the target exactly.
+/// Distance from its target within which a vertex counts as arrived, for a mean triangle of area 1; it is then put
+/// exactly on the target.
 const ARRIVED: f64 = 1e-9;
 
 /// How a map was pulled, and what that cost.
@@ -38,33 +38,33 @@ pub struct PullSummary {
     pub unreached: Vec<Unreached>,
 }
 
-/// The least weight of vertices that may move in a point that is pulled itself: with less, they would have to move more than
-/// twice as far as the point.
+/// Least total weight of movable vertices in a point that is pulled itself: with less, they would have to move more
+/// than twice as far as the point.
 const LEAST_FREE: f64 = 0.5;
 
-/// Vertices of a planar body that stay, and vertices and points that are pulled; targets in the unit of the body.
+/// Fixed vertices of a planar body, and vertices and points that are pulled; targets in the unit of the body.
 pub(super) struct Holds {
-    /// Ascending.
+    /// Fixed vertices, in increasing order.
     pub fixed: Vec<u32>,
     pub pulled: Vec<(u32, [f64; 2])>,
     pub points: Vec<(Row, [f64; 2])>,
-    /// The places in the caller's list of the handles that pull these vertices, and of those that pull these points.
+    /// For each pulled vertex the index of its handle in the caller's list, and likewise for each point.
     of_vertices: Vec<usize>,
     of_points: Vec<usize>,
 }
 
-/// What a handle at a point takes hold of.
+/// The part of the map that a handle at a point pulls.
 pub(super) enum Grip {
-    /// The vertices around the point stay.
+    /// Nothing: the vertices around the point stay fixed.
     Fixed,
-    /// A vertex: that which the point is, or near to vertices that stay another of its triangle.
+    /// A vertex: the one at the point or, near fixed vertices, another of its triangle.
     Vertex(u32),
     /// The point itself.
     Point(Row),
 }
 
 impl Holds {
-    /// These vertices stay; nothing is pulled yet.
+    /// Fixes these vertices; nothing is pulled yet.
     pub fn new(fixed: Vec<u32>) -> Self {
         Self {
             fixed,
@@ -75,13 +75,13 @@ impl Holds {
         }
     }
 
-    /// A handle pulls a vertex.
+    /// Lets a handle pull a vertex.
     pub fn pull_vertex(&mut self, handle: usize, vertex: u32, to: [f64; 2]) {
         self.pulled.push((vertex, to));
         self.of_vertices.push(handle);
     }
 
-    /// A handle pulls a point.
+    /// Lets a handle pull a point.
     pub fn pull_point(&mut self, handle: usize, row: Row, to: [f64; 2]) {
         self.points.push((row, to));
         self.of_points.push(handle);
@@ -91,7 +91,7 @@ impl Holds {
         self.fixed.binary_search(&vertex).is_ok()
     }
 
-    /// What a handle at a point of an element takes hold of.
+    /// Returns what a handle at a point of an element pulls.
     pub fn grip(&self, row: Row) -> Grip {
         if let Some(vertex) = sole_vertex(&row) {
             return if self.is_fixed(vertex) {
@@ -108,14 +108,14 @@ impl Holds {
         heaviest.map_or(Grip::Fixed, |&(vertex, _)| Grip::Vertex(vertex))
     }
 
-    /// What is pulled, one after the other: the vertices and then the points.
+    /// Returns one aim per pulled vertex, then one per point.
     fn aims(&self) -> Vec<Aim> {
         let vertices = self.pulled.iter().map(|hold| Aim::at_vertex(hold.0));
         let points = (0..self.points.len()).map(Aim::at_point);
         vertices.chain(points).collect()
     }
 
-    /// Unreached [aims](Self::aims) as the caller's handles, with distances in his unit.
+    /// Converts unreached [aims](Self::aims) to the caller's handles, with distances in the caller's unit.
     fn named(&self, unreached: Vec<Unreached>, unit: f64) -> Vec<Unreached> {
         let handles = [&self.of_vertices[..], &self.of_points].concat();
         let named = unreached.into_iter().map(|aim| Unreached {
@@ -127,7 +127,8 @@ impl Holds {
         named
     }
 
-    /// All of them. Those that stay are a group of their own, so that no neighbor's travel moves them on the way.
+    /// Returns the handles of all fixed and pulled vertices and points. Fixed vertices form a group of their own, so
+    /// that no neighbor's motion moves them.
     pub fn handles(&self, body: &Body, start: &[[f64; 2]]) -> Result<Handles, ProblemError> {
         let pulled: Vec<u32> = self.pulled.iter().map(|hold| hold.0).collect();
         let mut groups = vec![0; self.fixed.len()];
@@ -142,23 +143,23 @@ impl Holds {
     }
 }
 
-/// A map of the plane after it was pulled.
+/// A map of the plane after pulling.
 pub(super) struct Pulled {
     /// Positions in the unit of the body.
     pub vertices: Vec<[f64; 2]>,
     pub summary: PullSummary,
 }
 
-/// How a map is pulled.
+/// Settings of a pull.
 pub(super) struct How<'a> {
     pub model: &'a Model,
     /// See [`Problem::search`].
     pub search: bool,
-    /// The body's unit of length in the caller's.
+    /// The body's unit of length in the caller's unit.
     pub unit: f64,
 }
 
-/// Pulls vertices of a planar body whose mean triangle has area 1 or so.
+/// Pulls vertices of a planar body whose mean triangle has an area of about 1.
 pub(super) fn pull(
     body: Body,
     start: &[[f64; 2]],
@@ -195,7 +196,7 @@ pub(super) fn pull(
     })
 }
 
-/// The problem of a planar body whose mean triangle has area 1 or so.
+/// Creates the problem of a planar body whose mean triangle has an area of about 1.
 pub(super) fn pulled(
     body: Body,
     start: &[[f64; 2]],
@@ -225,7 +226,7 @@ pub(super) fn pulled(
     problem.guarded(model)
 }
 
-/// Puts vertices that are at their targets but for rounding on them.
+/// Puts vertices that are at their targets up to rounding exactly on them.
 pub(super) fn arrive(vertices: &mut [[f64; 2]], handles: &Handles) {
     let targets = handles.targets.as_chunks::<2>().0;
     for (&v, target) in handles.vertices.iter().zip(targets) {
@@ -236,7 +237,7 @@ pub(super) fn arrive(vertices: &mut [[f64; 2]], handles: &Handles) {
     }
 }
 
-/// Is a place the target but for rounding?
+/// Returns whether a place is the target up to rounding.
 pub(super) fn is_arrived(place: &[f64], target: &[f64]) -> bool {
     let is_near = |(x, t): (&f64, &f64)| (x - t).abs() <= ARRIVED * t.abs().max(1.0);
     place.iter().zip(target).all(is_near)

@@ -1,4 +1,4 @@
-//! A body that is pulled while someone watches.
+//! Interactive deformation of a body.
 
 use std::collections::BTreeMap;
 
@@ -13,18 +13,20 @@ use super::pull::is_arrived;
 use super::worth::Worth;
 use unwrapd_method::solver::{Handles, Stage, Summary};
 
-/// A body in the hand: its mesh and energy are built once, handles come, move and go, and the map follows an iteration at a
-/// time, every iterate valid.
+/// A session in which a body is deformed: its mesh and energy are built once, handles are added, moved and removed, and
+/// the map follows an iteration at a time, every iterate valid.
 ///
-/// Positions, handles and radii are in the unit of the body, as for [`Problem`]; inside, its mean element has size 1. Left alone a
-/// session settles where [`Problem::solve`] ends. A surface in a [`cage`](super::cage) is carried along by
-/// [`Cage::interpolate`](super::cage::Cage::interpolate). Ways are not bent: whoever drags chooses the way.
+/// Positions, handles and radii are in the unit of the body, as for [`Problem`]; internally its mean element has size
+/// 1. Without further changes a session settles where [`Problem::solve`] ends. A surface in a [`cage`](super::cage) is
+/// carried along by [`Cage::interpolate`](super::cage::Cage::interpolate). Paths are not bent: the user who drags
+/// chooses the path.
 ///
-/// The pattern of the linear systems is ordered and analyzed once, whatever becomes of the handles: vertices are held by clearing
-/// their rows and columns, and the corners of the element in which a point is pulled meet in the pattern already. With `bijective`
-/// the pattern grows where parts of the boundary come near each other for the first time, and only then is analyzed again.
+/// The pattern of the linear systems is ordered and analyzed once, whatever happens to the handles: vertices are held
+/// by clearing their rows and columns, and the corners of the element in which a point is pulled meet in the pattern
+/// already. With `bijective` the pattern grows when parts of the boundary come near each other for the first time, and
+/// only then is analyzed again.
 pub struct Session {
-    /// In the caller's unit.
+    /// The body, in the caller's unit.
     body: Body,
     frame: Frame,
     live: Live,
@@ -33,28 +35,28 @@ pub struct Session {
     history: History<State>,
 }
 
-/// The name of a handle of a session; none is given twice.
+/// Identifier of a handle of a session; never reused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct HandleId(u32);
 
-/// Handles, and the vertices and points that they are in the caller's unit.
+/// Handles, and their vertices and points in the caller's unit.
 #[derive(Clone, Default)]
 struct Held {
     handles: BTreeMap<HandleId, Handle>,
     bound: Handles,
 }
 
-/// What [`Session::undo`] returns to.
+/// State to which [`Session::undo`] returns.
 struct State {
     x: Vec<f64>,
     held: Held,
 }
 
 impl Session {
-    /// A body at rest, without handles.
+    /// Opens a session with a body at rest, without handles.
     ///
     /// # Errors
-    /// If a number of the model is out of its range, or the body does not have such an energy.
+    /// If a number of the model is out of range, or its energy is not defined for the body.
     pub fn new(body: Body, model: &Model) -> Result<Self, ProblemError> {
         let problem = Problem::at_rest(body, model)?;
         let (normalized, frame) = problem.normalized();
@@ -68,10 +70,11 @@ impl Session {
         })
     }
 
-    /// Takes hold of vertices or a point. Places and centers are those of the body at rest.
+    /// Adds a handle. Places and centers are those of the body at rest.
     ///
     /// # Errors
-    /// As [`bind`], which names handles by their order in [`handles`](Self::handles), this one last. Then all is as it was.
+    /// As [`bind`], which names handles by their order in [`handles`](Self::handles), this one last. The session is
+    /// then unchanged.
     pub fn add(&mut self, handle: Handle) -> Result<HandleId, ProblemError> {
         let id = HandleId(self.next);
         self.replace(id, handle)?;
@@ -79,10 +82,11 @@ impl Session {
         Ok(id)
     }
 
-    /// Gives a handle another target.
+    /// Changes the target of a handle.
     ///
     /// # Errors
-    /// If there is no such handle, if the target is no position, or if it contradicts another handle's. Then all is as it was.
+    /// If there is no such handle, if the target is not a position, or if it contradicts another handle's. The session
+    /// is then unchanged.
     pub fn move_handle(&mut self, id: HandleId, target: &[f64]) -> Result<(), ProblemError> {
         let mut handle = self.handle(id)?.clone();
         match &mut handle {
@@ -93,7 +97,7 @@ impl Session {
         self.replace(id, handle)
     }
 
-    /// Exchanges a handle for another one, as a disc for the same disc turned.
+    /// Exchanges a handle for another one, such as a disc for the same disc turned.
     ///
     /// # Errors
     /// As [`add`](Self::add), or if there is no such handle.
@@ -102,7 +106,7 @@ impl Session {
         self.replace(id, handle)
     }
 
-    /// Lets go.
+    /// Removes a handle.
     ///
     /// # Errors
     /// If there is no such handle.
@@ -136,11 +140,11 @@ impl Session {
         Ok(())
     }
 
-    /// Exchanges energy and barrier. The map, the handles and what is remembered stay.
+    /// Exchanges energy and barrier. The map, the handles and the history are kept.
     ///
     /// # Errors
-    /// As [`new`](Self::new), or if the present map is outside the domain of that energy, as one with a larger distortion than the
-    /// new bound. Then all is as it was.
+    /// As [`new`](Self::new), or if the present map is outside the domain of the new energy, such as one with a larger
+    /// distortion than the new bound. The session is then unchanged.
     pub fn remodel(&mut self, model: &Model) -> Result<(), ProblemError> {
         let problem = Problem::at_rest(self.body.clone(), model)?;
         let mut live = Live::new(problem.normalized().0)?;
@@ -151,18 +155,18 @@ impl Session {
         Ok(())
     }
 
-    /// The handles with their names, in the order in which they were added.
+    /// Iterates over the handles and their identifiers, in the order in which they were added.
     pub fn handles(&self) -> impl Iterator<Item = (HandleId, &Handle)> {
         self.held.handles.iter().map(|(id, handle)| (*id, handle))
     }
 
-    /// One iteration, unless there is nothing left to do; the map is valid before and after.
+    /// Runs one iteration, unless nothing is left to do; the map is valid before and after.
     pub fn step(&mut self) -> Stage {
         self.live.step()
     }
 
-    /// Iterations as long as there is something to do and `go_on` says so, which is asked before each: a time slice, if it looks at
-    /// a clock.
+    /// Iterates while there is something to do and `go_on`, which is called before each iteration, returns `true`: a
+    /// time slice, if it checks a clock.
     pub fn step_while(&mut self, mut go_on: impl FnMut(&Self) -> bool) -> Stage {
         while self.stage() == Stage::Moving && go_on(self) {
             self.step();
@@ -170,23 +174,24 @@ impl Session {
         self.stage()
     }
 
-    /// Where the handles stand.
+    /// Returns the state of the handles.
     pub fn stage(&self) -> Stage {
         self.live.stage()
     }
 
-    /// What was done since the beginning. Energies include barriers and the pull of points; that of a map that no iteration has looked at
-    /// yet is not a number.
+    /// Returns the totals since the beginning. Energies include barriers and the pull of points; the energy of a map
+    /// before its first iteration is NaN.
     pub fn summary(&self) -> &Summary {
         self.live.summary()
     }
 
-    /// How often the pattern of the linear systems was ordered and analyzed.
+    /// Returns the number of times the pattern of the linear systems was ordered and analyzed.
     pub fn analyses(&self) -> usize {
         self.live.analyses()
     }
 
-    /// Where the vertices are, coordinates one after another. Those that are at their targets are there to the bit.
+    /// Returns the positions of the vertices, coordinates one after another. Those at their targets equal them bit for
+    /// bit.
     pub fn positions(&self) -> Vec<f64> {
         let mut positions = self.frame.outward(self.live.x());
         let dim = self.body.dim();
@@ -206,33 +211,33 @@ impl Session {
         positions
     }
 
-    /// What the map is worth now.
+    /// Measures the present map.
     pub fn worth(&self) -> Worth {
         let worth = self.live.problem().worth_as_given(self.live.x());
         worth.restored(&self.frame)
     }
 
-    /// Remembers positions and handles, as before a drag; [`undo`](Self::undo) returns here. The last hundred are kept.
+    /// Records positions and handles, as before a drag; [`undo`](Self::undo) returns here. The last hundred are kept.
     pub fn remember(&mut self) {
         let state = self.state();
         self.history.remember(state);
     }
 
-    /// Returns to what was remembered last, positions and handles alike, to the bit; false if there is nothing.
+    /// Returns to the last recorded positions and handles, bit for bit; returns `false` if there are none.
     pub fn undo(&mut self) -> bool {
         let present = self.state();
         let state = self.history.back(present);
         self.restore(state)
     }
 
-    /// Takes an undo back; false if there is none, or something was remembered since.
+    /// Reverts an undo; returns `false` if there is none, or something was recorded since.
     pub fn redo(&mut self) -> bool {
         let present = self.state();
         let state = self.history.forth(present);
         self.restore(state)
     }
 
-    /// Returns to rest, without handles. What is remembered stays.
+    /// Returns to rest, without handles. The history is kept.
     pub fn reset(&mut self) {
         let rest = State {
             x: self.live.problem().body.rest.clone(),

@@ -1,17 +1,16 @@
-//! Symmetries broken.
+//! Small perturbations that break symmetries.
 
 use super::problem::Problem;
 use unwrapd_method::numerics::random::Random;
 use unwrapd_method::solver::Objective;
 
-/// How far vertices that nothing holds are moved from exact rest, in units of the smallest element's
-/// edge. A straight bar that is pressed at once then buckles, and does not stay on the saddle of its
-/// symmetry.
+/// Distance by which free vertices are moved from exact rest, in edges of the smallest element. A straight bar that is
+/// pressed then buckles at once instead of staying on the saddle of its symmetry.
 const SHAKE: f64 = 1e-3;
 
 impl Problem {
-    /// Moves free vertices a little, each toward another one drawn from a fixed seed: the same way in
-    /// any unit, place and direction. Only if that leaves the map inside the domain.
+    /// Moves free vertices a little, each toward another one drawn from a fixed seed, independent of unit, place and
+    /// direction. Does nothing if that would leave the domain.
     pub(super) fn shake(&self, objective: &Objective, x: &mut [f64]) {
         let (dim, n_vertices) = (self.body.dim(), self.body.n_vertices());
         let sizes = self.body.determinants().into_iter();

@@ -1,27 +1,28 @@
-//! A body in slices between one of its handles and the nearest other one.
+//! Slices of a body between one of its handles and the nearest other one.
 
 use std::collections::HashMap;
 
 use super::body::Body;
 use super::problem::Problem;
 
-/// Vertices whose way from one handle to the other is longer than the shortest by more than this belong to limbs aside of it.
+/// Vertices whose path between the two handles is longer than the shortest by this factor belong to limbs beside it.
 const DETOUR: f64 = 1.5;
 
-/// Places along the way, as shares of it, that are one but for rounding: the layers of a grid are not divided.
+/// Difference below which places along the path, as shares of it, count as equal: the layers of a grid are not divided.
 const SAME: f64 = 1e-9;
 
-/// The slices of a body between two of its handles, in order.
+/// Slices of a body between two of its handles, in order.
 pub(super) struct Slices {
-    /// The vertices of each; the first and the last are what the handles hold.
+    /// Vertices of each slice; the first and the last are those of the handles.
     pub slices: Vec<Vec<u32>>,
-    /// The vertex of the other handle that is nearest to the first.
+    /// Vertex of the other handle that is nearest to the first.
     pub end: u32,
 }
 
 impl Problem {
-    /// From these held vertices to the nearest that are held by others, slices as thin as so many vertices allow, by the distances
-    /// along edges at rest from both ends. None if no others are held, or no edges lead to them.
+    /// Cuts the body from these held vertices to the nearest ones held by another handle into slices as thin as `least`
+    /// vertices per slice allow, by distances along edges at rest from both ends. Returns `None` if no others are held,
+    /// or no edges lead to them.
     pub(super) fn slices(&self, first: &[u32], least: usize) -> Option<Slices> {
         let handles = self.stations.last()?;
         let grouped = handles.vertices.iter().zip(&handles.groups);
@@ -58,8 +59,8 @@ impl Problem {
     }
 }
 
-/// Vertices in the order of their places, at least so many to a slice, those of one place together; what is left over at the end
-/// joins the last.
+/// Splits vertices in the order of their places into slices of at least `least` vertices, keeping equal places
+/// together; the remainder joins the last slice.
 fn sliced(places: &[(f64, u32)], least: usize) -> Vec<Vec<u32>> {
     let (mut slices, mut slice) = (Vec::<Vec<u32>>::new(), Vec::new());
     let mut last = f64::NEG_INFINITY;
@@ -78,8 +79,8 @@ fn sliced(places: &[(f64, u32)], least: usize) -> Vec<Vec<u32>> {
 }
 
 impl Body {
-    /// The distance of every vertex from these along edges at rest; infinite where there is no way. Sweeps over the elements until
-    /// nothing changes.
+    /// Returns the distance of every vertex from these along edges at rest; infinite if there is no path. Sweeps over
+    /// the elements until nothing changes.
     fn distances(&self, from: &[u32]) -> Vec<f64> {
         let dim = self.dim();
         let length = |a: u32, b: u32| {

@@ -1,4 +1,4 @@
-//! From a problem to a map.
+//! Solution of a problem.
 
 use serde::{Deserialize, Serialize};
 
@@ -26,19 +26,19 @@ pub enum Method {
     Levenberg,
 }
 
-/// A map and what it is worth.
+/// A map and its measures.
 #[derive(Clone, Debug)]
 pub struct Solution {
     /// Positions, coordinates one after another.
     pub x: Vec<f64>,
-    /// What the solver did.
+    /// Summary of the solver.
     pub summary: Summary,
-    /// What the map is worth.
+    /// Quality of the map.
     pub worth: Worth,
 }
 
 impl Solution {
-    /// Whether the handles came to their targets, as far as the status tells.
+    /// Returns whether the handles came to their targets, as far as the status tells.
     pub(super) fn has_arrived(&self) -> bool {
         !matches!(
             self.summary.status,
@@ -48,13 +48,14 @@ impl Solution {
 }
 
 impl Problem {
-    /// Minimizes the energy with the handles at their targets, each station settled before the next ([`follow`](unwrapd_method::solver::follow)). With a barrier
-    /// every iterate is without inversion.
+    /// Minimizes the energy with the handles at their targets; each station is settled before the next
+    /// ([`follow`](unwrapd_method::solver::follow)). With a barrier no iterate has an inversion.
     ///
-    /// Handles that change places stand in each other's way. Where they do not arrive straight they try bent ways from the start, at
-    /// most eight, and [flow](unwrapd_method::solver::flow()); where none leads to all targets each handle that is reached alone is,
-    /// and [`unreached`](Self::unreached) names the rest. With [`search`](Self::search) all bent ways are tried, and the map with
-    /// the lowest energy is the solution. Iterations and factorizations are those of all attempts.
+    /// Handles that change places block each other. If they do not arrive on straight paths, up to eight sets of bent
+    /// paths from the start and the [flow](unwrapd_method::solver::flow()) are tried. If no attempt reaches all
+    /// targets, each handle that can be reached alone is, and [`unreached`](Self::unreached) names the rest. With
+    /// [`search`](Self::search) all bent paths are tried, and the map with the lowest energy is the solution.
+    /// Iterations and factorizations are those of all attempts.
     pub fn solve(&self, settings: &Settings, watch: &dyn Watch) -> Result<Solution, ProblemError> {
         let solution =
             self.solve_in_units(watch, &|problem, watch| problem.solve_ways(settings, watch))?;
@@ -62,7 +63,7 @@ impl Problem {
         Ok(self.checked(solution, exact))
     }
 
-    /// The same by the paper's iteration.
+    /// Solves the problem by the paper's iteration.
     pub fn solve_by_levenberg(
         &self,
         settings: &LevenbergSettings,
@@ -96,7 +97,8 @@ impl Problem {
         Ok(solution)
     }
 
-    /// The solution, whose status says that it has arrived only if every held vertex is within a distance of its target.
+    /// Changes the status of a solution that counts as arrived although some held vertex is farther than `most` from
+    /// its target.
     fn checked(&self, mut solution: Solution, most: f64) -> Solution {
         if matches!(solution.summary.status, Status::Converged | Status::Stalled)
             && !self.is_at_targets(&solution.x, most)
@@ -106,8 +108,8 @@ impl Problem {
         solution
     }
 
-    /// A solution of the normalized problem as one of this. What stands at its target there does so here
-    /// to the bit.
+    /// Converts a solution of the normalized problem to this one. Vertices exactly at their targets there are so here,
+    /// bit for bit.
     fn restored(&self, frame: &Frame, inner: &Self, solution: &Solution) -> Solution {
         let mut x = frame.outward(&solution.x);
         let dim = self.body.dim();
@@ -157,7 +159,7 @@ impl Problem {
         Ok(self.solution(x, total))
     }
 
-    /// The energy with the barrier, and the points that handles pull at.
+    /// Creates the objective: the energy with the barrier, and the points that handles pull.
     pub(super) fn objective(&self) -> Result<Objective, ProblemError> {
         let terms = self.terms(self.barrier)?;
         let n_vertices = self.body.n_vertices();
@@ -179,7 +181,7 @@ impl Problem {
         Ok(terms)
     }
 
-    /// The barrier of the boundary, as strong as that of an ordinary element.
+    /// Returns the barrier of the boundary, as strong as that of an ordinary element.
     pub(super) fn boundary_term(&self) -> Option<BoundaryBarrier> {
         let beta = self.barrier.beta * self.energy.mean_weight(&self.body);
         Some(self.boundary_barrier.as_ref()?.with_beta(beta))

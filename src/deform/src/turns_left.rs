@@ -1,14 +1,15 @@
-//! How many of the turns that handles make a map holds.
+//! Turns between handles that a map preserves.
 //!
-//! Where a body is turned at one end and held at another, its elements share the turns. Those that they cannot hold go into a
-//! coil, or are lost where the body passes through itself: its elements stay valid, and the ends do not show it. So turns are
-//! counted on the way from one end to the other: the body is cut into thin slices, of each the rotation is taken that best fits
-//! its vertices, and what its neighbor is turned by beside it, at most half a turn, is added up about the axis. Slices, not
-//! elements, because those away from the axis are sheared and so turned aside.
+//! If a body is turned at one end and held at another, its elements share the turns. Turns beyond their capacity go
+//! into a coil, or are lost where the body passes through itself: the elements stay valid, and the ends do not show the
+//! loss. So turns are counted between the ends: the body is cut into thin slices, the rotation that best fits its
+//! vertices is computed for each slice, and the turns relative to the slice before, at most half a turn each, are added
+//! up about the axis. Slices are used, not elements, because elements away from the axis are sheared and thereby turned
+//! aside.
 //!
-//! In the plane the count is exact. From one edge of a triangle to the next the map turns by the difference of two angles
-//! between 0 and half a turn, as long as the triangle is not inverted, so the turns along any path of triangles add up without
-//! doubt, however much they are sheared. A path across slices would lose half turns there.
+//! In the plane the count is exact. From one edge of a triangle to the next the map turns by the difference of two
+//! angles between 0 and half a turn, as long as the triangle is not inverted, so the turns along any path of triangles
+//! add up without ambiguity, however much they are sheared. A path across slices would lose half turns there.
 
 use serde::{Deserialize, Serialize};
 
@@ -33,20 +34,20 @@ pub struct Turns {
     pub left: f64,
 }
 
-/// Less than half a turn the ends show themselves, and a bar that bends a little lacks it in its twist.
+/// Turns below this many need no count: the ends show them, and a bar that bends a little lacks some twist.
 const HALF: f64 = 0.5;
 
 impl Turns {
-    /// Is half a turn or more missing?
+    /// Returns whether half a turn or more is missing.
     pub fn are_lost(&self) -> bool {
         (self.asked - self.left).abs() >= HALF
     }
 }
 
 impl Problem {
-    /// The turns that a map holds, for each disc that makes half a turn or more beside the nearest other handle, on the way
-    /// between them; costs some sweeps over the elements. Nothing is said of discs of too few vertices to have a direction, and
-    /// where no other handle holds vertices.
+    /// Returns the turns that a map preserves, for each disc that makes half a turn or more relative to the nearest
+    /// other handle, along the path between them; costs some sweeps over the elements. Leaves out discs of too few
+    /// vertices to have a direction, and discs without another handle that holds vertices.
     pub fn turns(&self, x: &[f64]) -> Vec<Turns> {
         let turns = self.turned.iter().filter_map(|turned| {
             let (left, end) = match &self.body.elements {
@@ -62,8 +63,8 @@ impl Problem {
         turns.filter(|t| t.asked.abs() >= HALF).collect()
     }
 
-    /// The turns of a disc beside the nearest other handle, along a path of triangles between edges that the two hold, and the
-    /// vertex of the other handle.
+    /// Returns the turns of a disc relative to the nearest other handle, along a path of triangles between edges held
+    /// by the two, and the vertex of the other handle.
     fn planar_turns(&self, turned: &Turned, corners: &[[u32; 3]], x: &[f64]) -> Option<(f64, u32)> {
         let Slices { slices, end } = self.slices(&turned.vertices, 4)?;
         let [first, last] = [slices.first()?, slices.last()?].map(|held| {
@@ -86,7 +87,8 @@ impl Problem {
         Some((-angle / std::f64::consts::TAU, end))
     }
 
-    /// The turns of a disc beside the nearest other handle, added up from slice to slice, and a vertex of the other handle.
+    /// Returns the turns of a disc relative to the nearest other handle, added up from slice to slice, and a vertex of
+    /// the other handle.
     fn turns_across_slices(&self, turned: &Turned, x: &[f64]) -> Option<(f64, u32)> {
         const D: usize = 3;
         let Slices { slices, end } = self.slices(&turned.vertices, 2 * D)?;
@@ -108,7 +110,7 @@ impl Problem {
         Some((angle / std::f64::consts::TAU, end))
     }
 
-    /// By how much a vertex that another disc holds is turned about the axis of `turned`.
+    /// Returns the degrees by which a vertex held by another disc is turned about the axis of `turned`.
     fn degrees_of(&self, vertex: u32, turned: &Turned) -> f64 {
         let other = self
             .turned
@@ -123,13 +125,14 @@ impl Problem {
     }
 }
 
-/// Edges from one between `first` vertices to one between `last` vertices, or with one of them where they have none. Each is in one
-/// triangle with the one before.
+/// Finds a path of edges from one between `first` vertices to one between `last` vertices, or with one of them if there
+/// is none between them. Each edge shares a triangle with the one before.
 fn path_of_edges(
     corners: &[[u32; 3]],
     first: &HashSet<u32>,
     last: &HashSet<u32>,
 ) -> Option<Vec<[u32; 2]>> {
+    // Triangles of each edge.
     let sides = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
     let mut triangles_of: HashMap<[u32; 2], Vec<[u32; 3]>> = HashMap::new();
     for &triangle in corners {
@@ -138,6 +141,7 @@ fn path_of_edges(
             triangles_of.entry(edge).or_default().push(triangle);
         }
     }
+    // The first edge that `first` holds, and those that `last` holds both ends of, or else one.
     let is_held = |[a, b]: [u32; 2], held: &HashSet<u32>| held.contains(&a) && held.contains(&b);
     let mut edges: Vec<[u32; 2]> = triangles_of.keys().copied().collect();
     edges.sort_unstable();
@@ -154,6 +158,7 @@ fn path_of_edges(
             between
         }
     };
+    // Breadth-first search over edges of a common triangle.
     let mut before: HashMap<[u32; 2], [u32; 2]> = HashMap::from([(begin, begin)]);
     let mut queue = VecDeque::from([begin]);
     let end = loop {
@@ -169,6 +174,7 @@ fn path_of_edges(
             });
         }
     };
+    // Trace the path back.
     let mut path = vec![end];
     while let Some(&edge) = before
         .get(&path[path.len() - 1])

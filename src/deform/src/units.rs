@@ -1,4 +1,4 @@
-//! The units in which a problem is meant.
+//! Units of a problem's numbers.
 
 use std::fmt;
 
@@ -17,7 +17,7 @@ pub enum Units {
 }
 
 impl fmt::Display for Units {
-    /// What stands behind an energy.
+    /// Writes the phrase that follows an energy.
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(match self {
             Self::Normalized => "for a mean element of size 1",

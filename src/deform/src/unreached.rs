@@ -1,4 +1,4 @@
-//! Handles that did not come to their targets.
+//! Handles that did not reach their targets.
 
 use std::collections::HashMap;
 
@@ -10,9 +10,9 @@ use super::problem::Problem;
 use super::solve::Solution;
 use unwrapd_method::solver::{Handles, Status};
 
-/// What a held vertex may be off its target, as a share of the longest side of the body and the targets.
+/// Largest distance of a held vertex from its target, as a share of the longest side of the body and the targets.
 const EXACT: f64 = 1e-12;
-/// What counts as arrived where soft constraints hold: a distance of this share of a mean element's edge.
+/// Distance within which handles held by soft constraints count as arrived, as a share of a mean element's edge.
 const ARRIVED: f64 = 1e-6;
 
 /// A handle that did not come to its target.
@@ -26,7 +26,7 @@ pub struct Unreached {
 }
 
 impl Problem {
-    /// The handles that did not come to their targets, in the order of their list.
+    /// Returns the handles that did not reach their targets, in the order of their list.
     pub fn unreached(&self, solution: &Solution) -> Vec<Unreached> {
         let Some(targets) = self.stations.last() else {
             return Vec::new();
@@ -53,7 +53,8 @@ impl Problem {
         missed
     }
 
-    /// Whether every held vertex is within a distance of its target, and every held point as near as soft constraints bring it.
+    /// Returns whether every held vertex is within `most` of its target, and every held point as near as soft
+    /// constraints bring it.
     pub(super) fn is_at_targets(&self, x: &[f64], most: f64) -> bool {
         let Some(targets) = self.stations.last() else {
             return true;
@@ -64,12 +65,12 @@ impl Problem {
             && (0..targets.points.len()).all(|i| gaps.of_point(i) <= near)
     }
 
-    /// What rounding may leave of the distance of a held vertex from its target.
+    /// Returns the rounding error of the distance of a held vertex from its target.
     pub(super) fn rounding(&self) -> f64 {
         EXACT * self.size()
     }
 
-    /// The longest side of the box around the body and the targets.
+    /// Returns the longest side of the box around the body and the targets.
     fn size(&self) -> f64 {
         let dim = self.body.dim();
         let targets = self.stations.last().map_or(&[][..], |last| &last.targets);
@@ -86,23 +87,23 @@ impl Problem {
         (0..dim).map(side).fold(0.0, f64::max)
     }
 
-    /// A distance that counts as none.
+    /// Returns the distance below which a handle counts as arrived.
     pub(super) fn least_gap(&self) -> f64 {
         ARRIVED * Frame::of(&self.body).squared(1.0).sqrt()
     }
 }
 
-/// How far handles are from their targets.
+/// Distances of handles from their targets.
 pub(super) struct Gaps<'a> {
     dim: usize,
     targets: &'a Handles,
     x: &'a [f64],
-    /// The place of each held vertex among the handles.
+    /// Index of each held vertex among the handles.
     places: HashMap<u32, usize>,
 }
 
 impl<'a> Gaps<'a> {
-    /// In the map `x` of so many coordinates to a vertex.
+    /// Measures the map `x` with `dim` coordinates per vertex.
     pub fn new(dim: usize, targets: &'a Handles, x: &'a [f64]) -> Self {
         Self {
             dim,
@@ -112,7 +113,7 @@ impl<'a> Gaps<'a> {
         }
     }
 
-    /// Of all that a handle holds, the largest.
+    /// Returns the largest distance among the vertices and points of a handle.
     pub fn of(&self, aim: &Aim) -> f64 {
         let held = aim.vertices.iter().filter_map(|v| self.places.get(v));
         let distances = held.map(|&i| self.of_vertex(i));
@@ -120,14 +121,14 @@ impl<'a> Gaps<'a> {
         distances.fold(0.0, f64::max)
     }
 
-    /// Of the handle at a vertex, by its place among them.
+    /// Returns the distance of the `i`-th held vertex.
     fn of_vertex(&self, i: usize) -> f64 {
         let first = self.dim * self.targets.vertices[i] as usize;
         let at = |k: usize| self.x[first + k] - self.targets.targets[self.dim * i + k];
         (0..self.dim).map(|k| at(k) * at(k)).sum::<f64>().sqrt()
     }
 
-    /// Of a point.
+    /// Returns the distance of a point.
     fn of_point(&self, i: usize) -> f64 {
         let place = self.point(i);
         let targets = self.targets.point_targets[self.dim * i..].iter();
@@ -135,7 +136,7 @@ impl<'a> Gaps<'a> {
         squares.sum::<f64>().sqrt()
     }
 
-    /// Where a point is.
+    /// Returns the position of a point.
     pub fn point(&self, i: usize) -> Vec<f64> {
         let mut place = vec![0.0; self.dim];
         for &(v, weight) in &self.targets.points[i] {

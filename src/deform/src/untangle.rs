@@ -1,11 +1,12 @@
-//! A start with inverted elements made valid, and as little of it moved as possible.
+//! Untangling of a start with inverted elements, moving as little of it as possible.
 //!
-//! The vertices around inverted elements are moved to a minimum of an energy that is finite where elements are inverted
-//! ([`FoldoverFree`]), all others stay. If that does not help, wider rings of vertices may move, at last all. Between rounds ε
-//! falls as fast as the worst element allows. When all are positive, ε = 0 takes them to decent shapes.
+//! The vertices around inverted elements move to a minimum of an energy that is finite where elements are inverted
+//! ([`FoldoverFree`]); all others stay fixed. If that does not help, wider rings of vertices may move, at last all.
+//! Between rounds ε falls as fast as the worst element allows. Once all elements are positive, ε = 0 gives them decent
+//! shapes.
 //!
-//! From: Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, Foldover-free maps in 50 lines of code; there by quasi-Newton
-//! steps for the whole mesh at once, here by projected Newton.
+//! From: Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, Foldover-free maps in 50 lines of code; there by
+//! quasi-Newton steps for the whole mesh at once, here by projected Newton.
 
 use super::body::{Body, BodyElements};
 use unwrapd_maps::mesh::UsedVertices;
@@ -14,30 +15,31 @@ use unwrapd_method::energy::{FoldoverFree, Term, Tetrahedra, Triangles};
 use unwrapd_method::numerics::predicates::{orient2d_sign, orient3d_sign};
 use unwrapd_method::solver::{Control, Iterate, Objective, Settings, minimize};
 
-/// How many rings of vertices around bad elements may move at first, and how many times as many after each failure.
+/// Rings of vertices around bad elements that may move at first, and the factor after each failure.
 const RINGS: usize = 2;
 const WIDENING: usize = 3;
 
-/// Changes of ε at most before more vertices are let go.
+/// Most changes of ε before more vertices may move.
 const ROUNDS: usize = 60;
 
 /// Newton steps in a round, and at the end.
 const STEPS: usize = 20;
 const LAST_STEPS: usize = 50;
 
-/// The regularized determinant of the worst element in the first round, a tenth of an ordinary element's.
+/// Regularized determinant of the worst element in the first round: a tenth of an ordinary element's.
 const FIRST: f64 = 0.1;
 
-/// λ and the largest ε. An element that has shrunk to a point costs λ/ε, one at rest less than 1 + λ: were the first less, a body
-/// that nothing holds would vanish.
+/// λ and the largest ε. An element that has shrunk to a point costs λ/ε, one at rest less than 1 + λ: if the former
+/// were smaller, a body that nothing holds would vanish.
 const SIZE: f64 = 2.0;
 const LARGEST: f64 = 0.5;
 
-/// Share of the energy that a round is taken to have gained, at least and at most, so that ε falls even when nothing was gained, and
-/// not at once where all was.
+/// Smallest and largest share of the energy that a round is taken to have gained, so that ε falls even after no gain,
+/// and not all at once after a complete one.
 const GAINS: [f64; 2] = [0.1, 0.9];
 
-/// The elements that are inverted, empty, or of a determinant of at most `floor` where the vertices are at `x`, by their numbers.
+/// Returns the indices of elements that are inverted, empty, or of a determinant of at most `floor` with the vertices
+/// at `x`.
 pub(super) fn bad_elements(body: &Body, x: &[f64], floor: f64) -> Vec<usize> {
     let determinants = body.determinants_at(x);
     let is_positive = |element: usize| match &body.elements {
@@ -58,9 +60,10 @@ fn place<const D: usize>(x: &[f64], vertex: u32) -> [f64; D] {
     std::array::from_fn(|k| x[D * vertex as usize + k])
 }
 
-/// Positions near to `x` with every determinant above `floor`, the vertices `held` where they are; `None` if none are found.
+/// Finds positions near `x` with every determinant above `floor` and the vertices `held` fixed; returns `None` if it
+/// fails.
 ///
-/// Vertices further from the bad elements than it took stay bit by bit.
+/// Vertices outside the rings around bad elements that had to move stay bit for bit.
 pub(super) fn untangled(body: &Body, x: &[f64], held: &[u32], floor: f64) -> Option<Vec<f64>> {
     if !x.iter().all(|x| x.is_finite()) {
         return None;
@@ -85,7 +88,7 @@ pub(super) fn untangled(body: &Body, x: &[f64], held: &[u32], floor: f64) -> Opt
     }
 }
 
-/// The vertices of these elements and so many rings around them.
+/// Marks the vertices of these elements and `rings` rings around them.
 fn around(body: &Body, elements: &[usize], rings: usize) -> Vec<bool> {
     let corners = body.corners();
     let mut is_near = vec![false; body.n_vertices()];
@@ -111,11 +114,11 @@ fn around(body: &Body, elements: &[usize], rings: usize) -> Vec<bool> {
     is_near
 }
 
-/// The elements around vertices that may move, their vertices numbered anew.
+/// The elements around vertices that may move, with their own numbering of vertices.
 struct Patch {
-    /// The number in the body of each vertex.
+    /// Index in the body of each vertex.
     vertices: Vec<u32>,
-    /// Those that stay, by their numbers here.
+    /// Vertices that stay fixed, in this numbering.
     fixed: Vec<u32>,
     elements: BodyElements,
 }
@@ -148,7 +151,7 @@ impl Patch {
         }
     }
 
-    /// Moves its free vertices in `x` to where its elements are positive, if it can.
+    /// Moves the free vertices in `x` until all elements of the patch are positive, if it can.
     fn untangle(&self, x: &mut [f64]) {
         let mut own: Vec<f64> = self.coordinates().map(|i| x[i]).collect();
         let mut objective = Objective::new(self.vertices.len(), self.term(0.0));
@@ -172,7 +175,7 @@ impl Patch {
         }
     }
 
-    /// Where its vertices' coordinates are among the body's.
+    /// Iterates over the indices of the patch's coordinates among those of the body.
     fn coordinates(&self) -> impl Iterator<Item = usize> {
         let dim = match self.elements {
             BodyElements::Triangles { .. } => 2,
@@ -195,7 +198,7 @@ impl Patch {
     }
 }
 
-/// Some of the elements, in the numbers of their vertices.
+/// Returns some of the elements in the patch's numbering of vertices.
 fn part<const N: usize>(
     kept: &[usize],
     elements: &[[u32; N]],
@@ -213,7 +216,7 @@ fn density(epsilon: f64) -> FoldoverFree {
     }
 }
 
-/// Takes so many steps downwards at most; the share of the energy that they took off.
+/// Takes at most `steps` steps of minimization; returns the decrease as a share of the energy.
 fn descend(objective: &mut Objective, x: &mut [f64], steps: usize) -> f64 {
     let settings = Settings {
         max_iterations: steps,

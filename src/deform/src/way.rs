@@ -1,13 +1,13 @@
-//! The way of a handle.
+//! Path of a handle.
 
 use unwrapd_method::numerics::vec3;
 use unwrapd_method::solver::Handles;
 
-/// How far ways are bent, in halves of their length: two that change places then pass each other at half the distance that they
-/// had.
+/// Bend of paths, in halves of their length: two handles that change places then pass each other at half the distance
+/// that they had.
 pub(super) const BEND: f64 = 0.5;
 
-/// The way of a group's centroid or of a point; in the plane the third coordinates are 0.
+/// Path of a group's centroid or of a point; in the plane the third coordinates are 0.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Way {
     pub from: [f64; 3],
@@ -19,13 +19,14 @@ impl Way {
         vec3::distance(self.from, self.to)
     }
 
-    /// The bend to the left for who looks along the way with `axis` upwards; none for ways along it.
+    /// Returns the unit bend to the left, looking along the path with `axis` up; zero for paths along the axis.
     pub fn left(&self, axis: [f64; 3]) -> [f64; 3] {
         vec3::unit(vec3::cross(axis, vec3::sub(self.to, self.from)))
     }
 }
 
-/// The ways of the groups and then of the points from where they are in `x`; a number without a group has a way of no length.
+/// Returns the paths of the groups and then of the points from their positions in `x`; a number without a group has a
+/// path of length zero.
 pub(super) fn ways(dim: usize, handles: &Handles, x: &[f64]) -> Vec<Way> {
     let place = |numbers: &[f64]| -> [f64; 3] {
         std::array::from_fn(|k| numbers.get(k).copied().unwrap_or(0.0))

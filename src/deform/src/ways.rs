@@ -1,4 +1,4 @@
-//! Ways to the targets: straight, or others where straight ones do not lead there.
+//! Choice of paths to the targets: straight ones, and others if those do not lead there.
 
 use super::attempt::{Attempt, Trial};
 use super::flowed::flow_to;
@@ -10,18 +10,18 @@ use unwrapd_method::numerics::rotation::Rotation;
 use unwrapd_method::numerics::square::{Matrix, Square};
 use unwrapd_method::solver::{Pace, Settings, Summary, Watch};
 
-/// So many bends, all to one side each, bring handles that change places past each other, and are tried before handles flow.
+/// Bends, each all to one side, that are tried before the flow: they bring handles that change places past each other.
 const FIRST: usize = 2;
 
-/// Where no more than this share of the handles is missing, those are blocked and the others are not: they get ways of their own, and
-/// no bent ways of all are tried.
+/// Largest share of missing handles at which these are taken to be blocked individually: they get paths of their own,
+/// and no bends of all paths are tried.
 const FEW: f64 = 0.25;
 
 impl Problem {
-    /// The best map that a bounded effort finds. Straight ways come first, then ways bent to one side and the other, then the
-    /// handles flow, and then other bends are tried. The first that lead to all targets are taken; with
-    /// [`search`](Self::search) all bends are tried. A way on which handles creep is left, and only the one that led farthest is
-    /// gone on with. Last, those that are missing are tried alone.
+    /// Finds the best map within a bounded effort. Straight paths come first, then paths bent to one side and the
+    /// other, then the flow, then other bends. The first that lead to all targets are taken; with
+    /// [`search`](Self::search) all bends are tried. A path on which handles creep is abandoned, and only the one that
+    /// led farthest is continued. Last, missing handles are tried alone.
     pub(super) fn solve_ways(
         &self,
         settings: &Settings,
@@ -47,23 +47,26 @@ impl Problem {
     }
 }
 
-/// What comes of all attempts.
+/// Makes all attempts and returns the best solution.
 fn tried<const D: usize>(mut trial: Trial, start: &[f64]) -> Result<Solution, ProblemError>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
+    // Straight paths.
     let search = trial.problem.search;
     let mut best = Attempt::<D>::bent(&mut trial, start, &[])?;
     best.go_on(&mut trial, Pace::BRISK)?;
     if best.is_enough(search) {
         return Ok(best.into_solution(&trial));
     }
+    // Paths all bent to one side.
     let bends = trial.problem.bends();
     let (first, others) = bends.split_at(bends.len().min(FIRST));
     best = bent(&mut trial, start, first, best)?;
     if best.is_enough(search) {
         return Ok(best.into_solution(&trial));
     }
+    // The flow, after which few missing handles are tried alone.
     let mut flowed = None;
     if !best.has_arrived() && trial.problem.stations.len() == 1 {
         let missing = flowed_from::<D>(&mut trial, start)?;
@@ -72,11 +75,13 @@ where
         }
         flowed = Some(missing);
     }
+    // Other bends; the best attempt may then continue more slowly.
     best = bent(&mut trial, start, others, best)?;
     let has_flowed = flowed.as_ref().is_some_and(Missing::is_none);
     if best.is_paused() && !has_flowed {
         best.go_on(&mut trial, Pace::PATIENT)?;
     }
+    // Choose between the flow and the best attempt.
     match flowed {
         Some(missing) if has_flowed && best.has_arrived() => {
             Ok(if best.energy() < missing.energy() {
@@ -93,7 +98,7 @@ where
     }
 }
 
-/// The better one of `best` and what these bends lead to, or the first that is enough.
+/// Returns the best of `best` and the attempts with these bends, or the first that is enough.
 fn bent<const D: usize>(
     trial: &mut Trial,
     start: &[f64],
@@ -117,8 +122,8 @@ where
     Ok(best)
 }
 
-/// The handles flow from `start`, and go to their targets from where they came, all together or those that are near;
-/// few that are missing then go alone.
+/// Lets the handles flow from `start`, then moves them from there to their targets, all together or those that are
+/// near; if few are missing, moves these alone.
 fn flowed_from<'a, const D: usize>(
     trial: &mut Trial<'a>,
     start: &[f64],

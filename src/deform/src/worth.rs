@@ -1,4 +1,4 @@
-//! The quality of a map, whatever made it.
+//! Quality of a map, independent of its origin.
 
 use serde::{Deserialize, Serialize};
 
@@ -26,7 +26,7 @@ pub struct Worth {
 }
 
 impl Worth {
-    /// That of a normalized map, with distances as they were given.
+    /// Converts the worth of a normalized map: distances in the caller's unit.
     pub(super) fn restored(self, frame: &Frame) -> Self {
         Self {
             residual: frame.squared(self.residual),
@@ -36,7 +36,7 @@ impl Worth {
 }
 
 impl Problem {
-    /// Judges a map, whatever made it.
+    /// Measures a map, whatever its origin.
     pub fn worth(&self, x: &[f64]) -> Worth {
         match self.units {
             Units::Given => self.worth_as_given(x),

@@ -1,24 +1,24 @@
-//! How far a boundary may move before it meets itself.
+//! Largest step before a boundary meets itself.
 
 use super::gap::Gap;
 use super::pairs::{near_pairs, place};
 
-/// Steps longer than this are never asked for: twice a Newton step.
+/// Longest step that is ever asked for: twice a Newton step.
 pub(super) const LONGEST: f64 = 2.0;
 
-/// By how much the part of a step that is searched grows while nothing is met on it.
+/// Growth of the searched part of a step while it has no contact.
 const GROWTH: f64 = 4.0;
 
-/// What is left of a distance where two are said to meet, at least; at most twice that.
+/// Least share of a distance left at the reported contact; at most twice that.
 const LEFT: f64 = 0.1;
 
-/// Advances at most. Each is safe, so one that slides along another for long only takes a shorter step.
+/// Most advances. Each is safe, so a pair that slides for long only gets a shorter step.
 const MOST_ADVANCES: usize = 100;
 
-/// A time t > 0 up to which no pair of a boundary meets when its vertices move from `x` along `direction`, +∞ if none does up to
-/// [`LONGEST`]. At most a fifth short of the first contact, unless one slides along the other.
+/// Returns a time t > 0 before which no pair of a boundary meets when its vertices move from `x` along `direction`; +∞
+/// if none does up to [`LONGEST`]. At most a fifth short of the first contact, unless a pair slides.
 ///
-/// Searched piece by piece, the first no longer than `reach`, so that a long direction does not sweep over everything.
+/// Searches piece by piece, the first no longer than `reach`, so that a long direction does not sweep over everything.
 pub(super) fn time_of_contact(edges: &[[u32; 2]], x: &[f64], direction: &[f64], reach: f64) -> f64 {
     let motion = relative(edges, direction);
     let speeds = edges.iter().map(|e| norm(place(&motion, e[0])));
@@ -46,7 +46,7 @@ pub(super) fn time_of_contact(edges: &[[u32; 2]], x: &[f64], direction: &[f64], 
     }
 }
 
-/// The motion without the mean motion of the boundary, which brings nothing nearer.
+/// Subtracts the mean motion of the boundary, which brings nothing nearer.
 fn relative(edges: &[[u32; 2]], direction: &[f64]) -> Vec<f64> {
     let mut mean = [0.0; 2];
     for edge in edges {
@@ -62,9 +62,10 @@ fn relative(edges: &[[u32; 2]], direction: &[f64]) -> Vec<f64> {
     motion
 }
 
-/// A time before the vertex and the edge of a pair meet, where that is less than `most`; else `most`.
+/// Returns a time before the vertex and the edge of a pair meet if that is less than `most`, else `most`.
 ///
-/// In a time t the distance falls by no more than t times the greatest relative speed, so each advance by what this allows is safe.
+/// In a time t the distance falls by at most t times the greatest relative speed, so each advance by what this allows
+/// is safe.
 fn contact_before(most: f64, places: [[f64; 2]; 3], motion: [[f64; 2]; 3]) -> f64 {
     let mean = [0, 1].map(|k| (motion[0][k] + motion[1][k] + motion[2][k]) / 3.0);
     let motion = motion.map(|d| [d[0] - mean[0], d[1] - mean[1]]);

@@ -1,29 +1,29 @@
-//! The distance of a vertex from an edge, and what functions of it look like to second order.
+//! Distance of a vertex from an edge, with first and second derivatives of functions of it.
 
 use unwrapd_method::numerics::vec2::{cross, dot, sub};
 
-/// The way from the nearest point of an edge to a vertex.
+/// The vector from the nearest point of an edge to a vertex.
 ///
-/// Continuously differentiable in all three positions while it is longer than zero; the second derivative jumps where the
-/// nearest point reaches an end.
+/// Continuously differentiable in all three positions while its length is positive; the second derivative jumps where
+/// the nearest point reaches an end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
     pub distance: f64,
-    /// Its direction, of length 1.
+    /// Direction, of length 1.
     normal: [f64; 2],
-    /// A direction across it: the edge's where the nearest point is not an end.
+    /// Direction across it: that of the edge, if the nearest point is not an end.
     tangent: [f64; 2],
-    /// How the distance follows the vertex and the ends of the edge along the normal.
+    /// Derivatives of the distance along the normal with respect to the vertex and the ends of the edge.
     weights: [f64; 3],
-    /// One over the edge's length, likewise.
+    /// One over the edge's length; `None` if the nearest point is an end.
     curvature: Option<f64>,
 }
 
-/// A share of a Hessian, λuuᵀ, u being given at the vertex and the ends of the edge.
+/// A summand λuuᵀ of a Hessian, with u given at the vertex and the ends of the edge.
 pub(super) type Mode = (f64, [[f64; 2]; 3]);
 
 impl Gap {
-    /// Between the vertex at `p` and the edge from `a` to `b`.
+    /// Computes the gap between the vertex at `p` and the edge from `a` to `b`.
     pub fn new([p, a, b]: [[f64; 2]; 3]) -> Self {
         let (edge, arm) = (sub(b, a), sub(p, a));
         let length_squared = dot(edge, edge);
@@ -60,15 +60,16 @@ impl Gap {
         }
     }
 
-    /// The derivative of a function of the distance with this derivative.
+    /// Returns the gradient of a function of the distance with the derivative `first`.
     pub fn gradient(&self, first: f64) -> [[f64; 2]; 3] {
         self.weights.map(|w| self.normal.map(|n| first * w * n))
     }
 
-    /// The Hessian of a function of the distance with these derivatives, the first of them negative or zero.
+    /// Returns the Hessian of a function of the distance with these derivatives, the first of them negative or zero.
     ///
-    /// With q the moves weighted, h = n·q and k = τ·q along normal and edge, θ the turn of the edge, it is φ″h² + φ′(k²/d) at an
-    /// end and φ″h² − φ′(2θk + dθ²) along the edge. k and θ are orthogonal, so the eigenvectors of what has φ′ are known.
+    /// Let q be the weighted moves, h = n·q and k = τ·q along normal and edge, and θ the turn of the edge. The Hessian
+    /// is φ″h² + φ′(k²/d) at an end and φ″h² − φ′(2θk + dθ²) along the edge. k and θ are orthogonal, so the
+    /// eigenvectors of the part with φ′ are known.
     pub fn modes(&self, [first, second]: [f64; 2]) -> [Mode; 3] {
         let spread = |direction: [f64; 2], weights: [f64; 3], factor: f64| {
             weights.map(|w| direction.map(|x| factor * w * x))

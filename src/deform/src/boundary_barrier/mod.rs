@@ -1,17 +1,20 @@
-//! What keeps the boundary of a map of the plane from crossing itself.
+//! Barrier that keeps the boundary of a map of the plane from crossing itself.
 //!
-//! A map without inverted triangles is bijective as long as its boundary does not meet itself, and a boundary that moves without
-//! a jump first meets itself where one of its vertices comes upon one of its edges. So beside the barrier of elements there is
-//! one of such pairs: zero while they are apart, infinite as their distance goes to zero. With steps that end before the first
-//! contact no iterate has crossed, whatever its step was: that is decided on the whole way (`contact`), not at its ends.
+//! A map without inverted triangles is bijective as long as its boundary does not meet itself, and a boundary that
+//! moves continuously first meets itself where one of its vertices touches one of its edges. So besides the barrier of
+//! elements there is one for such pairs: zero while they are apart, infinite as their distance goes to zero. With steps
+//! that end before the first contact no iterate has crossed: that is decided along the whole step (`contact`), not at
+//! its ends.
 //!
-//! Which pairs are near changes as the map moves, and with them the pattern of the Hessian. It is neither approximated nor
-//! kept: pairs have full blocks, a search finds them anew at every point, and where one comes near that the pattern does not
-//! have, the pattern is analyzed again with all within twice the support, so that this is rare ([`Term::renew`]).
+//! The set of near pairs changes as the map moves, and with it the pattern of the Hessian. The pattern is neither
+//! approximated nor kept: pairs have full blocks, a search finds them anew at every point, and when a pair comes near
+//! that the pattern lacks, the pattern is analyzed again with all pairs within twice the support, so that this is rare
+//! ([`Term::renew`]).
 //!
-//! From: Smith and Schaefer 2015, Bijective Parameterization with Free Boundaries, with Newton's method in the place of theirs and
-//! the support of each pair no wider than it is apart at the start, so that nothing moves where nothing pulls. The time of contact
-//! is that of Li, Kaufman, Jiang 2021, Codimensional Incremental Potential Contact: conservative under rounding.
+//! From: Smith and Schaefer 2015, Bijective Parameterization with Free Boundaries, with Newton's method in the place of
+//! theirs and the support of each pair no wider than its distance at the start, so that nothing moves where nothing
+//! pulls. The time of contact is that of Li, Kaufman, Jiang 2021, Codimensional Incremental Potential Contact:
+//! conservative under rounding.
 //!
 //! [`Term::renew`]: unwrapd_method::energy::Term::renew
 

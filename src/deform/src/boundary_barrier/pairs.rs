@@ -1,4 +1,4 @@
-//! Which vertices of a boundary may be near which of its edges.
+//! Search for boundary vertices near boundary edges.
 
 use unwrapd_maps::plane::BoxIndex;
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of, widened};
@@ -11,12 +11,12 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// The vertex and the ends of the edge.
+    /// Returns the vertex and the ends of the edge.
     pub fn vertices(&self) -> [u32; 3] {
         [self.vertex, self.edge[0], self.edge[1]]
     }
 
-    /// Where these are.
+    /// Returns the positions of these.
     pub fn places(&self, x: &[f64]) -> [[f64; 2]; 3] {
         self.vertices().map(|v| place(x, v))
     }

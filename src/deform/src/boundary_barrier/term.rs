@@ -1,4 +1,4 @@
-//! The sum over pairs.
+//! The sum of the barrier over pairs.
 
 use super::contact::time_of_contact;
 use super::gap::Gap;
@@ -9,10 +9,11 @@ use unwrapd_method::energy::{Assembly, Guard, Term};
 use unwrapd_method::numerics::stencils::Stencils;
 use unwrapd_method::numerics::vec2::sub;
 
-/// The largest support, in units of the boundary's mean edge: less than ordinary vertices are apart.
+/// Largest support, in units of the boundary's mean edge: less than the distance of ordinary vertices.
 const SUPPORT: f64 = 0.25;
 
-/// Pairs up to so many times their support apart are in the pattern, so that those that come near are mostly there already.
+/// Pairs up to this many times their support apart are in the pattern, so that most pairs that come near are there
+/// already.
 const FORESIGHT: f64 = 2.0;
 
 /// Σ over the pairs of a boundary vertex and a boundary edge of φ(distance): infinite where they meet.
@@ -20,22 +21,22 @@ const FORESIGHT: f64 = 2.0;
 /// ```text
 /// φ(d) = β (1/g(y) − 1)   for y < 1, 0 above     y = d/d⁰     g(y) = y³ − 3y² + 3y
 /// ```
-/// [`InverseSpline`] of the distance; d⁰ is a quarter of the boundary's mean edge, or what the pair is apart at the start if that is
-/// less. Minimum 0, at the start and wherever nothing is near. Domain: d > 0, connected with the start. Twice continuously
-/// differentiable but where the point of the edge that is nearest reaches an end. Tests: `bijective::taylor_*`,
-/// `bijective::no_step_passes_through`.
+/// [`InverseSpline`] of the distance; d⁰ is a quarter of the boundary's mean edge, or the distance of the pair at the
+/// start if that is less. Minimum 0, at the start and wherever nothing is near. Domain: d > 0, connected with the
+/// start. Twice continuously differentiable except where the nearest point of the edge reaches an end. Tests:
+/// `bijective::taylor_*`, `bijective::no_step_passes_through`.
 #[derive(Clone, Debug)]
 pub struct BoundaryBarrier {
     edges: Vec<[u32; 2]>,
     start: Vec<f64>,
     support: f64,
     beta: f64,
-    /// In the pattern, ascending.
+    /// Pairs in the pattern, in increasing order.
     pairs: Vec<Pair>,
 }
 
 impl BoundaryBarrier {
-    /// Around `triangles`, which neither overlap nor touch where their vertices are at `start`.
+    /// Creates the barrier around `triangles`, which neither overlap nor touch with their vertices at `start`.
     pub fn new(triangles: &[[u32; 3]], start: &[f64]) -> Self {
         let edges = boundary_edges(start.len() / 2, triangles);
         let length = |[a, b]: &[u32; 2]| {
@@ -52,7 +53,7 @@ impl BoundaryBarrier {
         }
     }
 
-    /// The same of strength β.
+    /// Changes the strength to β.
     #[must_use]
     pub fn with_beta(&self, beta: f64) -> Self {
         Self {
@@ -61,7 +62,7 @@ impl BoundaryBarrier {
         }
     }
 
-    /// φ for a pair.
+    /// Returns φ for a pair.
     fn spline(&self, pair: &Pair) -> InverseSpline {
         InverseSpline {
             beta: self.beta,

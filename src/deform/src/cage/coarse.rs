@@ -1,28 +1,28 @@
-//! A start for a fine cage: where a coarser one ends.
+//! Start of a fine cage from the solution in a coarser one.
 
 use super::{Cage, CagedSurface};
 use crate::{Body, Handle, Model, Problem};
 use unwrapd_method::solver::{Iterate, Settings, Status, Watch};
 
-/// From this many tetrahedra on: a cage of voxels twice as large has an eighth of them, and solving it costs a fraction of what it
-/// saves.
+/// Number of tetrahedra from which a coarse cage is solved first: one of voxels twice as large has an eighth of them,
+/// and solving it costs a fraction of what it saves.
 const LARGE: usize = 50_000;
 
-/// Surfaces in cages, and what pulls at these.
+/// Surfaces in cages, and the handles that pull them.
 #[derive(Clone, Copy)]
 pub struct Caged<'a> {
-    /// What the cages are put around.
+    /// Surfaces in the cage.
     pub surfaces: &'a [CagedSurface<'a>],
-    /// Places that go elsewhere.
+    /// Places and their targets.
     pub handles: &'a [Handle],
-    /// What a deformation costs.
+    /// Energy and barrier.
     pub model: &'a Model,
 }
 
 impl Caged<'_> {
-    /// Lets `problem`, that of `cage` with `n_voxels` along its longest side, start where a minimization in voxels twice as large
-    /// ends, that one likewise. Inversions where the fine cage follows the coarse one badly are untangled; where that fails, and in
-    /// small cages, the start stays at rest.
+    /// Sets the start of `problem`, that of `cage` with `n_voxels` along its longest side, to the solution in voxels
+    /// twice as large, which starts likewise. Inversions where the fine cage follows the coarse one badly are
+    /// untangled; if that fails, and in small cages, the start stays at rest.
     pub fn start(&self, problem: &mut Problem, cage: &Cage, n_voxels: u32, watch: &dyn Watch) {
         if cage.mesh().tets().len() < LARGE {
             return;
@@ -40,7 +40,8 @@ impl Caged<'_> {
         problem.untangled = 0;
     }
 
-    /// Where the solution in a coarse cage takes the vertices of a fine one; none if the watcher wants to end.
+    /// Returns the positions of a fine cage's vertices under the solution in a coarse one; `None` if there is no such
+    /// cage or the watcher stopped the solution.
     fn interpolated(&self, fine: &Cage, n_voxels: u32, watch: &dyn Watch) -> Option<Vec<f64>> {
         let cage = Cage::around(self.surfaces, n_voxels).ok()?;
         let mut problem = Problem::new(Body::from(cage.mesh()), self.handles, self.model).ok()?;

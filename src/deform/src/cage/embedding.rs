@@ -1,23 +1,24 @@
-//! Points in a cage, and where they go when it is deformed.
+//! Points in a cage, which follow its deformation.
 
 use super::grid::{ORDERS, path_slots};
 use super::{ABSENT, Cage, CageError};
 use unwrapd_method::numerics::vec3::{add_scaled, cross, sub, unit};
 
-/// For each of some points the tetrahedron it lies in and its place there.
+/// For each of some points the tetrahedron that contains it and its place there.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Embedding {
-    /// The element of each point; of several that have it on their boundary the lowest.
+    /// Element of each point; the lowest if several have it on their boundary.
     pub tets: Vec<u32>,
-    /// Barycentric weights of the element's corners, of sum 1 up to rounding; not negative for points inside the cage.
+    /// Barycentric weights of the element's corners, with sum 1 up to rounding; not negative for points inside the
+    /// cage.
     pub weights: Vec<[f64; 4]>,
 }
 
 impl Cage {
     /// Finds the tetrahedron of every position.
     ///
-    /// All points of the surfaces that the cage was made for are inside. Others may not be (vertices that no triangle uses): they
-    /// follow an element of a near voxel, whose map is extended.
+    /// All points of the surfaces for which the cage was made are inside. Other points (vertices that no triangle uses)
+    /// may be outside: they follow an element of a near voxel, whose map is extended.
     pub fn embed(&self, positions: &[[f64; 3]]) -> Result<Embedding, CageError> {
         let mut embedding = Embedding::default();
         let mut near = None;
@@ -38,8 +39,8 @@ impl Cage {
         Ok(embedding)
     }
 
-    /// The element of a voxel in which a point lies, and its weights; for points outside of the voxel an element in whose direction
-    /// it lies.
+    /// Returns the element of a voxel that contains a point, and its weights; for points outside the voxel an element
+    /// in whose direction it lies.
     fn place(&self, local: [f64; 3], cell: [usize; 3]) -> (u32, [f64; 4]) {
         let part = [0, 1, 2].map(|k| local[k] - cell[k] as f64);
         let falls = |order: &[usize; 3]| {
@@ -56,12 +57,12 @@ impl Cage {
         (6 * voxel + order as u32, weights)
     }
 
-    /// The voxel of the grid, part of the cage or not, nearest to a point.
+    /// Returns the voxel of the grid, in the cage or not, nearest to a point.
     fn nearest_cell(&self, local: [f64; 3]) -> [usize; 3] {
         [0, 1, 2].map(|k| local[k].clamp(0.0, (self.grid.counts[k] - 1) as f64) as usize)
     }
 
-    /// For every voxel of the grid the number of one of the cage that is reached in the fewest steps.
+    /// Returns for every voxel of the grid the number of the voxel of the cage that is reached in the fewest steps.
     fn near_voxels(&self) -> Vec<u32> {
         let in_cage = |cell: &u32| self.voxel_of_cell[*cell as usize] != ABSENT;
         let mut front: Vec<u32> = (0..self.grid.n_cells() as u32).filter(in_cage).collect();
@@ -85,7 +86,7 @@ impl Cage {
         near
     }
 
-    /// The lowest voxel of the cage that has a point inside or on its boundary.
+    /// Returns the lowest voxel of the cage that has a point inside or on its boundary.
     fn lowest_voxel(&self, local: [f64; 3]) -> Option<[usize; 3]> {
         let candidates = |axis: usize| {
             let n = self.grid.counts[axis];
@@ -112,7 +113,7 @@ impl Cage {
         None
     }
 
-    /// Where the points are when the cage's vertices are at `deformed`.
+    /// Returns the positions of the points with the cage's vertices at `deformed`.
     pub fn interpolate(&self, embedding: &Embedding, deformed: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let places = embedding.tets.iter().zip(&embedding.weights);
         places
@@ -125,7 +126,7 @@ impl Cage {
             .collect()
     }
 
-    /// Unit normals at the points, transformed by the inverse transpose of the Jacobian of their elements.
+    /// Returns unit normals at the points, transformed by the inverse transpose of the Jacobian of their elements.
     pub fn normals(
         &self,
         embedding: &Embedding,
@@ -145,7 +146,7 @@ impl Cage {
             .collect()
     }
 
-    /// Unit tangents at the points, transformed by the Jacobian of their elements. Handedness does not change.
+    /// Returns unit tangents at the points, transformed by the Jacobian of their elements. Handedness does not change.
     pub fn tangents(
         &self,
         embedding: &Embedding,
@@ -162,7 +163,7 @@ impl Cage {
             .collect()
     }
 
-    /// The columns of an element's Jacobian: its path runs along one axis after the other.
+    /// Returns the columns of an element's Jacobian: its path runs along one axis after the other.
     fn jacobian(&self, tet: u32, deformed: &[[f64; 3]]) -> [[f64; 3]; 3] {
         let order = tet as usize % 6;
         let corners = self.mesh.tets()[tet as usize];

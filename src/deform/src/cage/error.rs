@@ -1,14 +1,14 @@
 use unwrapd_maps::mesh::ElementError;
 
-/// Why surfaces get no cage.
+/// Reason why surfaces get no cage.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CageError {
     /// A surface is broken.
     #[error("surface {surface}: {error}")]
     Surface {
-        /// Which, from 0.
+        /// Index of the surface, from 0.
         surface: usize,
-        /// What is wrong with it.
+        /// Defect of the surface.
         error: ElementError,
     },
     /// There is no surface, or it has no extent.
@@ -20,13 +20,13 @@ pub enum CageError {
     /// A position to embed is infinite or not a number.
     #[error("vertex {vertex} has a coordinate that is not finite")]
     NonFinitePosition {
-        /// The first such vertex, from 0.
+        /// First such vertex, from 0.
         vertex: usize,
     },
 }
 
 impl CageError {
-    /// Stable name of the cause, for programs.
+    /// Returns the stable code of the error, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Surface { error, .. } => error.code(),

@@ -3,11 +3,11 @@
 use super::CageError;
 use unwrapd_method::numerics::bounds::Bounds;
 
-/// Voxels of the whole grid at most, kept or not: a byte and two indices each.
+/// Most voxels of the whole grid, kept or not: a byte and two indices each.
 const MOST_CELLS: usize = 1 << 24;
 
-/// The six orders of the axes. Each names a tetrahedron of the unit cube, in which coordinates fall in that order: its path
-/// runs from (0,0,0) along the first axis, the second, the third to (1,1,1) (Kuhn 1960).
+/// The six orders of the axes. Each names a tetrahedron of the unit cube, in which coordinates decrease in that order:
+/// its path runs from (0,0,0) along the first axis, the second, the third to (1,1,1) (Kuhn 1960).
 pub(super) const ORDERS: [[usize; 3]; 6] = [
     [0, 1, 2],
     [0, 2, 1],
@@ -17,7 +17,7 @@ pub(super) const ORDERS: [[usize; 3]; 6] = [
     [2, 1, 0],
 ];
 
-/// Where the corners of the path stand in a positive tetrahedron: odd orders exchange the last two.
+/// Returns the slots of the path's corners in a positive tetrahedron: half of the orders exchange the last two.
 pub(super) fn path_slots(order: usize) -> [usize; 4] {
     match order {
         0 | 3 | 4 => [0, 1, 2, 3],
@@ -30,14 +30,14 @@ pub(super) fn path_slots(order: usize) -> [usize; 4] {
 pub(super) struct Grid {
     /// Side of a voxel, of few digits, so that all corners are exact.
     pub side: f64,
-    /// The lowest corner in units of `side`: whole numbers.
+    /// Lowest corner in units of `side`: integers.
     low: [f64; 3],
-    /// Voxels along each axis.
+    /// Number of voxels along each axis.
     pub counts: [usize; 3],
 }
 
 impl Grid {
-    /// A grid with `n` voxels along the longest side of the box.
+    /// Creates a grid with `n` voxels along the longest side of the box.
     pub fn around(bounds: &Bounds<3>, n: u32) -> Result<Self, CageError> {
         let [low, high] = bounds;
         let longest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
@@ -69,28 +69,28 @@ impl Grid {
         })
     }
 
-    /// A position in units of voxels from the lowest corner.
+    /// Converts a position to units of voxels from the lowest corner.
     pub fn local(&self, p: [f64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|k| p[k] / self.side - self.low[k])
     }
 
-    /// The position of a corner, exactly.
+    /// Returns the exact position of a corner.
     pub fn corner(&self, at: [usize; 3]) -> [f64; 3] {
         [0, 1, 2].map(|k| (self.low[k] + at[k] as f64) * self.side)
     }
 
-    /// The number of a voxel, x running fastest.
+    /// Returns the number of a voxel; x runs fastest.
     pub fn cell(&self, at: [usize; 3]) -> usize {
         (at[2] * self.counts[1] + at[1]) * self.counts[0] + at[0]
     }
 
-    /// The voxel of a number.
+    /// Returns the voxel of a number.
     pub fn place(&self, cell: u32) -> [usize; 3] {
         let (cell, [nx, ny, _]) = (cell as usize, self.counts);
         [cell % nx, cell / nx % ny, cell / nx / ny]
     }
 
-    /// The number of a corner.
+    /// Returns the number of a corner.
     pub fn corner_number(&self, at: [usize; 3]) -> usize {
         (at[2] * (self.counts[1] + 1) + at[1]) * (self.counts[0] + 1) + at[0]
     }
@@ -103,7 +103,7 @@ impl Grid {
         self.counts.iter().map(|c| c + 1).product()
     }
 
-    /// The voxels that share a face with one.
+    /// Iterates over the voxels that share a face with one.
     pub fn neighbors(&self, at: [usize; 3]) -> impl Iterator<Item = [usize; 3]> + use<> {
         let counts = self.counts;
         (0..6).filter_map(move |side| {
@@ -116,7 +116,7 @@ impl Grid {
         })
     }
 
-    /// All voxels in the order of their numbers.
+    /// Iterates over all voxels in the order of their numbers.
     pub fn cells(&self) -> impl Iterator<Item = [usize; 3]> + use<> {
         let [nx, ny, nz] = self.counts;
         (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])))

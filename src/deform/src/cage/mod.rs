@@ -1,16 +1,15 @@
 //! Cages: tetrahedra around surfaces, which are deformed in their stead and carry them along.
 //!
-//! A grid of voxels is laid around the surfaces; the voxels that a surface touches, or that no way
-//! from outside reaches, are cut into six tetrahedra each, the same way everywhere, so that
-//! neighbors match. A deformed cage maps every point inside piecewise linearly: [`Embedding`]
-//! carries vertices, normals and tangents, [`Cage::split`] cuts the triangles where the map has its
-//! creases, so that the surface follows it exactly. A cage without inverted tetrahedra then never
+//! A grid of voxels is laid around the surfaces. Voxels that a surface touches, or that cannot be reached from outside,
+//! are cut into six tetrahedra each, the same way everywhere, so that neighbors match. A deformed cage maps every point
+//! inside piecewise linearly: [`Embedding`] carries vertices, normals and tangents; [`Cage::split`] cuts the triangles
+//! at the creases of the map, so that the surface follows it exactly. A cage without inverted tetrahedra then never
 //! folds the surface locally; it may pass through itself.
 //!
 //! A fine cage starts where a coarse one ends ([`Caged::start`]).
 //!
-//! Parts of a surface that are nearer to each other than a voxel share voxels and move together. A surface with holes larger than a
-//! voxel has no inside; its cage is a layer around it.
+//! Parts of a surface that are nearer to each other than a voxel share voxels and move together. A surface with holes
+//! larger than a voxel has no inside; its cage is a layer around it.
 mod coarse;
 mod embedding;
 mod error;
@@ -28,9 +27,9 @@ use unwrapd_maps::mesh::{TetMesh, validate};
 use unwrapd_method::numerics::bounds::bounds_of;
 use voxels::Voxels;
 
-/// Voxels that become tetrahedra at most.
+/// Most voxels that become tetrahedra.
 const MOST_VOXELS: usize = 1_000_000;
-/// In place of a number: the voxel or corner is not part of the cage.
+/// Number of a voxel or corner that is not part of the cage.
 const ABSENT: u32 = u32::MAX;
 
 /// Triangles over positions.
@@ -38,7 +37,7 @@ const ABSENT: u32 = u32::MAX;
 pub struct CagedSurface<'a> {
     /// Vertex positions.
     pub positions: &'a [[f64; 3]],
-    /// Three vertices each.
+    /// Three vertices per triangle.
     pub triangles: &'a [[u32; 3]],
 }
 
@@ -47,16 +46,17 @@ pub struct CagedSurface<'a> {
 pub struct Cage {
     mesh: TetMesh,
     grid: Grid,
-    /// For each voxel of the grid its place among those of the cage, or [`ABSENT`]; voxel v has the elements 6v to 6v + 5.
+    /// For each voxel of the grid its index among those of the cage, or [`ABSENT`]; voxel v has the elements 6v to 6v +
+    /// 5.
     voxel_of_cell: Vec<u32>,
 }
 
 impl Cage {
-    /// A cage of cubes, `n_voxels` along the longest side of the surfaces' common bounding box.
-    /// Vertices that no triangle uses have no part in it.
+    /// Builds a cage of cubes, `n_voxels` along the longest side of the surfaces' common bounding box. Vertices that no
+    /// triangle uses are ignored.
     ///
-    /// Deterministic; costs time and memory in proportion to the grid's voxels (2²⁴ at most) and to the voxels that each triangle
-    /// touches.
+    /// Deterministic; costs time and memory in proportion to the grid's voxels (2²⁴ at most) and to the voxels that
+    /// each triangle touches.
     pub fn around(surfaces: &[CagedSurface], n_voxels: u32) -> Result<Self, CageError> {
         for (surface, s) in surfaces.iter().enumerate() {
             validate(s.positions, s.triangles, "triangles")
@@ -111,12 +111,12 @@ impl Cage {
         })
     }
 
-    /// The tetrahedra at rest; six for each voxel.
+    /// Returns the tetrahedra at rest; six for each voxel.
     pub fn mesh(&self) -> &TetMesh {
         &self.mesh
     }
 
-    /// The length of a voxel's side.
+    /// Returns the length of a voxel's side.
     pub fn voxel_side(&self) -> f64 {
         self.grid.side
     }

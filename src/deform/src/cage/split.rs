@@ -1,7 +1,7 @@
 //! Surfaces cut where they pass from one tetrahedron into the next.
 //!
-//! The tetrahedra of all voxels together are what six families of parallel planes cut out of space: x, y, z, x − y, y − z and
-//! x − z at whole numbers of voxels. So a triangle is cut by one family after the other, and every piece lies in one
+//! The tetrahedra of all voxels are the cells of six families of parallel planes: x, y, z, x − y, y − z and x − z at
+//! integer numbers of voxels. So a triangle is cut by one family after the other, and every piece lies in one
 //! tetrahedron.
 
 use super::{Cage, CageError, CagedSurface};
@@ -9,29 +9,29 @@ use std::collections::HashMap;
 use unwrapd_maps::mesh::validate;
 use unwrapd_method::numerics::vec3::{add_scaled, sub};
 
-/// A vertex this near to a plane lies on it, in voxels: above the rounding of f32, in which files have positions, so that no slivers
-/// are cut off that have no area there.
+/// Distance, in voxels, within which a vertex lies on a plane: above the rounding of f32, in which files store
+/// positions, so that no slivers without area are cut off.
 const SNAP: f64 = 1e-5;
-/// Triangles of a split surface at most.
+/// Most triangles of a split surface.
 const MOST_PIECES: usize = 20_000_000;
 
-/// A vertex that was added where triangles were cut.
+/// A vertex added where a triangle was cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Added {
-    /// A triangle of the original surface that has it.
+    /// A triangle of the original surface that contains it.
     pub triangle: u32,
-    /// Its barycentric weights there.
+    /// Barycentric weights in that triangle.
     pub weights: [f64; 3],
 }
 
 /// A surface cut at the faces of a cage's tetrahedra.
 #[derive(Clone, Debug, Default)]
 pub struct SplitSurface {
-    /// The original vertices, then the added ones.
+    /// Original vertices, then the added ones.
     pub positions: Vec<[f64; 3]>,
-    /// What is needed to interpolate attributes at the added vertices.
+    /// Data for interpolating attributes at the added vertices.
     pub added: Vec<Added>,
-    /// The pieces, in the order of their triangles, wound as these.
+    /// Pieces, in the order of their triangles, wound like these.
     pub triangles: Vec<[u32; 3]>,
     /// For each piece its triangle in the original surface.
     pub parents: Vec<u32>,
@@ -42,8 +42,8 @@ pub struct SplitSurface {
 impl Cage {
     /// Cuts the triangles so that each piece lies in one tetrahedron.
     ///
-    /// Neighbors stay neighbors: pieces share the vertices on a common edge, and where two edges have equal ends without being
-    /// one, as on seams, their vertices are at equal positions.
+    /// Neighbors stay neighbors: pieces share the vertices on a common edge. Two edges with equal ends that are not one
+    /// edge, as on seams, get vertices at equal positions.
     pub fn split(&self, surface: &CagedSurface) -> Result<SplitSurface, CageError> {
         validate(surface.positions, surface.triangles, "triangles")
             .map_err(|error| CageError::Surface { surface: 0, error })?;
@@ -69,7 +69,7 @@ impl Cage {
     }
 }
 
-/// The coordinates of which the families' planes are whole numbers.
+/// Coordinates that are integers on the planes of the six families.
 type Levels = [f64; 6];
 
 fn levels([x, y, z]: [f64; 3]) -> Levels {
@@ -94,11 +94,11 @@ struct Corner {
 }
 
 struct Cutter {
-    /// Of every vertex.
+    /// Levels of every vertex.
     levels: Vec<Levels>,
     result: SplitSurface,
-    /// The vertex that cuts an edge, by the edge's ends in ascending order. An edge is cut by the first plane, in the order
-    /// of the families and levels, that passes between its ends, whichever triangle is cut.
+    /// The vertex that cuts an edge, keyed by the edge's ends in increasing order. An edge is cut by the first plane,
+    /// in the order of the families and levels, that passes between its ends, whichever triangle is cut.
     cuts: HashMap<[u32; 2], u32>,
 }
 
@@ -135,6 +135,7 @@ impl Cutter {
         family: usize,
         slices: &mut Vec<Vec<Corner>>,
     ) {
+        // Range of the levels of the piece's corners.
         let level = |cutter: &Self, c: &Corner| cutter.levels[c.vertex as usize][family];
         let range = |pick: fn(f64, f64) -> f64, from: f64| {
             piece
@@ -145,6 +146,7 @@ impl Cutter {
             range(f64::min, f64::INFINITY),
             range(f64::max, f64::NEG_INFINITY),
         );
+        // From plane to plane: corners on a plane belong to both sides, an edge that crosses it is cut.
         let mut rest = piece;
         let mut plane = low.floor() + 1.0;
         while plane < high {
@@ -171,7 +173,7 @@ impl Cutter {
         slices.push(rest);
     }
 
-    /// The corner where an edge passes a plane; the same from both sides and in both directions.
+    /// Returns the corner where an edge passes a plane; independent of side and direction.
     fn cut(&mut self, parent: u32, ends: [Corner; 2], family: usize, plane: f64) -> Corner {
         let position = |c: Corner| self.result.positions[c.vertex as usize];
         let [mut a, mut b] = ends;

@@ -1,13 +1,13 @@
-//! Which voxels a surface touches, and which lie inside it.
+//! Voxels that a surface touches or encloses.
 
 use super::CageError;
 use super::grid::Grid;
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of};
 use unwrapd_method::numerics::vec3::{cross, dot, sub};
 
-/// By how much voxels are taken larger when they are tested, in voxels: far above rounding, far below what matters.
+/// Enlargement of voxels in tests, in voxels: far above rounding, far below relevance.
 const MARGIN: f64 = 1e-6;
-/// Tests of boxes against triangles at most: some ten seconds' worth.
+/// Most tests of boxes against triangles: about ten seconds' worth.
 const MOST_TESTS: u64 = 500_000_000;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -17,7 +17,7 @@ enum Voxel {
     Outside,
 }
 
-/// Voxels of a grid, as far as they are known.
+/// Voxels of a grid and their states.
 pub(super) struct Voxels<'a> {
     grid: &'a Grid,
     state: Vec<Voxel>,
@@ -33,7 +33,7 @@ impl<'a> Voxels<'a> {
         }
     }
 
-    /// Marks all voxels that a triangle touches, and none that is further away than the margin.
+    /// Marks all voxels that a triangle touches, and none farther away than the margin.
     pub fn touch(&mut self, corners: [[f64; 3]; 3]) -> Result<(), CageError> {
         let triangle = corners.map(|p| self.grid.local(p));
         let [low, high] = bounds_of(&triangle);
@@ -69,7 +69,8 @@ impl<'a> Voxels<'a> {
         Ok(())
     }
 
-    /// For each voxel whether it is touched or cannot be reached from outside without passing through touched ones.
+    /// Returns for each voxel whether it is touched or cannot be reached from outside without passing through touched
+    /// ones.
     pub fn into_kept(mut self) -> Vec<bool> {
         let mut open = vec![[0_usize; 3]];
         self.state[0] = Voxel::Outside;
@@ -86,9 +87,9 @@ impl<'a> Voxels<'a> {
     }
 }
 
-/// Whether a triangle and a box have a common point: no axis separates them (Akenine-Möller 2001).
+/// Returns whether a triangle and a box have a common point: no axis separates them (Akenine-Möller 2001).
 ///
-/// True also where rounding leaves it in doubt, and for triangles without area where their line meets the box.
+/// Also returns `true` where rounding leaves it in doubt, and for triangles without area whose line meets the box.
 fn overlaps(triangle: &[[f64; 3]; 3], [low, high]: &Bounds<3>) -> bool {
     let center = [0, 1, 2].map(|k| 0.5 * (low[k] + high[k]));
     let half = [0, 1, 2].map(|k| 0.5 * (high[k] - low[k]));

@@ -6,14 +6,14 @@ use std::collections::HashMap;
 use unwrapd_files::picture::Image;
 use unwrapd_maps::plane::doubled_polygon_area;
 
-/// How a picture is outlined.
+/// Settings for outlining a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImageSettings {
     /// Least alpha of a pixel that belongs to the shape; at least 1.
     pub threshold: u8,
-    /// How far the outline may pass from the contour of the alpha, in pixels; 0 keeps every step.
+    /// Largest distance of the outline from the contour of the alpha, in pixels; 0 keeps every step.
     pub tolerance_pixels: f64,
-    /// Pieces and holes of less area, in pixels, are specks and left out.
+    /// Least area of pieces and holes, in square pixels; smaller ones are specks and left out.
     pub smallest_area: f64,
 }
 
@@ -27,11 +27,12 @@ impl Default for ImageSettings {
     }
 }
 
-/// The outline of the pixels that are opaque enough, in pixels, (0, 0) the picture's upper left corner.
+/// Computes the outline of the pixels that are opaque enough, in pixels, with (0, 0) at the picture's upper left
+/// corner.
 ///
-/// Follows the contour of the alpha between pixel centers (marching squares with interpolation), so that anti-aliased edges are
-/// met to a fraction of a pixel; what lies outside of the picture is transparent. Where the tolerance would make the outline cross
-/// itself, a smaller one is taken.
+/// Follows the contour of the alpha between pixel centers (marching squares with interpolation), so that anti-aliased
+/// edges are met to a fraction of a pixel; everything outside the picture is transparent. Where the tolerance would
+/// make the outline cross itself, a smaller one is used.
 pub fn of_image(image: &Image, settings: &ImageSettings) -> Result<Outline, OutlineError> {
     let contours: Vec<Vec<[f64; 2]>> = Alpha::new(image, settings.threshold)
         .contours()?
@@ -54,13 +55,14 @@ pub fn of_image(image: &Image, settings: &ImageSettings) -> Result<Outline, Outl
     }
 }
 
-/// The alpha of a picture and one transparent pixel around it. Samples are counted from the upper left of that margin.
+/// The alpha of a picture with a margin of one transparent pixel. Samples are counted from the upper left of that
+/// margin.
 struct Alpha<'a> {
     image: &'a Image,
     threshold: u8,
 }
 
-/// The step from the edge of a cell on which its contour begins to the one on which it ends.
+/// Contour steps: from the cell edge at which the step begins to the one at which it ends.
 type Steps = HashMap<u64, u64>;
 
 impl<'a> Alpha<'a> {
@@ -80,7 +82,7 @@ impl<'a> Alpha<'a> {
         }
     }
 
-    /// Closed polygons with the shape on their left; no two of them touch.
+    /// Returns closed polygons with the shape on their left; no two of them touch.
     fn contours(&self) -> Result<Vec<Vec<[f64; 2]>>, OutlineError> {
         let mut steps = Steps::new();
         let mut starts = Vec::new();
@@ -110,7 +112,7 @@ impl<'a> Alpha<'a> {
         Ok(contours)
     }
 
-    /// The steps of the contour through the cell whose upper left sample is (x, y).
+    /// Calls `step` for the steps of the contour through the cell whose upper left sample is (x, y).
     fn cross_cell(&self, x: usize, y: usize, mut step: impl FnMut(u64, u64)) {
         // Counter-clockwise in these coordinates; edge k runs from corner k to the next.
         let corners = [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)].map(|(x, y)| self.at(x, y));
@@ -136,7 +138,7 @@ impl<'a> Alpha<'a> {
         }
     }
 
-    /// The number of a cell's edge, the same from both of its cells: 2·sample, and 1 more for edges that run down.
+    /// Returns the number of a cell's edge, equal for both of its cells: 2·sample, plus 1 for edges that run down.
     fn edge(&self, x: usize, y: usize, k: usize) -> u64 {
         let (x, y, down) = match k {
             0 => (x, y, 0),
@@ -148,7 +150,7 @@ impl<'a> Alpha<'a> {
         2 * sample + down
     }
 
-    /// Where the contour passes an edge, strictly between its ends.
+    /// Returns the point where the contour crosses an edge, strictly between its ends.
     fn crossing(&self, edge: u64) -> [f64; 2] {
         let columns = self.image.width as u64 + 2;
         let (x, y) = ((edge / 2 % columns) as usize, (edge / 2 / columns) as usize);

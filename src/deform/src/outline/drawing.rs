@@ -8,15 +8,15 @@ use kurbo::BezPath;
 use roxmltree::{Document, Node, ParsingOptions};
 use unwrapd_maps::plane::{doubled_polygon_area, meeting_point};
 
-/// Elements of a document at most.
+/// Most elements of a document.
 const MOST_NODES: u32 = 1_000_000;
-/// Groups within groups at most.
+/// Deepest nesting of groups.
 const DEEPEST: usize = 64;
 
-/// How a drawing is outlined.
+/// Settings for outlining a drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SvgSettings {
-    /// How far the polygons may pass from the curves, in user units.
+    /// Largest distance of the polygons from the curves, in user units.
     pub tolerance: f64,
 }
 
@@ -26,12 +26,12 @@ impl Default for SvgSettings {
     }
 }
 
-/// The outline of everything that is filled: paths, polygons, rectangles, circles and ellipses, with the transforms of their
-/// groups, in user units of the document's root (its `viewBox` is not applied).
+/// Computes the outline of everything that is filled: paths, polygons, rectangles, circles and ellipses, with the
+/// transforms of their groups, in user units of the document's root (its `viewBox` is not applied).
 ///
-/// Where shapes lie within each other, what they cover together counts; within one shape its `fill-rule` does. Shapes that cross
-/// are refused: unite them in the drawing first. Not drawn are shapes with `fill="none"`, hidden ones, those in definitions, text,
-/// and references (`use`). Documents with entity declarations are refused.
+/// Shapes within each other count as their union; within one shape its `fill-rule` applies. Shapes that cross are
+/// refused: unite them in the drawing first. Not drawn are shapes with `fill="none"`, hidden ones, those in
+/// definitions, text, and references (`use`). Documents with entity declarations are refused.
 pub fn of_svg(text: &str, settings: &SvgSettings) -> Result<Outline, OutlineError> {
     if !(settings.tolerance > 0.0 && settings.tolerance.is_finite()) {
         return Err(OutlineError::InvalidSetting("tolerance"));
@@ -121,8 +121,9 @@ impl Drawing {
         Ok(())
     }
 
-    /// The polygons that bound what all shapes cover together: on one side covered by none.
+    /// Returns the polygons that bound the union of all shapes: those with no shape on one side.
     fn boundary(self) -> Result<Vec<Vec<[f64; 2]>>, OutlineError> {
+        // Put all loops on one grid and refuse those that cross or touch.
         let vertices: Vec<_> = self.loops.iter().map(|l| l.vertices.clone()).collect();
         let frame = Frame::of(&vertices)?;
         let (loops, owners): (Vec<_>, Vec<_>) = self
@@ -134,6 +135,7 @@ impl Drawing {
         if let Some(at) = meeting_point(&loops) {
             return Err(OutlineError::SelfIntersecting { at });
         }
+        // A loop is a boundary if no other shape covers it and its own shape is on one side only.
         let windings = Windings::new(&loops);
         let is_boundary = |k: usize| {
             let (shape, rule) = owners[k];

@@ -1,6 +1,6 @@
 use unwrapd_files::picture::ImageError;
 
-/// Why a picture or drawing gives no mesh.
+/// Reason why a picture or drawing gives no mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum OutlineError {
     /// The picture cannot be decoded.
@@ -12,10 +12,10 @@ pub enum OutlineError {
     /// The drawing is not SVG that can be read.
     #[error("invalid SVG: {0}")]
     InvalidSvg(String),
-    /// A filled path has a part that does not return to where it began.
+    /// A filled path has a part that does not return to its start.
     #[error("path {path} of the drawing is open")]
     OpenPath {
-        /// Which shape, from 1 in the order of the document.
+        /// Number of the shape, from 1 in the order of the document.
         path: usize,
     },
     /// Two boundary lines cross or touch.
@@ -24,7 +24,7 @@ pub enum OutlineError {
         /// A vertex of one of them.
         at: [f64; 2],
     },
-    /// More boundary vertices or pieces than can be worked on.
+    /// There are too many boundary vertices or pieces.
     #[error("the outline has too many vertices, pieces or holes")]
     TooDetailed,
     /// The requested resolution needs too many triangles, or cannot be reached.
@@ -39,7 +39,7 @@ pub enum OutlineError {
 }
 
 impl OutlineError {
-    /// Stable name of the cause, for programs.
+    /// Returns the stable code of the error, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Image(error) => error.code(),

@@ -2,20 +2,21 @@
 
 use kurbo::{BezPath, PathEl, Point};
 
-/// The greatest coordinate of a path that is worked on.
+/// Largest coordinate of a path.
 const GREATEST: f64 = 1e9;
 
-/// Why a path has no polygons.
+/// Reason why a path has no polygons.
 pub(super) enum PathError {
     /// A coordinate is not finite or beyond [`GREATEST`].
     OutOfRange,
-    /// It has more vertices than allowed.
+    /// The path has more vertices than allowed.
     TooDetailed,
-    /// A part of it does not end where it began.
+    /// A part of the path does not end where it began.
     Open,
 }
 
-/// The closed polygons of a path, nowhere farther than `tolerance` from its curves; `most_vertices` together.
+/// Returns the closed polygons of a path, nowhere farther than `tolerance` from its curves, with at most
+/// `most_vertices` in total.
 ///
 /// A polygon may repeat its first vertex at its end. Parts of a single point are left out.
 pub(super) fn polygons(
@@ -46,7 +47,7 @@ pub(super) fn polygons(
     }
 }
 
-/// A path's parts so far, and the one that is being drawn.
+/// The finished parts of a path, and the one in progress.
 #[derive(Default)]
 struct Parts {
     closed: Vec<Vec<[f64; 2]>>,

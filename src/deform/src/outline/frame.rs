@@ -1,11 +1,11 @@
-//! The box in which an outline is worked on.
+//! The square in which an outline is processed.
 
 use super::OutlineError;
 use unwrapd_method::numerics::bounds::bounds_of;
 
 /// Steps of the grid of boundary vertices along the side of the frame.
 const STEPS: f64 = (1_u64 << 36) as f64;
-/// Coordinates are smaller than this.
+/// Upper limit of coordinates.
 const LIMIT: f64 = 1e100;
 
 /// A square around an outline, to be moved to [1, 2]²: no coordinate there is too small or too large for exact predicates.
@@ -37,8 +37,8 @@ impl Frame {
         })
     }
 
-    /// A closed polygon on the grid, without vertices that are equal to the next. Far from the origin, where numbers lie wider apart
-    /// than the grid, it is not rounded.
+    /// Returns a closed polygon on the grid, without vertices that equal the next. Far from the origin, where
+    /// floating-point numbers are sparser than the grid, it is not rounded.
     pub fn polygon(&self, mut vertices: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
         let step = self.side / STEPS;
         for p in &mut vertices {
@@ -51,12 +51,12 @@ impl Frame {
         vertices
     }
 
-    /// A rounded point in [1, 2]², without a further rounding.
+    /// Maps a rounded point into [1, 2]², without further rounding.
     pub fn enter(&self, p: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| 1.0 + (p[k] - self.low[k]) / self.side)
     }
 
-    /// A point of [1, 2]² where it belongs.
+    /// Maps a point of [1, 2]² back.
     pub fn leave(&self, p: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| self.low[k] + (p[k] - 1.0) * self.side)
     }

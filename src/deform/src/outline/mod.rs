@@ -1,8 +1,8 @@
 //! Planar meshes from pictures and drawings.
 //!
-//! A picture's opaque part ([`of_image`]) or a drawing's filled shapes ([`of_svg`]) become an [`Outline`]: closed polygons that neither
-//! cross nor touch. [`triangulate()`] fills it with triangles of bounded angles. Coordinates are pixels or user units with y
-//! down, as the source has them; "counter-clockwise" means positive area in these numbers.
+//! A picture's opaque part ([`of_image`]) or a drawing's filled shapes ([`of_svg`]) become an [`Outline`]: closed
+//! polygons that neither cross nor touch. [`triangulate()`] fills it with triangles of bounded angles. Coordinates are
+//! pixels or user units with y down, as in the source; "counter-clockwise" means positive area in these numbers.
 mod contour;
 mod drawing;
 mod error;
@@ -22,13 +22,13 @@ use frame::Frame;
 pub use triangulate::{MeshSettings, Resolution, triangulate};
 use unwrapd_maps::plane::{doubled_polygon_area, meeting_point};
 
-/// Boundary vertices that are worked on at most; more is noise, not a shape.
+/// Most boundary vertices; more is noise, not a shape.
 const MOST_VERTICES: usize = 1_000_000;
 
-/// Pieces and holes at most; each is compared with each.
+/// Most pieces and holes; each is compared with each.
 const MOST_LOOPS: usize = 4096;
 
-/// A region of the plane, possibly in several pieces and with holes, by its boundary.
+/// A region of the plane, possibly in several pieces and with holes, given by its boundary.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
     loops: Vec<Vec<[f64; 2]>>,
@@ -36,11 +36,11 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// The region whose boundary these closed polygons are: points inside an odd number of them.
+    /// Creates the region bounded by these closed polygons: the points inside an odd number of them.
     ///
-    /// Vertices are rounded to 2⁻³⁶ of the outline's size, and those that then repeat the one before are left out. Directions do
-    /// not matter: pieces come out counter-clockwise, holes clockwise. Refuses polygons that cross or touch themselves or each
-    /// other, exactly, and coordinates beyond 1e100.
+    /// Vertices are rounded to 2⁻³⁶ of the outline's size, and those that then repeat the one before are left out.
+    /// Directions do not matter: pieces come out counter-clockwise, holes clockwise. Refuses polygons that cross or
+    /// touch themselves or each other, exactly, and coordinates beyond 1e100.
     pub fn new(loops: Vec<Vec<[f64; 2]>>) -> Result<Self, OutlineError> {
         let frame = Frame::of(&loops)?;
         let mut loops: Vec<Vec<[f64; 2]>> = loops
@@ -62,12 +62,12 @@ impl Outline {
         Ok(Self { loops, frame })
     }
 
-    /// The boundary polygons without their closing vertex, the region on their left.
+    /// Returns the boundary polygons without their closing vertex, with the region on their left.
     pub fn loops(&self) -> &[Vec<[f64; 2]>] {
         &self.loops
     }
 
-    /// The area of the region.
+    /// Returns the area of the region.
     pub fn area(&self) -> f64 {
         0.5 * self
             .loops

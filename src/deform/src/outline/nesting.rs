@@ -1,9 +1,9 @@
-//! Which polygons lie inside which.
+//! Nesting of disjoint polygons.
 
 use unwrapd_maps::plane::doubled_polygon_area;
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of};
 
-/// How often disjoint closed polygons wind around points that lie on none of them.
+/// Winding numbers of disjoint closed polygons around points that lie on no polygon.
 pub(super) struct Windings<'a> {
     loops: &'a [Vec<[f64; 2]>],
     boxes: Vec<Bounds>,
@@ -15,7 +15,7 @@ impl<'a> Windings<'a> {
         Self { loops, boxes }
     }
 
-    /// The winding number of polygon `of` around a point that is not on it.
+    /// Returns the winding number of polygon `of` around a point that is not on it.
     pub fn around(&self, point: [f64; 2], of: usize) -> i32 {
         let [low, high] = self.boxes[of];
         if (0..2).any(|k| point[k] < low[k] || high[k] < point[k]) {
@@ -28,7 +28,8 @@ impl<'a> Windings<'a> {
     }
 }
 
-/// +1 where an edge passes upwards right of the point, −1 downwards; half open, so that a vertex counts once.
+/// Returns +1 where an edge passes upwards to the right of the point, −1 downwards; half open, so that a vertex counts
+/// once.
 fn crossing(point: [f64; 2], a: [f64; 2], b: [f64; 2]) -> i32 {
     use unwrapd_method::numerics::predicates::orient2d_sign;
     match (a[1] <= point[1], b[1] <= point[1]) {

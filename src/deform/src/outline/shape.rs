@@ -4,11 +4,12 @@ use super::transform::numbers;
 use kurbo::{BezPath, Circle, Ellipse, Rect, RoundedRect, Shape};
 use roxmltree::Node;
 
-/// Curves of circles and ellipses are met within this part of a unit, before any flattening.
+/// Largest error of the curves of circles and ellipses, in user units, before any flattening.
 const ARC_TOLERANCE: f64 = 1e-4;
 
-/// The path of a shape element; `Ok(None)` for elements that are none or have no extent.
+/// Returns the path of a shape element; `Ok(None)` for other elements and for shapes without extent.
 pub(super) fn path(node: Node) -> Result<Option<BezPath>, String> {
+    // A missing attribute is zero.
     let length = |name: &str| match node.attribute(name) {
         None => Ok(0.0),
         Some(text) => parse_length(text).ok_or_else(|| format!("`{name}` is not a number: {text}")),
@@ -72,7 +73,7 @@ fn polygon(points: &str, is_closed: bool) -> Result<BezPath, String> {
     Ok(path)
 }
 
-/// A number in user units; `px` is one, other units depend on the screen and are not read.
+/// Parses a number in user units; `px` is one, other units depend on the screen and are not read.
 fn parse_length(text: &str) -> Option<f64> {
     let text = text.trim();
     text.strip_suffix("px").unwrap_or(text).parse().ok()

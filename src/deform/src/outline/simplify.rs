@@ -1,12 +1,12 @@
-//! Fewer vertices within a tolerance.
+//! Simplification of polygons within a tolerance.
 
 use unwrapd_method::numerics::vec2::{dot, squared_distance, sub};
 
-/// A closed polygon through some of the vertices, such that none of the others is further than `tolerance` from the edge that
-/// stands for it (Douglas, Peucker 1973).
+/// Returns a closed polygon through some of the vertices; every other vertex is within `tolerance` of the edge that
+/// replaces it (Douglas, Peucker 1973).
 ///
-/// The result may cross itself where the polygon passes itself within the tolerance. Begins at the smallest vertex and its
-/// most distant one, which corners of the shape are likely to be.
+/// The result may cross itself where the polygon passes itself within the tolerance. Begins at the smallest vertex and
+/// its most distant one, which are likely to be corners of the shape.
 pub(super) fn simplified(vertices: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     let n = vertices.len();
     let Some(first) = (0..n).min_by(|&a, &b| {

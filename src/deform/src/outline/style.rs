@@ -1,10 +1,10 @@
-//! What an SVG element's attributes say of how its shape fills the plane.
+//! Presentation attributes of SVG elements that affect the filled region.
 
 use super::{OutlineError, transform};
 use kurbo::Affine;
 use roxmltree::Node;
 
-/// Which parts of a shape that winds around them several times are inside.
+/// Fill rule: the parts inside a shape that winds around them several times.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Rule {
     NonZero,
@@ -20,7 +20,7 @@ impl Rule {
     }
 }
 
-/// What an element hands down to those within it.
+/// Properties that an element passes on to its children.
 #[derive(Clone, Copy)]
 pub(super) struct Style {
     pub map: Affine,
@@ -29,14 +29,14 @@ pub(super) struct Style {
 }
 
 impl Style {
-    /// What a document begins with.
+    /// Properties of the root.
     pub const INITIAL: Self = Self {
         map: Affine::IDENTITY,
         is_filled: true,
         rule: Rule::NonZero,
     };
 
-    /// The style of an element; `None` where it is not shown.
+    /// Returns the style of an element; `None` if it is not shown.
     pub fn of(node: Node, outer: Self) -> Result<Option<Self>, OutlineError> {
         if property(node, "display") == Some("none")
             || property(node, "visibility") == Some("hidden")
@@ -63,7 +63,7 @@ impl Style {
     }
 }
 
-/// A presentation property, from the `style` attribute or one of its own.
+/// Returns a presentation property, from the `style` attribute or an attribute of its own.
 fn property<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
     let declarations = node.attribute("style").unwrap_or_default().split(';');
     declarations

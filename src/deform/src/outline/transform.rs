@@ -2,7 +2,7 @@
 
 use kurbo::Affine;
 
-/// The map that a list of transforms describes; `None` where it is malformed.
+/// Parses a list of transforms; returns `None` if it is malformed.
 pub(super) fn parse(text: &str) -> Option<Affine> {
     let mut map = Affine::IDENTITY;
     let mut rest = text.trim();
@@ -15,7 +15,7 @@ pub(super) fn parse(text: &str) -> Option<Affine> {
     map.as_coeffs().iter().all(|x| x.is_finite()).then_some(map)
 }
 
-/// Numbers separated by blanks or commas.
+/// Parses numbers separated by blanks or commas.
 pub(super) fn numbers(text: &str) -> Option<Vec<f64>> {
     text.split(|c: char| c.is_whitespace() || c == ',')
         .filter(|word| !word.is_empty())

@@ -7,30 +7,31 @@ use spade::{
 use std::collections::HashSet;
 use unwrapd_maps::mesh::PlanarMesh;
 
-/// Of the largest allowed area, what triangles have on average after refinement; measured on a disk with 10⁵ and 5·10⁵.
+/// Mean area of triangles after refinement, as a share of the largest allowed area; measured on a disk with 10⁵ and
+/// 5·10⁵ triangles.
 const MEAN_TO_LARGEST: f64 = 0.63;
-/// Attempts at a number of triangles; the first is within a quarter, each further one much nearer.
+/// Attempts to meet a number of triangles; the first is within a quarter, each further one much nearer.
 const ATTEMPTS: usize = 3;
-/// How near the number of triangles has to come.
+/// Relative tolerance for the number of triangles.
 const NEAR: f64 = 0.1;
 
-/// How fine a mesh is to be.
+/// Resolution of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Resolution {
-    /// About this edge length, in units of the outline.
+    /// Approximate edge length, in units of the outline.
     EdgeLength(f64),
-    /// About this many triangles; an outline with many vertices needs more.
+    /// Approximate number of triangles; an outline with many vertices needs more.
     Triangles(usize),
 }
 
-/// How an outline is filled.
+/// Settings for filling an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshSettings {
-    /// How fine.
+    /// Resolution.
     pub resolution: Resolution,
-    /// Least angle of a triangle, in degrees, where the outline itself has none smaller; at most 30.
+    /// Least angle of a triangle, in degrees, unless the outline itself has a smaller one; at most 30.
     pub smallest_angle: f64,
-    /// Refuse to make more triangles than this.
+    /// Most triangles; a mesh that needs more is refused.
     pub most_triangles: usize,
 }
 
@@ -44,10 +45,10 @@ impl Default for MeshSettings {
     }
 }
 
-/// Fills an outline with triangles, holes left out (Delaunay refinement after Ruppert, by `spade`).
+/// Fills an outline with triangles, leaving out holes (Delaunay refinement after Ruppert, by `spade`).
 ///
-/// Boundary edges are split where they are long. Every vertex is used, every triangle positive (exactly). Equal input gives equal
-/// meshes.
+/// Boundary edges are split where they are long. Every vertex is used, every triangle is positive (exactly). Equal
+/// input gives equal meshes.
 pub fn triangulate(outline: &Outline, settings: &MeshSettings) -> Result<PlanarMesh, OutlineError> {
     if !(0.0..=30.0).contains(&settings.smallest_angle) {
         return Err(OutlineError::InvalidSetting("smallest_angle"));
@@ -121,7 +122,7 @@ fn fill(
     }
 }
 
-/// The constrained Delaunay triangulation of the boundary, in the outline's frame.
+/// Returns the constrained Delaunay triangulation of the boundary, in the outline's frame.
 fn triangulation(
     outline: &Outline,
 ) -> Result<ConstrainedDelaunayTriangulation<Point2<f64>>, OutlineError> {

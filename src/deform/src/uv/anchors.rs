@@ -1,4 +1,4 @@
-//! Vertices of UV maps and where they go.
+//! Anchors: vertices of UV maps and their targets.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,10 +10,10 @@ use crate::numbers;
 use unwrapd_maps::plane::segment_distance;
 use unwrapd_method::numerics::predicates::orient2d_sign;
 
-/// UVs at most; no texture repeats that often.
+/// Largest coordinate of a UV; no texture repeats that often.
 const FARTHEST: f64 = 1e6;
 
-/// How far outside a chart an anchor may lie: a texel of a texture of 1024, the accuracy of a pointer.
+/// Distance by which an anchor may lie outside a chart: a texel of a texture of 1024, the accuracy of a pointer.
 const OUTSIDE: f64 = 1e-3;
 
 /// A vertex of a UV map and where it goes, in the numbers of the map.
@@ -41,7 +41,8 @@ pub enum Anchor {
     },
 }
 
-/// Reads `{"anchors": [{"vertex": i, "to": [u, v]}, {"at": [u, v], "to": [u, v]}, …]}`; `points` is another name of `anchors`.
+/// Parses `{"anchors": [{"vertex": i, "to": [u, v]}, {"at": [u, v], "to": [u, v]}, …]}`; `points` is another name of
+/// `anchors`.
 pub fn parse_anchors(json: &[u8]) -> Result<Vec<Anchor>, EditError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -54,15 +55,15 @@ pub fn parse_anchors(json: &[u8]) -> Result<Vec<Anchor>, EditError> {
     Ok(file.anchors)
 }
 
-/// An anchor with what it holds of the UV map.
+/// An anchor with the spot of the UV map that it holds.
 pub(super) struct Held {
-    /// Which anchor.
+    /// Index of the anchor.
     pub anchor: usize,
     pub spot: Spot,
     pub to: [f64; 2],
 }
 
-/// What an anchor holds.
+/// The spot that an anchor holds.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Spot {
     /// A vertex of the UV map.
@@ -71,7 +72,7 @@ pub(super) enum Spot {
     Place { chart: u32, at: [f64; 2] },
 }
 
-/// What anchors hold, each spot once.
+/// Finds the spots that anchors hold, each spot once.
 pub(super) fn hold(
     mesh: &UvMesh,
     map: &UvMap,
@@ -108,7 +109,7 @@ pub(super) fn hold(
     Ok(held)
 }
 
-/// The vertex of the UV map that a vertex of the mesh is.
+/// Returns the only vertex of the UV map at a vertex of the mesh.
 fn only_vertex(
     mesh: &UvMesh,
     map: &UvMap,
@@ -126,8 +127,8 @@ fn only_vertex(
     Ok(first)
 }
 
-/// What is pulled at a UV, and where to: the point itself, or the nearest vertex where it lies hardly outside a chart; `None` far
-/// from all charts.
+/// Returns the spot that is pulled at a UV, and its target: the point itself, or the nearest vertex if it lies slightly
+/// outside a chart; `None` far from all charts.
 fn place(
     map: &UvMap,
     vertices: &UvVertices,
@@ -145,7 +146,7 @@ fn place(
     Some((Spot::Vertex(vertex), to))
 }
 
-/// How far a UV is from the sides of the faces; infinite where there are none.
+/// Returns the distance of a UV from the sides of the faces; infinite without faces.
 fn distance_from_faces(map: &UvMap, at: [f64; 2]) -> f64 {
     let faces = (0..map.faces.len()).filter(|&face| !map.unusable[face]);
     let sides = faces.flat_map(|face| {
@@ -156,7 +157,7 @@ fn distance_from_faces(map: &UvMap, at: [f64; 2]) -> f64 {
     distances.fold(f64::INFINITY, f64::min)
 }
 
-/// The vertex nearest to a UV and its own UV; the first of equally near ones.
+/// Returns the vertex nearest to a UV and its own UV; the first of equally near ones.
 fn nearest_vertex(map: &UvMap, vertices: &UvVertices, at: [f64; 2]) -> Option<(u32, [f64; 2])> {
     let usable = (0..vertices.first_corner.len() as u32)
         .filter(|&v| !map.unusable[vertices.first_corner[v as usize] as usize / 3])
@@ -165,7 +166,7 @@ fn nearest_vertex(map: &UvMap, vertices: &UvVertices, at: [f64; 2]) -> Option<(u
     usable.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))
 }
 
-/// The chart of the first face that has a UV.
+/// Returns the chart of the first face that contains a UV.
 fn chart_at(map: &UvMap, at: [f64; 2]) -> Option<u32> {
     let holds = |face: &usize| {
         let [a, b, c] = map.uvs[*face];

@@ -9,16 +9,16 @@ use crate::untangle::untangled;
 use unwrapd_maps::mesh::{CornerUvs, UnionFind, UsedVertices, next, origin};
 use unwrapd_method::numerics::predicates::orient2d_sign;
 
-/// The vertices of a UV map: corners that lie on each other in space, in UV space and in their chart.
+/// The vertices of a UV map: classes of corners that coincide in space, in UV space and in their chart.
 pub(super) struct UvVertices {
-    /// The vertex of each corner, `3 * face + c`.
+    /// Vertex of each corner, `3 * face + c`.
     pub of_corner: Vec<u32>,
-    /// The first corner of each vertex.
+    /// First corner of each vertex.
     pub first_corner: Vec<u32>,
 }
 
 impl UvVertices {
-    /// Corners whose UVs agree over an edge, within the tolerance of charts, are one vertex; so are those that agree exactly.
+    /// Unites corners whose UVs agree over an edge, within the tolerance of charts, and corners that agree exactly.
     pub fn new(map: &UvMap) -> Self {
         let mut sets = UnionFind::new(3 * map.faces.len());
         for &[a, b] in &map.joints {
@@ -49,20 +49,20 @@ impl UvVertices {
         }
     }
 
-    /// Where a vertex is.
+    /// Returns the UV of a vertex.
     pub fn uv(&self, map: &UvMap, vertex: u32) -> [f64; 2] {
         let corner = self.first_corner[vertex as usize] as usize;
         map.uvs[corner / 3][corner % 3]
     }
 
-    /// Where UVs of corners put these vertices.
+    /// Returns the UVs of these vertices in `uvs`, which are given per corner.
     pub fn places(&self, uvs: &[CornerUvs], vertices: &[u32]) -> Vec<[f64; 2]> {
         let corner = |&v: &u32| self.first_corner[v as usize] as usize;
         let corners = vertices.iter().map(corner);
         corners.map(|c| uvs[c / 3][c % 3]).collect()
     }
 
-    /// UVs of corners with some vertices elsewhere.
+    /// Returns the UVs of corners with some vertices moved.
     pub fn moved(&self, uvs: &[CornerUvs], to: &BTreeMap<u32, [f64; 2]>) -> Vec<CornerUvs> {
         let mut uvs = uvs.to_vec();
         let corners = uvs.as_flattened_mut().iter_mut();
@@ -74,13 +74,13 @@ impl UvVertices {
         uvs
     }
 
-    /// The chart that a vertex belongs to.
+    /// Returns the chart of a vertex.
     pub fn chart(&self, map: &UvMap, vertex: u32) -> u32 {
         map.chart[self.first_corner[vertex as usize] as usize / 3]
     }
 }
 
-/// The corners of a halfedge, that at the smaller vertex first.
+/// Returns the corners of a halfedge, that at the smaller vertex first.
 fn ends(map: &UvMap, h: u32) -> [u32; 2] {
     let mut ends = [h, next(h)];
     ends.sort_by_key(|&corner| origin(&map.faces, corner));
@@ -89,29 +89,30 @@ fn ends(map: &UvMap, h: u32) -> [u32; 2] {
 
 /// A chart, wound so that most of its area is counter-clockwise.
 pub(super) struct UvChart {
-    /// The faces of the mesh that the triangles are.
+    /// Faces of the mesh that correspond to the triangles.
     pub faces: ChartFaces,
-    /// The vertices of the UV map, ascending.
+    /// Vertices of the UV map, in increasing order.
     pub vertices: Vec<u32>,
-    /// Their UVs.
+    /// UVs of the vertices.
     pub uvs: Vec<[f64; 2]>,
-    /// Their positions in space.
+    /// Positions of the vertices in space.
     pub positions: Vec<[f64; 3]>,
-    /// Indices into `vertices`.
+    /// Triangles, as indices into `vertices`.
     pub triangles: Vec<[u32; 3]>,
-    /// The triangles that are not counter-clockwise, as the file has them or with its vertices joined.
+    /// Triangles that are not counter-clockwise, as given in the file or after joining vertices.
     pub flipped: Vec<u32>,
 }
 
 impl UvChart {
-    /// The chart of this number, in which `positive` is the orientation of most of its area. Faces that name a position twice
-    /// and have no area in UV space are left out.
+    /// Extracts the chart with this number, in which `positive` is the orientation of most of its area. Leaves out
+    /// faces that name a position twice and have no area in UV space.
     pub fn new(
         map: &UvMap,
         uv_vertices: &UvVertices,
         chart: u32,
         positive: i8,
     ) -> Result<Self, EditError> {
+        // Faces of the chart, turned so that most of the area is counter-clockwise.
         let faces = (0..map.faces.len()).filter(|&f| {
             let is_point = map.repeats_position(f) && map.orientation[f] == 0;
             map.chart[f] == chart && !map.unusable[f] && !is_point
@@ -125,11 +126,13 @@ impl UvChart {
             let face = faces.faces.first().map_or(0, |face| face.0 as usize);
             return Err(EditError::Nonorientable { face });
         }
+        // Triangles over the vertices that they use.
         let vertex = |corner: u32| uv_vertices.of_corner[corner as usize];
         let mut triangles: Vec<[u32; 3]> = faces.corners().map(|c| c.map(vertex)).collect();
         let vertices = UsedVertices::new(triangles.iter().flatten().copied());
         vertices.renumber(triangles.as_flattened_mut());
         let vertices = vertices.into_vec();
+        // Positions, UVs and flips.
         let space = |&v: &u32| {
             let corner = uv_vertices.first_corner[v as usize] as usize;
             map.points[map.faces[corner / 3][corner % 3] as usize]
@@ -150,7 +153,8 @@ impl UvChart {
         Ok(chart)
     }
 
-    /// The vertices of the UV map that are elsewhere if the chart's are at `uvs`: all of them where the chart had flips.
+    /// Returns the vertices of the UV map that have moved if the chart's are at `uvs`: all of them if the chart had
+    /// flips.
     pub fn moved(
         &self,
         map: &UvMap,
@@ -169,8 +173,8 @@ impl UvChart {
         map.orientation_in_chart(face) != positive || orient2d_sign(a, b, c) <= 0
     }
 
-    /// Moves vertices around flipped triangles, none of those that the boundary holds, until no triangle is flipped. Fails
-    /// if that is not found.
+    /// Moves vertices around flipped triangles, except those that the boundary holds, until no triangle is flipped.
+    /// Fails if no such positions are found.
     pub fn untangle(&mut self, boundary: Boundary) -> Result<(), EditError> {
         let Some(&first) = self.flipped.first() else {
             return Ok(());
@@ -193,29 +197,29 @@ impl UvChart {
     }
 }
 
-/// Which faces of a mesh form a chart, and which of them have to be turned over to be counter-clockwise in UV space.
+/// Faces of a mesh that form a chart, with those marked that must be turned over to be counter-clockwise in UV space.
 #[derive(Clone, Debug, Default)]
 pub struct ChartFaces {
     faces: Vec<(u32, bool)>,
 }
 
 impl ChartFaces {
-    /// How many.
+    /// Returns the number of faces.
     pub fn len(&self) -> usize {
         self.faces.len()
     }
 
-    /// Whether there is none.
+    /// Returns whether there are no faces.
     pub fn is_empty(&self) -> bool {
         self.faces.is_empty()
     }
 
-    /// The first of them.
+    /// Returns the first face.
     pub fn first(&self) -> Option<u32> {
         self.faces.first().map(|(face, _)| *face)
     }
 
-    /// The corners `3 * face + c` of each, counter-clockwise.
+    /// Iterates over the corners `3 * face + c` of each face, counter-clockwise.
     pub fn corners(&self) -> impl Iterator<Item = [u32; 3]> {
         self.faces.iter().map(|&(face, is_turned)| {
             let [a, b, c] = [0, 1, 2].map(|c| 3 * face + c);

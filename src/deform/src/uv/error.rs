@@ -1,18 +1,18 @@
-//! Why UVs cannot be edited.
+//! Errors of UV edits.
 
 use crate::problem_error::ProblemError;
 use unwrapd_maps::mesh::ElementError;
 
-/// Anchors at most: each is compared with every face.
+/// Most anchors: each is compared with every face.
 pub(super) const MOST_ANCHORS: usize = 1000;
 
-/// Why UVs cannot be edited.
+/// Reason why UVs cannot be edited.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EditError {
     /// The file is not a list of anchors.
     #[error("the anchors cannot be parsed: {0}")]
     Malformed(String),
-    /// There is nothing to pull, or more than is possible.
+    /// There are no anchors, or too many.
     #[error("there are {0} anchors; 1 to {MOST_ANCHORS} are allowed")]
     HandleCount(usize),
     /// A number of an anchor is not finite or beyond 1e6.
@@ -27,22 +27,22 @@ pub enum EditError {
     /// An anchor's vertex has several UVs.
     #[error("anchor {0} names a vertex on a seam; name it by its UV")]
     AmbiguousVertex(usize),
-    /// Two anchors pull one vertex or point to two places.
+    /// Two anchors pull one vertex or point to different places.
     #[error("anchors {0} and {1} pull the same point to different targets")]
     Contradictory(usize, usize),
-    /// An anchor pulls at a boundary that stays.
+    /// An anchor pulls a fixed boundary.
     #[error("anchor {0} moves a vertex of a fixed boundary")]
     OnBoundary(usize),
-    /// The present map has a flip where it should be pulled, and cannot be untangled.
+    /// The present map has a flip in a chart with anchors, and cannot be untangled.
     #[error("face {face} is flipped or degenerate in its chart, and untangling failed")]
     Flipped {
-        /// The face.
+        /// Index of the face.
         face: usize,
     },
-    /// The winding of a chart contradicts itself, so no map of it is without flips.
+    /// The winding of a chart contradicts itself, so no map of it is free of flips.
     #[error("the chart of face {face} is not orientable")]
     Nonorientable {
-        /// A face of it.
+        /// A face of the chart.
         face: usize,
     },
     /// A chart folds over an edge.
@@ -54,7 +54,7 @@ pub enum EditError {
 }
 
 impl EditError {
-    /// Stable name of the cause, for programs.
+    /// Returns the stable code of the error, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Malformed(_) => "malformed_handles",

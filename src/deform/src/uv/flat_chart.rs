@@ -1,4 +1,4 @@
-//! Charts as bodies, with what anchors hold of them.
+//! Charts as bodies, with the spots that anchors hold.
 
 use super::anchors::{Held, Spot};
 use super::chart::UvChart;
@@ -12,27 +12,27 @@ use unwrapd_maps::mesh::PlanarMesh;
 /// A chart as a body whose mean triangle has area 1.
 pub(super) struct FlatChart {
     pub body: Body,
-    /// The UVs, in the unit.
+    /// UVs at the start, in the body's unit.
     pub start: Vec<[f64; 2]>,
     pub unit: f64,
 }
 
-/// What anchors hold of a chart.
+/// The vertices and points of a chart that anchors hold.
 pub(super) struct Grips {
     pub holds: Holds,
-    /// The targets of the vertices that are pulled, as the caller has them.
+    /// Targets of the pulled vertices, in the caller's unit.
     targets: Vec<[f64; 2]>,
 }
 
 impl FlatChart {
-    /// Of a chart that does not fold over an edge.
+    /// Creates the body of a chart; fails if it folds over an edge.
     pub fn new(chart: &UvChart, rest: UvRest) -> Result<Self, EditError> {
         PlanarMesh::new(chart.uvs.clone(), chart.triangles.clone())?;
         let (body, start, unit) = body(chart, rest);
         Ok(Self { body, start, unit })
     }
 
-    /// What these anchors hold of the chart.
+    /// Returns the vertices and points of the chart that these anchors hold.
     pub fn grips(
         &self,
         chart: &UvChart,
@@ -83,7 +83,8 @@ impl FlatChart {
         Ok(())
     }
 
-    /// The UVs of the chart's vertices where the body's are at `vertices`: what did not move, and what arrived, is not rounded.
+    /// Returns the UVs of the chart's vertices with the body's at `vertices`. Vertices that did not move or that
+    /// arrived are not rounded.
     pub fn uvs(&self, chart: &UvChart, grips: &Grips, vertices: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let uv = |v: usize| {
             if vertices[v] == self.start[v] {

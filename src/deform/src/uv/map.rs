@@ -1,4 +1,4 @@
-//! A UV map taken apart: which corners hang together, how charts are wound.
+//! Structure of a UV map: connected corners and the winding of charts.
 
 use super::UvMesh;
 use unwrapd_maps::mesh::{CornerUvs, Edges, UnionFind, next, origin, same_direction, weld};
@@ -6,14 +6,12 @@ use unwrapd_method::numerics::bounds::bounds_of;
 use unwrapd_method::numerics::predicates::orient2d_sign;
 use unwrapd_method::numerics::vec2::doubled_area;
 
-/// UVs of an edge's ends agree within this part of the map's extent, as they do for the
-/// certificate.
+/// Tolerance for equal UVs at an edge's ends, as a share of the map's extent; that of the certificate.
 const TOLERANCE: f64 = 1e-7;
 
-/// The faces of a map over welded positions, and its charts: the faces that hang together over
-/// edges at which UVs agree.
+/// The faces of a map over welded positions, and its charts: faces connected by edges at which UVs agree.
 ///
-/// Faces of which a UV or a position is not finite or missing are marked and taken as points.
+/// Faces with a UV or a position that is missing or not finite are marked and treated as points.
 pub(super) struct UvMap {
     /// Distinct positions.
     pub points: Vec<[f64; 3]>,
@@ -21,16 +19,15 @@ pub(super) struct UvMap {
     pub faces: Vec<[u32; 3]>,
     pub uvs: Vec<CornerUvs>,
     pub unusable: Vec<bool>,
-    /// The exact sign of every face's area, as the file winds it.
+    /// Exact sign of every face's area, as the file winds it.
     pub orientation: Vec<i8>,
     /// Pairs of halfedges `3 * face + c` on one edge whose UVs agree.
     pub joints: Vec<[u32; 2]>,
-    /// The chart of every face, numbered in the order of their first faces.
+    /// Chart of every face, numbered in the order of their first faces.
     pub chart: Vec<u32>,
-    /// Whether a chart's winding contradicts itself.
+    /// For each chart whether its winding contradicts itself.
     pub nonorientable: Vec<bool>,
-    /// +1 for faces that are wound as the first of their chart, −1 for the others; +1 where that
-    /// contradicts itself.
+    /// +1 for faces that are wound as the first of their chart, −1 for the others; +1 where that contradicts itself.
     pub winding: Vec<i8>,
 }
 
@@ -71,19 +68,19 @@ impl UvMap {
         }
     }
 
-    /// Whether a face names one position twice.
+    /// Returns whether a face names one position twice.
     pub fn repeats_position(&self, face: usize) -> bool {
         let [a, b, c] = self.faces[face];
         a == b || b == c || c == a
     }
 
-    /// The orientation of a face if it were wound as the first of its chart.
+    /// Returns the orientation of a face when wound as the first of its chart.
     pub fn orientation_in_chart(&self, face: usize) -> i8 {
         self.orientation[face] * self.winding[face]
     }
 
-    /// For each chart the orientation that most of its area has, so wound; of most faces where that
-    /// is a tie, 0 where that is one too. Faces that cannot have an area do not count.
+    /// Returns for each chart the orientation of most of its area when so wound; that of most faces in case of a tie, 0
+    /// if that is a tie, too. Faces that cannot have an area do not count.
     pub fn chart_orientations(&self) -> Vec<i8> {
         let mut sums = vec![(0.0, 0); self.nonorientable.len()];
         for face in 0..self.faces.len() {
@@ -103,8 +100,7 @@ impl UvMap {
     }
 }
 
-/// The pairs of halfedges that follow each other when those of an edge are sorted by their UVs, and
-/// agree.
+/// Returns the pairs of halfedges that follow each other when those of an edge are sorted by their UVs, and agree.
 fn joints(n_points: usize, faces: &[[u32; 3]], uvs: &[CornerUvs]) -> Vec<[u32; 2]> {
     let [low, high] = bounds_of(uvs.as_flattened());
     let tolerance = TOLERANCE * (high[0] - low[0]).max(high[1] - low[1]).max(1e-100);
@@ -142,9 +138,9 @@ struct Charts {
 }
 
 impl Charts {
-    /// From the two sides of every face: a joint glues the front of a face to the front of the
-    /// other, or to its back where they are wound against each other. A chart whose fronts and
-    /// backs become one has no winding.
+    /// Computes charts and windings from the two sides of every face: a joint glues the front of a face to the front of
+    /// the other, or to its back if they are wound against each other. A chart whose fronts and backs become one has no
+    /// winding.
     fn new(faces: &[[u32; 3]], joints: &[[u32; 2]]) -> Self {
         let n_faces = faces.len() as u32;
         let (mut charts, mut sides) =

@@ -1,9 +1,9 @@
 //! UV maps edited by anchors.
 //!
-//! Two uses, one function: [`UvEditOptions::edit`] keeps a map as it is but for what anchors pull (the paper's figure 16),
-//! [`UvEditOptions::texture`] aligns points of a surface with points of a texture at the least distortion of the surface (figure
-//! 17). They differ in the shapes that are kept and in whether boundaries stay. Either starts from the present UVs and never
-//! passes through a flip. Charts with flips are untangled first, with as few vertices moved as it takes.
+//! Two uses, one function: [`UvEditOptions::edit`] keeps a map as it is except where anchors pull (the paper's figure
+//! 16), [`UvEditOptions::texture`] aligns points of a surface with points of a texture at the least distortion of the
+//! surface (figure 17). They differ in the rest shapes and in whether boundaries are fixed. Both start from the present
+//! UVs and never pass through a flip. Charts with flips are untangled first, moving as few vertices as possible.
 
 mod anchors;
 mod chart;
@@ -48,14 +48,14 @@ pub enum UvRest {
     Surface,
 }
 
-/// How UVs are edited.
+/// Settings of a UV edit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UvEditOptions {
-    /// The boundaries.
+    /// Treatment of boundaries.
     pub boundary: Boundary,
-    /// The shapes to keep.
+    /// Rest shapes.
     pub rest: UvRest,
-    /// What is minimized, for a mean triangle of area 1.
+    /// Energy and barrier, for a mean triangle of area 1.
     pub model: Model,
     /// See [`Problem::search`](crate::Problem::search); sessions do not search.
     pub search: bool,
@@ -82,45 +82,44 @@ impl UvEditOptions {
 pub struct UvMesh<'a> {
     /// Positions in space.
     pub positions: &'a [[f64; 3]],
-    /// Three vertices each.
+    /// Three vertices per triangle.
     pub triangles: &'a [[u32; 3]],
-    /// The UVs of each face's corners.
+    /// UVs of each face's corners.
     pub uvs: &'a [CornerUvs],
 }
 
 /// Edited UVs.
 #[derive(Clone, Debug)]
 pub struct EditedUvs {
-    /// The UVs of each face's corners.
+    /// UVs of each face's corners.
     pub uvs: Vec<CornerUvs>,
-    /// The charts that have anchors.
+    /// Charts that have anchors.
     pub charts: Vec<EditedChart>,
 }
 
-/// What happened to a chart.
+/// Result for one chart.
 #[derive(Clone, Debug)]
 pub struct EditedChart {
-    /// Its number among the charts of the mesh, in the order of their first faces.
+    /// Number among the charts of the mesh, in the order of their first faces.
     pub chart: u32,
-    /// Its faces.
+    /// Faces of the chart.
     pub faces: ChartFaces,
-    /// How many of them were flipped or empty and had to be untangled first.
+    /// Number of faces that were flipped or empty and had to be untangled first.
     pub untangled: usize,
-    /// How it was pulled.
+    /// Summary of the pull.
     pub summary: PullSummary,
-    /// Its vertices after the pull.
+    /// Vertices after the pull.
     pub vertices: Vec<[f64; 2]>,
-    /// Its triangles over them, counter-clockwise, one for each face.
+    /// Triangles over the vertices, counter-clockwise, one for each face.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// Pulls anchors to their targets, every triangle of their charts positive at every iterate. Other charts keep their UVs, bit
-/// by bit, and so does every vertex that does not move. A chart with flips is untangled first, and the places that anchors name
-/// are those of the map without flips.
+/// Pulls anchors to their targets; every triangle of their charts is positive at every iterate. Other charts and all
+/// vertices that do not move keep their UVs bit for bit. A chart with flips is untangled first, and the places that
+/// anchors name are then those of the untangled map.
 ///
-/// Two faces on a common edge belong to one chart where the UVs of both ends agree to 1e-7 of the
-/// map's extent; charts are numbered in the order of their first faces. These are the charts and
-/// the numbers of the certificate.
+/// Two faces with a common edge belong to one chart if the UVs of both ends agree to 1e-7 of the map's extent; charts
+/// are numbered in the order of their first faces. These are the charts and the numbers of the certificate.
 pub fn edit_uvs(
     mesh: &UvMesh,
     anchors: &[Anchor],
@@ -130,8 +129,8 @@ pub fn edit_uvs(
     edit_uvs_from(mesh, None, anchors, options, watch)
 }
 
-/// As [`edit_uvs`], but the pull starts where a session left the map: at the UVs `start` of each face's corners. Rest shapes and
-/// the places that anchors name are those of the mesh all the same.
+/// Like [`edit_uvs`], but the pull starts where a session left the map: at the UVs `start` of each face's corners. Rest
+/// shapes and the places that anchors name are still those of the mesh.
 pub fn edit_uvs_from(
     mesh: &UvMesh,
     start: Option<&[CornerUvs]>,
@@ -173,7 +172,7 @@ pub fn edit_uvs_from(
     })
 }
 
-/// The UVs of a chart's vertices after its anchors were pulled.
+/// Returns the UVs of a chart's vertices after its anchors were pulled, and a summary.
 fn edit_chart(
     chart: &UvChart,
     start: Option<Vec<[f64; 2]>>,
@@ -195,7 +194,7 @@ fn edit_chart(
     Ok((flat.uvs(chart, &grips, &result.vertices), result.summary))
 }
 
-/// The chart as a body of mean rest area 1, its present UVs in that unit, and the unit.
+/// Returns the chart as a body of mean rest area 1, its present UVs in that unit, and the unit.
 fn body(chart: &UvChart, rest: UvRest) -> (Body, Vec<[f64; 2]>, f64) {
     let present = || {
         let flat: Vec<[f64; 3]> = chart.uvs.iter().map(|&[u, v]| [u, v, 0.0]).collect();

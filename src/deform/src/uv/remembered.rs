@@ -1,31 +1,31 @@
-//! UVs in the hand as they were.
+//! Undo history of a UV session.
 
 use std::collections::BTreeMap;
 
 use super::session::{LiveChart, State, UvSession};
 
 impl UvSession {
-    /// Remembers the map and the anchors, as before a drag; [`undo`](Self::undo) returns here. The last hundred are kept.
+    /// Records the map and the anchors, as before a drag; [`undo`](Self::undo) returns here. The last hundred are kept.
     pub fn remember(&mut self) {
         let state = self.state();
         self.history.remember(state);
     }
 
-    /// Returns to what was remembered last, UVs and anchors alike, to the bit; false if there is nothing.
+    /// Returns to the last recorded UVs and anchors, bit for bit; returns `false` if there are none.
     pub fn undo(&mut self) -> bool {
         let present = self.state();
         let state = self.history.back(present);
         self.restore(state)
     }
 
-    /// Takes an undo back; false if there is none, or something was remembered since.
+    /// Reverts an undo; returns `false` if there is none, or something was recorded since.
     pub fn redo(&mut self) -> bool {
         let present = self.state();
         let state = self.history.forth(present);
         self.restore(state)
     }
 
-    /// Returns to the map at the start, without anchors. What is remembered stays.
+    /// Returns to the map at the start, without anchors. The history is kept.
     pub fn reset(&mut self) {
         self.restore(Some(State {
             anchors: BTreeMap::new(),
@@ -41,7 +41,7 @@ impl UvSession {
         }
     }
 
-    /// Charts that were not held then go back to their start.
+    /// Restores a state; charts that were not held then return to their start.
     fn restore(&mut self, state: Option<State>) -> bool {
         let Some(State { anchors, charts }) = state else {
             return false;

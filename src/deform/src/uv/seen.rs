@@ -1,14 +1,15 @@
-//! What someone sees of UVs in the hand: vertices, faces, and what the map is worth.
+//! Views of a UV session: vertices, faces and measures of the map.
 
 use super::session::{LiveChart, UvSession};
 
 impl UvSession {
-    /// The vertices of the UV map that each face has: corners that lie on each other in space, in UV space and in their chart.
+    /// Returns the vertices of the UV map for each face: classes of corners that coincide in space, in UV space and in
+    /// their chart.
     pub fn faces(&self) -> &[[u32; 3]] {
         self.vertices.of_corner.as_chunks().0
     }
 
-    /// Where the vertices of the UV map are. Of faces without finite UVs they are at the origin.
+    /// Returns the UVs of the vertices. Those of faces without finite UVs are at the origin.
     pub fn vertex_uvs(&self) -> Vec<[f64; 2]> {
         let n_vertices = self.vertices.first_corner.len() as u32;
         let start = (0..n_vertices).map(|vertex| self.vertices.uv(&self.map, vertex));
@@ -19,7 +20,7 @@ impl UvSession {
         uvs
     }
 
-    /// Of each face the sign that its area keeps, whatever is pulled; 0 in charts that no anchor has had hold of.
+    /// Returns for each face the sign that its area keeps, whatever is pulled; 0 in charts that no anchor has held.
     pub fn kept_signs(&self) -> Vec<i8> {
         let mut signs = vec![0; self.map.faces.len()];
         for (&number, chart) in &self.charts {
@@ -31,14 +32,14 @@ impl UvSession {
         signs
     }
 
-    /// The energy of the charts that anchors hold or held, barriers and the pull of points included; not a number where no
-    /// iteration has looked at a map yet.
+    /// Returns the energy of the charts that anchors hold or held, including barriers and the pull of points; NaN
+    /// before the first iteration of a map.
     pub fn energy(&self) -> f64 {
         let charts = self.charts.values();
         charts.map(|chart| chart.live.summary().energy_last).sum()
     }
 
-    /// The smallest area of a triangle of those charts over its area at rest.
+    /// Returns the smallest ratio of a triangle's area to its rest area in those charts.
     pub fn smallest(&self) -> f64 {
         let of_chart = |chart: &LiveChart| {
             let body = &chart.live.problem().body;

@@ -1,4 +1,4 @@
-//! UVs that are pulled while someone watches.
+//! Interactive editing of UVs.
 
 use std::collections::BTreeMap;
 
@@ -14,11 +14,12 @@ use crate::pull::{arrive, pulled};
 use unwrapd_maps::mesh::CornerUvs;
 use unwrapd_method::solver::Stage;
 
-/// A UV map in the hand, as a body is in a [`Session`](crate::Session): anchors come, move and go, their charts follow an
-/// iteration at a time, no triangle of them flipped at any time.
+/// A session in which a UV map is edited, like a [`Session`](crate::Session) for a body: anchors are added, moved and
+/// removed, and their charts follow an iteration at a time, without a flipped triangle at any time.
 ///
-/// Charts, units and errors are those of [`edit_uvs`](super::edit_uvs), and so is the map where a session settles. Each chart is
-/// built when an anchor first takes hold of it, and its linear systems are analyzed once. Places are those of the map at the start.
+/// Charts, units and errors are those of [`edit_uvs`](super::edit_uvs), and so is the map in which a session settles.
+/// Each chart is built when its first anchor is added, and its linear systems are analyzed once. Places are those of
+/// the map at the start.
 pub struct UvSession {
     options: UvEditOptions,
     positions: Vec<[f64; 3]>,
@@ -26,7 +27,7 @@ pub struct UvSession {
     uvs: Vec<CornerUvs>,
     pub(super) map: UvMap,
     pub(super) vertices: UvVertices,
-    /// Of each chart the orientation of most of its area.
+    /// For each chart the orientation of most of its area.
     pub(super) positive: Vec<i8>,
     pub(super) charts: BTreeMap<u32, LiveChart>,
     pub(super) anchors: BTreeMap<AnchorId, Anchor>,
@@ -34,11 +35,11 @@ pub struct UvSession {
     pub(super) history: History<State>,
 }
 
-/// The name of an anchor of a session; none is given twice.
+/// Identifier of an anchor of a session; never reused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct AnchorId(u32);
 
-/// A chart that anchors have hold of, or had; then it stays.
+/// A chart that has anchors, or had; it then stays as it is.
 pub(super) struct LiveChart {
     pub chart: UvChart,
     pub flat: FlatChart,
@@ -47,15 +48,15 @@ pub(super) struct LiveChart {
     pub live: Live,
 }
 
-/// What [`UvSession::undo`] returns to.
+/// State to which [`UvSession::undo`] returns.
 pub(super) struct State {
     pub anchors: BTreeMap<AnchorId, Anchor>,
-    /// Where the vertices of each chart are that was held then.
+    /// Positions of the vertices of each chart that was held.
     pub charts: BTreeMap<u32, Vec<f64>>,
 }
 
 impl UvSession {
-    /// A map without anchors.
+    /// Opens a session with a map without anchors.
     pub fn new(mesh: &UvMesh, options: UvEditOptions) -> Self {
         let map = UvMap::new(mesh);
         Self {
@@ -73,11 +74,11 @@ impl UvSession {
         }
     }
 
-    /// Takes hold of a vertex or a place.
+    /// Adds an anchor at a vertex or a place.
     ///
     /// # Errors
-    /// As [`edit_uvs`](super::edit_uvs), anchors being named by their order in [`anchors`](Self::anchors), this one last. Then all
-    /// is as it was.
+    /// As [`edit_uvs`](super::edit_uvs), where anchors are named by their order in [`anchors`](Self::anchors), this one
+    /// last. The session is then unchanged.
     pub fn add(&mut self, anchor: Anchor) -> Result<AnchorId, EditError> {
         let id = AnchorId(self.next);
         let mut anchors = self.anchors.clone();
@@ -87,7 +88,7 @@ impl UvSession {
         Ok(id)
     }
 
-    /// Gives an anchor another target.
+    /// Changes the target of an anchor.
     ///
     /// # Errors
     /// As [`add`](Self::add), or if there is no such anchor.
@@ -113,7 +114,7 @@ impl UvSession {
         self.take(anchors)
     }
 
-    /// Lets go. A chart that no anchor holds any more stays as it is.
+    /// Removes an anchor. A chart without anchors stays as it is.
     ///
     /// # Errors
     /// If there is no such anchor.
@@ -125,12 +126,12 @@ impl UvSession {
         self.take(anchors)
     }
 
-    /// The anchors with their names, in the order in which they were added.
+    /// Iterates over the anchors and their identifiers, in the order in which they were added.
     pub fn anchors(&self) -> impl Iterator<Item = (AnchorId, &Anchor)> {
         self.anchors.iter().map(|(id, anchor)| (*id, anchor))
     }
 
-    /// Takes these anchors in place of those before; on an error all is as it was.
+    /// Replaces the anchors; changes nothing on an error.
     pub(super) fn take(&mut self, anchors: BTreeMap<AnchorId, Anchor>) -> Result<(), EditError> {
         let mut of_chart: BTreeMap<u32, Vec<Held>> = BTreeMap::new();
         for held in self.held(&anchors)? {
@@ -201,7 +202,7 @@ impl UvSession {
         })
     }
 
-    /// One iteration of every chart that has something left to do; the map is valid before and after.
+    /// Runs one iteration of every chart that has something left to do; the map is valid before and after.
     pub fn step(&mut self) -> Stage {
         for chart in self.charts.values_mut().filter(|chart| chart.is_held) {
             chart.live.step();
@@ -209,7 +210,7 @@ impl UvSession {
         self.stage()
     }
 
-    /// Iterations as long as there is something to do and `go_on` says so, which is asked before each.
+    /// Iterates while there is something to do and `go_on`, which is called before each iteration, returns `true`.
     pub fn step_while(&mut self, mut go_on: impl FnMut(&Self) -> bool) -> Stage {
         while self.stage() == Stage::Moving && go_on(self) {
             self.step();
@@ -217,7 +218,7 @@ impl UvSession {
         self.stage()
     }
 
-    /// Where the anchors stand.
+    /// Returns the state of the anchors.
     pub fn stage(&self) -> Stage {
         let held = || self.charts.values().filter(|chart| chart.is_held);
         let any = |stage| held().any(|chart| chart.live.stage() == stage);
@@ -227,10 +228,11 @@ impl UvSession {
         unfinished.unwrap_or(Stage::Settled)
     }
 
-    /// Exchanges energy and barrier. The map, the anchors and what is remembered stay.
+    /// Exchanges energy and barrier. The map, the anchors and the history are kept.
     ///
     /// # Errors
-    /// As [`add`](Self::add), or if the present map is outside the domain of that energy. Then all is as it was.
+    /// As [`add`](Self::add), or if the present map is outside the domain of the new energy. The session is then
+    /// unchanged.
     pub fn remodel(&mut self, model: &Model) -> Result<(), EditError> {
         let before = std::mem::replace(&mut self.options.model, model.clone());
         match self.rebuilt() {
@@ -247,7 +249,7 @@ impl UvSession {
         }
     }
 
-    /// Each chart as it is, under the present model.
+    /// Rebuilds each chart at its present map under the present model.
     fn rebuilt(&self) -> Result<Vec<Live>, EditError> {
         let rebuilt = self.charts.values().map(|chart| {
             let (body, start) = (chart.flat.body.clone(), &chart.flat.start);
@@ -260,7 +262,7 @@ impl UvSession {
         rebuilt.collect()
     }
 
-    /// How often the linear systems of charts were ordered and analyzed.
+    /// Returns the number of times the linear systems of charts were ordered and analyzed.
     pub fn analyses(&self) -> usize {
         self.charts
             .values()
@@ -268,12 +270,13 @@ impl UvSession {
             .sum()
     }
 
-    /// The UVs of each face's corners. Charts without anchors keep theirs to the bit, and so does every vertex that has not moved.
+    /// Returns the UVs of each face's corners. Charts without anchors keep theirs bit for bit, and so does every vertex
+    /// that has not moved.
     pub fn uvs(&self) -> Vec<CornerUvs> {
         self.vertices.moved(&self.uvs, &self.moved())
     }
 
-    /// The vertices of the UV map that are elsewhere than at the start.
+    /// Returns the vertices of the UV map that have moved since the start.
     pub(super) fn moved(&self) -> BTreeMap<u32, [f64; 2]> {
         let mut moved: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
         for LiveChart {

@@ -2,10 +2,10 @@
 
 use unwrapd_maps::mesh::PlanarMesh;
 
-/// Cells along the longer side at most: half a million triangles.
+/// Most cells along the longer side: half a million triangles.
 const MOST_CELLS: usize = 512;
 
-/// Why a picture gets no grid.
+/// Reason why a picture gets no grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GridError {
     /// The picture has no pixel.
@@ -17,7 +17,7 @@ pub enum GridError {
 }
 
 impl GridError {
-    /// Stable name of the cause, for programs.
+    /// Returns the stable code of the error, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Empty => "empty_image",
@@ -26,10 +26,10 @@ impl GridError {
     }
 }
 
-/// A grid of nearly square cells over a picture, `n_cells` along its longer side, two triangles each.
+/// Creates a grid of nearly square cells over a picture, `n_cells` along its longer side, two triangles each.
 ///
-/// In pixels, (0, 0) the picture's upper left corner, y down; vertices row by row. The diagonals alternate, so that no direction
-/// is preferred.
+/// In pixels, with (0, 0) at the picture's upper left corner and y down; vertices row by row. The diagonals alternate,
+/// so that no direction is preferred.
 pub fn picture_grid(width: usize, height: usize, n_cells: usize) -> Result<PlanarMesh, GridError> {
     if width == 0 || height == 0 {
         return Err(GridError::Empty);

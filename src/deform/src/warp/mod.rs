@@ -1,7 +1,7 @@
 //! Pictures pulled by handles.
 //!
-//! [`picture_grid`] makes the mesh on which a picture is deformed; what the picture looks like afterward is drawn by
-//! [`picture::warped`](unwrapd_files::picture::warped). [`warp_picture`] does both.
+//! [`picture_grid`] makes the mesh on which a picture is deformed; [`picture::warped`](unwrapd_files::picture::warped)
+//! draws the deformed picture. [`warp_picture`] does both.
 
 mod grid;
 mod picture;

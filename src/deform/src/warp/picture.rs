@@ -14,20 +14,20 @@ use unwrapd_files::picture::{Deformation, Extent, Image, ImageError, Warped, war
 use unwrapd_maps::mesh::PlanarMesh;
 use unwrapd_method::solver::Watch;
 
-/// Handles at most: each is looked for in every triangle of the grid.
+/// Most handles: each is looked for in every triangle of the grid.
 const MOST_HANDLES: usize = 1000;
-/// Coordinates of targets at most, in pixels.
+/// Largest coordinate of a target, in pixels.
 const FARTHEST: f64 = 1e9;
 
-/// How a picture is warped.
+/// Settings of a warp.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WarpOptions {
     /// Cells along the longer side, 1 to 512.
     pub grid: usize,
-    /// The border of the picture. Where it is free, the result shows all of the warped picture; where it stays, no two places
-    /// of the picture can come to lie on each other, and the result is as large as the picture.
+    /// Treatment of the picture's border. If it is free, the result shows all of the warped picture; if it is fixed, no
+    /// two places of the picture can come to lie on each other, and the result is as large as the picture.
     pub boundary: Boundary,
-    /// What is minimized, for a mean triangle of an area from ½ to 2.
+    /// Energy and barrier, for a mean triangle of an area from ½ to 2.
     pub model: Model,
     /// See [`Problem::search`](crate::Problem::search).
     pub search: bool,
@@ -57,7 +57,7 @@ pub struct PictureHandle {
     pub to: [f64; 2],
 }
 
-/// Reads `{"handles": [{"at": [x, y], "to": [x, y]}, …]}`.
+/// Parses `{"handles": [{"at": [x, y], "to": [x, y]}, …]}`.
 pub fn parse_handles(json: &[u8]) -> Result<Vec<PictureHandle>, WarpError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -69,13 +69,13 @@ pub fn parse_handles(json: &[u8]) -> Result<Vec<PictureHandle>, WarpError> {
     Ok(file.handles)
 }
 
-/// Why a picture cannot be warped.
+/// Reason why a picture cannot be warped.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum WarpError {
     /// The file is not a list of handles.
     #[error("the handles cannot be parsed: {0}")]
     Malformed(String),
-    /// There is nothing to pull, or more than is possible.
+    /// There are no handles, or too many.
     #[error("there are {0} handles; 1 to {MOST_HANDLES} are allowed")]
     HandleCount(usize),
     /// A handle is not in the picture.
@@ -87,10 +87,10 @@ pub enum WarpError {
     /// All vertices of the grid are on its border, which is fixed.
     #[error("the grid has no vertex inside its border")]
     NothingInside,
-    /// There is no such grid.
+    /// There is no grid of this size.
     #[error(transparent)]
     Grid(#[from] GridError),
-    /// The picture cannot be read or is too large afterward.
+    /// The picture cannot be read or becomes too large.
     #[error(transparent)]
     Image(#[from] ImageError),
     /// The handles contradict each other, or a number is out of range.
@@ -99,7 +99,7 @@ pub enum WarpError {
 }
 
 impl WarpError {
-    /// Stable name of the cause, for programs.
+    /// Returns the stable code of the error, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Malformed(_) => "malformed_handles",
@@ -114,25 +114,25 @@ impl WarpError {
     }
 }
 
-/// A warped picture and the map that it was warped by.
+/// A warped picture and the map by which it was warped.
 #[derive(Clone, Debug)]
 pub struct PictureWarp {
-    /// The picture.
+    /// Warped picture.
     pub picture: Warped,
     /// The grid on the original, in pixels, y down.
     pub grid: PlanarMesh,
-    /// Its vertices afterward.
+    /// Vertices of the grid after the warp, in pixels.
     pub deformed: Vec<[f64; 2]>,
-    /// How it was pulled.
+    /// Summary of the pull.
     pub summary: PullSummary,
 }
 
-/// Warps a picture: a grid over it is deformed without inverting a triangle, the handles going to their targets.
+/// Warps a picture: deforms a grid over it without inverting a triangle while the handles go to their targets.
 ///
-/// A handle takes hold of its own point. Only next to a fixed border, where most of a point's weight stays, it takes the nearest
-/// vertex that does not, whose target is the handle's shifted by the same offset. Handles at one place must agree. Targets that
-/// cannot be reached end in
-/// [`Status::TargetsUnreachable`](unwrapd_method::solver::Status::TargetsUnreachable) with a map that is valid all the same, and
+/// A handle pulls its own point. Only next to a fixed border, where most of a point's weight is fixed, it pulls the
+/// nearest free vertex instead, whose target is the handle's shifted by the same offset. Handles at one place must
+/// agree. Targets that cannot be reached end in
+/// [`Status::TargetsUnreachable`](unwrapd_method::solver::Status::TargetsUnreachable) with a valid map, and
 /// [`PullSummary::unreached`] names their handles.
 pub fn warp_picture(
     image: &Image,
@@ -143,7 +143,7 @@ pub fn warp_picture(
     warp_picture_from(image, None, handles, options, watch)
 }
 
-/// As [`warp_picture`], but the pull starts where a session left the vertices of the grid.
+/// Like [`warp_picture`], but the pull starts where a session left the vertices of the grid.
 pub fn warp_picture_from(
     image: &Image,
     start: Option<&[[f64; 2]]>,
@@ -171,7 +171,7 @@ pub fn warp_picture_from(
     })
 }
 
-/// Where the vertices of a picture's grid go.
+/// Returns the deformed vertices of a picture's grid and a summary.
 fn warp_grid(
     grid: &PlanarMesh,
     start: &[[f64; 2]],
@@ -243,7 +243,7 @@ fn take_hold(
     Ok(())
 }
 
-/// The vertex nearest to a point among those that are free; the first of equally near ones.
+/// Returns the free vertex nearest to a point; the first of equally near ones.
 fn nearest(vertices: &[[f64; 2]], is_free: impl Fn(u32) -> bool, point: [f64; 2]) -> Option<u32> {
     let distance = |v: u32| {
         let [dx, dy] = [0, 1].map(|k| vertices[v as usize][k] - point[k]);

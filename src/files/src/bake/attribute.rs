@@ -1,4 +1,4 @@
-//! Textures of what the corners of faces have.
+//! Textures of attributes of the corners of faces.
 
 use rayon::prelude::*;
 
@@ -6,9 +6,9 @@ use super::coverage::Coverage;
 use super::fill::filled;
 use super::triangle::Triangle;
 
-/// A number of the corners of each face, as of their vertices, for every texel, row by row: interpolated at its center in the
-/// face that it belongs to, at the nearest point where the center lies beside it, and filled from the neighbors between
-/// charts.
+/// Bakes a number of the corners of each face, such as an attribute of their vertices, for every texel, row by row:
+/// interpolated at the texel's center in its face, at the nearest point if the center lies beside the face, and filled
+/// from the neighbors between charts.
 pub fn baked_attribute(coverage: &Coverage, corners: &[[f32; 3]]) -> Vec<f32> {
     let side = coverage.side();
     let texel = |x: usize, y: usize| {

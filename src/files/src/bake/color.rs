@@ -1,10 +1,10 @@
-//! Texels as numbers that may be averaged.
+//! Texels as numbers that can be averaged.
 
 use std::sync::LazyLock;
 
 use crate::document::Encoding;
 
-/// sRGB as IEC 61966-2-1 defines it, to linear light.
+/// Conversion of sRGB codes, as defined in IEC 61966-2-1, to linear light.
 static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
     std::array::from_fn(|code| {
         let c = code as f64 / 255.0;
@@ -17,8 +17,7 @@ static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
     })
 });
 
-/// A texel as numbers: colors in linear light, data as it is, directions of unit length. The fourth channel is never
-/// more than data.
+/// Decodes a texel: colors in linear light, data unchanged, directions in [−1, 1]. The fourth channel is always data.
 pub(super) fn decoded([r, g, b, a]: [u8; 4], encoding: Encoding) -> [f32; 4] {
     let part = |code: u8| f32::from(code) / 255.0;
     let channel = |code: u8| match encoding {
@@ -29,7 +28,7 @@ pub(super) fn decoded([r, g, b, a]: [u8; 4], encoding: Encoding) -> [f32; 4] {
     [channel(r), channel(g), channel(b), part(a)]
 }
 
-/// The nearest texel.
+/// Encodes values as the nearest texel.
 pub(super) fn encoded([r, g, b, a]: [f32; 4], encoding: Encoding) -> [u8; 4] {
     let code = |part: f32| (part.clamp(0.0, 1.0) * 255.0).round() as u8;
     let channel = |value: f32| match encoding {

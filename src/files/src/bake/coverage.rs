@@ -1,4 +1,4 @@
-//! Which face each texel belongs to.
+//! Coverage of texels by faces.
 
 use rayon::prelude::*;
 
@@ -6,17 +6,17 @@ use super::Corners;
 use super::triangle::nearest_on_edges;
 use crate::picture::{spans, steps};
 
-/// Rows that one task covers.
+/// Rows per task.
 const BAND: usize = 64;
-/// Bilinear filtering at a point of a chart reads centers of texels less than √2 texels away.
+/// Reach in texels: bilinear filtering at a point of a chart reads centers of texels less than √2 texels away.
 const REACH: f64 = 1.5;
-/// A texel that belongs to no face.
+/// Entry of a texel without a face.
 const EMPTY: u32 = u32::MAX;
-/// Marks a texel whose center lies beside its face.
+/// Bit of a texel whose center lies beside its face.
 const BESIDE: u32 = 1 << 31;
 
-/// For each texel of a square texture the face that its center lies in, or beside which it lies within the reach of
-/// bilinear filtering.
+/// For each texel of a square texture the face that contains its center, or beside which the center lies within the
+/// reach of bilinear filtering.
 pub struct Coverage {
     side: usize,
     /// Corners of the faces, in texels.
@@ -25,8 +25,8 @@ pub struct Coverage {
 }
 
 impl Coverage {
-    /// `faces`: UVs of the corners, v down, in the unit square; fewer than 2³¹. A center on a common edge belongs to one
-    /// face; of overlapping faces the last wins.
+    /// Rasterizes `faces`, given by the UVs of their corners, v down, in the unit square; fewer than 2³¹. A center on a
+    /// common edge belongs to one face; of overlapping faces the last wins.
     pub fn new(faces: &[Corners], side: usize) -> Self {
         let scale = side as f64;
         let faces: Vec<Corners> = faces
@@ -62,30 +62,30 @@ impl Coverage {
         }
     }
 
-    /// Texels along a side.
+    /// Returns the number of texels along a side.
     pub fn side(&self) -> usize {
         self.side
     }
 
-    /// The face of a texel; `None` where no chart is near.
+    /// Returns the face of a texel; `None` if no chart is near.
     pub fn at(&self, x: usize, y: usize) -> Option<u32> {
         let texel = self.texels[y * self.side + x];
         (texel != EMPTY).then_some(texel & !BESIDE)
     }
 
-    /// Whether the center of a texel lies in a face.
+    /// Returns whether the center of a texel lies in a face.
     pub fn is_inside(&self, x: usize, y: usize) -> bool {
         self.texels[y * self.side + x] & BESIDE == 0
     }
 
-    /// Whether a texel and all around it lie in faces.
+    /// Returns whether a texel and all its neighbors lie in faces.
     pub(super) fn is_interior(&self, x: usize, y: usize) -> bool {
         let last = self.side - 1;
         let around = |c: usize| c.saturating_sub(1)..=(c + 1).min(last);
         around(y).all(|y| around(x).all(|x| self.is_inside(x, y)))
     }
 
-    /// The corners of a face, in texels.
+    /// Returns the corners of a face, in texels.
     pub(super) fn corners(&self, face: u32) -> &Corners {
         &self.faces[face as usize]
     }
@@ -114,7 +114,7 @@ impl Band<'_> {
         }
     }
 
-    /// Gives a face the texels beside it that lie in none and are nearer to it than to any before.
+    /// Assigns to a face the texels beside it that lie in no face and are nearer to it than to any earlier one.
     fn surround(&mut self, face: u32, corners: &Corners, distances: &mut [f64]) {
         let rows = self.texels.len() / self.side;
         let [low, high] = extent(corners.map(|p| p[1]));
@@ -138,7 +138,7 @@ impl Band<'_> {
     }
 }
 
-/// Texels of `n` with their centers from `low` to `high`.
+/// Returns the texels, of `n`, with centers from `low` to `high`.
 fn centers(low: f64, high: f64, n: usize) -> std::ops::Range<usize> {
     let first = (low - 0.5).ceil().max(0.0) as usize;
     let end = ((high + 0.5).floor().max(0.0) as usize).min(n);
@@ -150,7 +150,7 @@ fn extent(values: [f64; 3]) -> [f64; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
-/// The least and greatest x of the part of a triangle between two heights.
+/// Returns the least and greatest x of the part of a triangle between two heights.
 fn width_between(corners: &Corners, low: f64, high: f64) -> Option<[f64; 2]> {
     let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
     for k in 0..3 {

@@ -1,8 +1,8 @@
 //! Texels between charts.
 
-/// What texels between charts take from their neighbors.
+/// Values that can be averaged to fill texels between charts.
 pub(super) trait Mean: Copy {
-    /// The mean, if there is anything.
+    /// Returns the mean; `None` without values.
     fn mean(values: impl Iterator<Item = Self>) -> Option<Self>;
 }
 
@@ -26,7 +26,7 @@ impl Mean for f32 {
     }
 }
 
-/// Fills the texels without a value from those with one, ring by ring: each takes the mean of its neighbors of earlier
+/// Fills the texels without a value from those with one, ring by ring: each gets the mean of its neighbors of earlier
 /// rings. A texture without any value becomes `blank`.
 pub(super) fn filled<T: Mean>(texels: Vec<Option<T>>, side: usize, blank: T) -> Vec<T> {
     let mut texels = texels;
@@ -50,12 +50,12 @@ pub(super) fn filled<T: Mean>(texels: Vec<Option<T>>, side: usize, blank: T) -> 
     texels.into_iter().map(|t| t.unwrap_or(blank)).collect()
 }
 
-/// The mean of the neighbors that have a value.
+/// Returns the mean of the neighbors that have a value.
 fn mean<T: Mean>(texels: &[Option<T>], side: usize, texel: usize) -> Option<T> {
     T::mean(around(side, texel).filter_map(|neighbor| texels[neighbor]))
 }
 
-/// The up to eight neighbors of a texel.
+/// Iterates over the up to eight neighbors of a texel.
 fn around(side: usize, texel: usize) -> impl Iterator<Item = usize> {
     let (x, y) = (texel % side, texel / side);
     let near = move |c: usize| c.saturating_sub(1)..=(c + 1).min(side - 1);

@@ -1,4 +1,4 @@
-//! Directions carried from one tangent frame to another.
+//! Directions converted from one tangent frame to another.
 
 use super::triangle::Barycentric;
 
@@ -6,9 +6,9 @@ use super::triangle::Barycentric;
 pub struct Frames {
     /// Normals of the surface.
     pub normals: Vec<[[f32; 3]; 3]>,
-    /// Tangents of the map that a direction comes from.
+    /// Tangents of the old map, to which directions are relative.
     pub from: Vec<[[f32; 4]; 3]>,
-    /// Tangents of the map that it goes to.
+    /// Tangents of the new map.
     pub to: Vec<[[f32; 4]; 3]>,
 }
 
@@ -21,8 +21,8 @@ impl Frames {
         self.to.resize(n, [[0.0; 4]; 3]);
     }
 
-    /// A direction relative to the old frame at a place of a face, relative to the new one, of unit length; as it is
-    /// where a frame has no volume.
+    /// Converts a direction at a place of a face from the old frame to the new one, with unit length; returns it
+    /// unchanged if a frame is degenerate.
     pub(super) fn carried(
         &self,
         face: usize,
@@ -47,7 +47,7 @@ impl Frames {
     }
 }
 
-/// Tangent, bitangent and normal as glTF defines them.
+/// Returns tangent, bitangent and normal as glTF defines them.
 fn basis(normal: [f32; 3], [x, y, z, sign]: [f32; 4]) -> [[f32; 3]; 3] {
     let tangent = unit([x, y, z]);
     let bitangent = unit(cross(normal, tangent)).map(|x| x * sign.signum());

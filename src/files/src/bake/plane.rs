@@ -1,9 +1,9 @@
-//! What a texture for a new UV map is made from.
+//! Sources of a texture for a new UV map.
 
 use super::{Corners, Frames, Texture};
 use crate::document::Encoding;
 
-/// What a face shows: a texture and, for each of its corners, the place in it, in texels.
+/// Texture of a face and, for each of its corners, the place in it, in texels.
 #[derive(Clone, Copy)]
 pub struct Sampled {
     /// Index of the texture.
@@ -12,14 +12,14 @@ pub struct Sampled {
     pub corners: Corners,
 }
 
-/// Textures on the old map, which go together into one on the new map.
+/// Textures on the old map that are merged into one on the new map.
 pub struct Plane<'a> {
-    /// What the texels are.
+    /// Encoding of the texels.
     pub encoding: Encoding,
-    /// The old textures.
+    /// Old textures.
     pub textures: Vec<Texture<'a>>,
-    /// What each face shows; `None` shows nothing.
+    /// Source of each face; `None` for faces without a texture.
     pub faces: Vec<Option<Sampled>>,
-    /// For directions, the frames they are relative to.
+    /// Frames to which directions are relative; only for normal maps.
     pub frames: Option<Frames>,
 }

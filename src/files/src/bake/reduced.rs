@@ -1,4 +1,4 @@
-//! Textures that repeat, and are much finer than what is made of them.
+//! Reduction of repeating textures that are much finer than the target.
 
 use std::borrow::Cow;
 
@@ -8,21 +8,22 @@ use super::size::Areas;
 use super::{Plane, Texture};
 use crate::picture::Image;
 
-/// Texels of a source to one of the target, along a side, from which the source is halved.
+/// Source texels per target texel, along a side, from which the source is halved.
 const FINE: f64 = 4.0;
-/// How often a texture is shown from which on it has no borders of charts that halving could mix.
+/// Number of repetitions from which a texture is taken to have no chart borders that halving could mix.
 const REPEATS: f64 = 2.0;
 
 /// A texture at a size that suits the target.
 pub(super) struct Reduced<'a> {
     image: Cow<'a, Image>,
     texture: Texture<'a>,
-    /// A texel's length as a share of that of the texture.
+    /// Length of an original texel as a share of one of the reduced texture.
     pub scale: f64,
 }
 
 impl<'a> Reduced<'a> {
-    /// Texture `number` of a plane; one that repeats is halved as often as its faces do not need it finer and its sides are even.
+    /// Reduces texture `number` of a plane: one that repeats is halved as long as its faces do not need it finer and
+    /// its sides are even.
     pub fn new(plane: &Plane<'a>, number: usize, coverage: &Coverage) -> Self {
         let texture = plane.textures[number];
         let faces = (0..).zip(&plane.faces).filter_map(|(face, sampled)| {
@@ -58,7 +59,7 @@ impl<'a> Reduced<'a> {
     }
 }
 
-/// The means of two by two texels.
+/// Returns the means of two by two texels.
 fn halved(image: &Image, texture: Texture) -> Image {
     let (width, height) = (image.width / 2, image.height / 2);
     let mean = |x: usize, y: usize| {

@@ -10,18 +10,18 @@ use super::reduced::Reduced;
 use super::triangle::{Triangle, blended};
 use crate::picture::Image;
 
-/// Samples per texel along a side at most: where the source is finer still, it repeats more often than the new texture
-/// has texels to show.
+/// Most samples per texel along a side: if the source is finer still, it repeats more often than the new texture can
+/// show.
 const MOST_SAMPLES: f64 = 8.0;
-/// Samples along a side where the source takes its nearest texel: its steps have edges that are smoothed so.
+/// Samples along a side for a source with nearest-texel filtering: they smooth the edges of its steps.
 const STEP_SAMPLES: f64 = 4.0;
-/// A texel of the source that is larger than one of the target by this much only does not need more samples.
+/// Relative tolerance by which a source texel may be smaller than a target texel before more samples are taken.
 const SLACK: f64 = 0.01;
 
-/// A texture of which nothing is covered.
+/// Color of a texture without any covered texel.
 const BLACK: [u8; 4] = [0, 0, 0, 255];
 
-/// The new texture.
+/// Bakes the new texture.
 pub fn baked(plane: &Plane, coverage: &Coverage) -> Image {
     let side = coverage.side();
     let numbers = 0..plane.textures.len();
@@ -47,7 +47,7 @@ pub fn baked(plane: &Plane, coverage: &Coverage) -> Image {
     }
 }
 
-/// What texels are made from.
+/// Inputs of the texels.
 struct Bake<'a> {
     plane: &'a Plane<'a>,
     textures: &'a [Reduced<'a>],
@@ -55,7 +55,7 @@ struct Bake<'a> {
 }
 
 impl Bake<'_> {
-    /// The value of a texel: the mean over its square, which is cut off at the face where it lies at a border.
+    /// Computes the value of a texel: the mean over its square, which is cut off at the face if it lies at a border.
     fn texel(&self, [x, y]: [usize; 2]) -> Option<[u8; 4]> {
         let face = self.coverage.at(x, y)?;
         let sampled = self.plane.faces[face as usize].as_ref()?;
@@ -91,7 +91,7 @@ impl Bake<'_> {
     }
 }
 
-/// How many samples along a side a texel takes: one for each texel of the source that it is long.
+/// Returns the number of samples of a texel along a side: one for each source texel along its length.
 fn samples(jacobian: &[[f64; 2]; 2], is_nearest: bool) -> usize {
     let [[a, b], [c, d]] = *jacobian;
     let squares = a * a + b * b + c * c + d * d;

@@ -1,16 +1,16 @@
-//! How dense textures are.
+//! Choice of the texture size.
 
 use super::{Corners, Plane};
 
-/// Texels of one document's new textures together at most: eight of 8192 × 8192.
+/// Most texels of all new textures of a document: eight of 8192 × 8192.
 pub const MOST_TEXELS: u64 = 1 << 29;
-/// Sides that are chosen unasked.
+/// Smallest and largest side that are chosen automatically.
 const SIDES: [f64; 2] = [16.0, 4096.0];
-/// A texel less than the texture had costs nothing that is seen.
+/// Texels by which a side may be too small without a visible loss.
 const SLACK: f64 = 1.0;
 
-/// The side, a power of two from 16 to 4096, of a texture on which the faces have as many texels as they had in the old ones.
-/// `faces`: corners in the unit square.
+/// Returns the side, a power of two from 16 to 4096, of a texture on which the faces have the same number of texels as
+/// in the old ones. `faces` are corners in the unit square.
 pub fn side_for(plane: &Plane, faces: &[Corners]) -> u32 {
     let all = plane.faces.iter().zip(faces);
     let areas =
@@ -19,16 +19,16 @@ pub fn side_for(plane: &Plane, faces: &[Corners]) -> u32 {
     ((areas.length() - SLACK).ceil().clamp(least, most) as u32).next_power_of_two()
 }
 
-/// Twice the areas of faces.
+/// Sums of doubled areas of faces.
 pub(super) struct Areas {
-    /// In what they show.
+    /// Area in the source textures.
     pub sources: f64,
-    /// In the texture that is made.
+    /// Area in the new texture.
     pub targets: f64,
 }
 
 impl Areas {
-    /// Of faces by their corners in both. Those without an area in the new texture are left out.
+    /// Sums the areas of faces, given by their corners in both. Faces without area in the new texture are left out.
     pub fn of<'a>(faces: impl Iterator<Item = (&'a Corners, &'a Corners)>) -> Self {
         let mut areas = Self {
             sources: 0.0,
@@ -44,7 +44,7 @@ impl Areas {
         areas
     }
 
-    /// How long a unit of the new texture is in the old one, at the mean; 0 where nothing is shown.
+    /// Returns the mean length, in the old texture, of a unit of the new one; 0 if there are no sources.
     pub fn length(&self) -> f64 {
         if self.targets > 0.0 {
             (self.sources / self.targets).sqrt()

@@ -1,29 +1,29 @@
-//! A picture as materials sample it.
+//! A picture with the settings of its sampler.
 
 use super::color::decoded;
 use crate::document::{Encoding, Wrap};
 use crate::picture::Image;
 
-/// A picture with what a sampler says of it.
+/// A picture with the settings of its sampler.
 #[derive(Clone, Copy)]
 pub struct Texture<'a> {
     /// The texels.
     pub image: &'a Image,
-    /// What they are.
+    /// Encoding of the texels.
     pub encoding: Encoding,
-    /// What is found beyond the picture's left and right, and beyond its top and bottom.
+    /// Wrapping beyond the picture's left and right, and beyond its top and bottom.
     pub wrap: [Wrap; 2],
-    /// Whether the nearest texel is taken, not a mean of four.
+    /// `true` for the nearest texel, `false` for a weighted mean of four.
     pub is_nearest: bool,
 }
 
 impl Texture<'_> {
-    /// Columns and rows.
+    /// Returns columns and rows.
     pub fn size(&self) -> [f64; 2] {
         [self.image.width as f64, self.image.height as f64]
     }
 
-    /// The value at a place in texels, linear between their centers.
+    /// Returns the value at a place in texels, linear between their centers.
     pub(super) fn sample(&self, [x, y]: [f64; 2]) -> [f32; 4] {
         let (width, height) = (self.image.width, self.image.height);
         if self.is_nearest {
@@ -45,10 +45,10 @@ impl Texture<'_> {
     }
 }
 
-/// Coordinates beyond are cut off: no float has a fraction there.
+/// Limit of coordinates: no float beyond it has a fraction.
 const FARTHEST: f64 = 1e15;
 
-/// The whole part, rounded down, and the rest; 0 of what is no number.
+/// Splits a number into its floor and the rest; NaN becomes 0.
 fn split(x: f64) -> (i64, f32) {
     let x = x.clamp(-FARTHEST, FARTHEST);
     let toward_zero = x as i64;
@@ -56,7 +56,7 @@ fn split(x: f64) -> (i64, f32) {
     (whole, (x - whole as f64) as f32)
 }
 
-/// The texel of `n` that a whole number means.
+/// Returns the texel, of `n`, that an integer coordinate refers to.
 fn wrapped(x: i64, n: usize, wrap: Wrap) -> usize {
     let size = n as i64;
     if (0..size).contains(&x) {
@@ -73,7 +73,7 @@ fn wrapped(x: i64, n: usize, wrap: Wrap) -> usize {
     within as usize
 }
 
-/// (1 − t) a + t b.
+/// Returns (1 − t) a + t b.
 fn between(a: [f32; 4], b: [f32; 4], t: f32) -> [f32; 4] {
     [0, 1, 2, 3].map(|k| a[k] + t * (b[k] - a[k]))
 }

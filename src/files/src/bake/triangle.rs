@@ -5,7 +5,7 @@ use super::Corners;
 /// Weights of the corners of a triangle.
 pub(super) type Barycentric = [f64; 3];
 
-/// A triangle with what it takes to find places in it.
+/// A triangle with the data for locating points in it.
 pub(super) struct Triangle {
     corners: Corners,
     /// Derivatives of the weights of the second and third corner.
@@ -13,7 +13,7 @@ pub(super) struct Triangle {
 }
 
 impl Triangle {
-    /// `None` for a triangle without an area.
+    /// Creates the triangle; returns `None` if it has no area.
     pub fn new(corners: Corners) -> Option<Self> {
         let [a, b, c] = corners;
         let (e, f) = (difference(b, a), difference(c, a));
@@ -28,21 +28,21 @@ impl Triangle {
         })
     }
 
-    /// The weights at a place, negative ones outside.
+    /// Returns the weights at a place, some negative outside.
     pub fn weights(&self, at: [f64; 2]) -> Barycentric {
         let d = difference(at, self.corners[0]);
         let [s, t] = self.gradients.map(|g| g[0] * d[0] + g[1] * d[1]);
         [1.0 - s - t, s, t]
     }
 
-    /// The Jacobian of the affine map that takes the corners to `to`, row by row.
+    /// Returns the Jacobian of the affine map that takes the corners to `to`, row by row.
     pub fn jacobian(&self, to: &Corners) -> [[f64; 2]; 2] {
         let (e, f) = (difference(to[1], to[0]), difference(to[2], to[0]));
         let [g, h] = self.gradients;
         [0, 1].map(|row| [0, 1].map(|column| e[row] * g[column] + f[row] * h[column]))
     }
 
-    /// The weights at the triangle's point nearest to a place, and the square of its distance.
+    /// Returns the weights at the triangle's point nearest to a place, and the square of its distance.
     pub fn nearest(&self, at: [f64; 2]) -> (Barycentric, f64) {
         let weights = self.weights(at);
         if weights.iter().all(|w| *w >= 0.0) {
@@ -52,7 +52,7 @@ impl Triangle {
     }
 }
 
-/// The weights at the nearest point of a triangle's edges, and the square of its distance.
+/// Returns the weights at the nearest point of a triangle's edges, and the square of its distance.
 pub(super) fn nearest_on_edges(corners: &Corners, at: [f64; 2]) -> (Barycentric, f64) {
     let mut nearest = ([0.0; 3], f64::INFINITY);
     for k in 0..3 {
@@ -78,7 +78,7 @@ pub(super) fn nearest_on_edges(corners: &Corners, at: [f64; 2]) -> (Barycentric,
     nearest
 }
 
-/// The mean of the corners by weights.
+/// Returns the weighted mean of the corners.
 pub(super) fn blended(weights: Barycentric, corners: &Corners) -> [f64; 2] {
     [0, 1].map(|k| (0..3).map(|c| weights[c] * corners[c][k]).sum())
 }

@@ -1,4 +1,4 @@
-//! Textures of materials that can be resampled for new UVs, and what puts them into the document.
+//! Plan and result of resampling a document's textures for new UVs.
 
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -6,65 +6,65 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Tangents of the three corners of a face, with the sign of the bitangent.
 pub type CornerTangents = [[f32; 4]; 3];
 
-/// What the texels of a texture are.
+/// Encoding of the texels of a texture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Encoding {
     /// Colors in sRGB; alpha is data.
     Color,
-    /// Numbers.
+    /// Plain numbers.
     Data,
     /// Directions relative to tangents.
     Normal,
 }
 
-/// What a texture shows beyond its borders.
+/// Behavior of a texture beyond its borders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wrap {
-    /// Itself again.
+    /// Repeats itself.
     Repeat,
-    /// Itself, mirrored each other time.
+    /// Repeats itself, mirrored every other time.
     Mirror,
-    /// Its outermost texels.
+    /// Continues its outermost texels.
     Clamp,
 }
 
-/// How a surface is covered by an image.
+/// Mapping of an image to a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextureSource {
     /// Index of the image.
     pub image: usize,
-    /// Beyond its left and right, beyond its top and bottom.
+    /// Wrapping beyond its left and right, and beyond its top and bottom.
     pub wrap: [Wrap; 2],
-    /// The UV set that is sampled.
+    /// UV set that it samples.
     pub set: u32,
-    /// What is done to its UVs: two rows of a linear map and a shift.
+    /// Transform of the UVs: two rows of a linear map and a shift.
     pub transform: [[f64; 3]; 2],
 }
 
 impl TextureSource {
-    /// The place in the image that UVs mean, in multiples of its size.
+    /// Returns the place in the image for these UVs, in multiples of its size.
     pub fn place(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         self.transform.map(|[a, b, c]| a * u + b * v + c)
     }
 }
 
-/// A texture to make: parts of one UV space, each from its own source.
+/// A texture to make: parts of one UV space, each with its own source.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BakePlane {
-    /// What it is for, in words that can be part of a file name.
+    /// Purpose, in words that can be part of a file name.
     pub name: String,
     /// Index of the group whose UV space it covers.
     pub group: usize,
-    /// What its texels are.
+    /// Encoding of its texels.
     pub encoding: Encoding,
-    /// The filters of its sampler, `magFilter` and `minFilter` as glTF numbers them.
+    /// Filters of its sampler, `magFilter` and `minFilter` in the numbers of glTF.
     pub filters: [Option<usize>; 2],
-    /// By primitive, where its texels come from.
+    /// Source of the texels of each primitive.
     pub sources: BTreeMap<usize, TextureSource>,
 }
 
 impl BakePlane {
-    /// Whether the nearest texel is shown where texels are large.
+    /// Returns whether enlarged texels are shown without interpolation.
     pub fn is_nearest(&self) -> bool {
         const NEAREST: usize = 9728;
         self.filters[0] == Some(NEAREST)
@@ -74,18 +74,18 @@ impl BakePlane {
 /// Textures to make for a document, and those that cannot be made.
 #[derive(Debug, Clone, Default)]
 pub struct BakePlan {
-    /// What is to be made.
+    /// Textures to make.
     pub planes: Vec<BakePlane>,
-    /// What stays as it is, and so the UVs that it samples.
+    /// Textures that stay unchanged, together with the UVs that they sample.
     pub kept: Vec<KeptTexture>,
     pub(super) materials: Vec<MaterialPlanes>,
-    /// Where textures are named that will be replaced.
+    /// JSON pointers of the texture infos that will be replaced.
     pub(super) replaced: BTreeSet<String>,
     /// Primitives with directions relative to tangents.
     pub(super) normal_mapped: BTreeSet<usize>,
 }
 
-/// A material as the primitives of one group have it.
+/// Planes of a material for the primitives of one group.
 #[derive(Debug, Clone)]
 pub(super) struct MaterialPlanes {
     pub material: usize,
@@ -96,7 +96,7 @@ pub(super) struct MaterialPlanes {
 }
 
 impl BakePlan {
-    /// Whether a primitive needs tangents for its new UVs.
+    /// Returns whether a primitive needs tangents for its new UVs.
     pub fn is_normal_mapped(&self, primitive: usize) -> bool {
         self.normal_mapped.contains(&primitive)
     }
@@ -105,18 +105,18 @@ impl BakePlan {
 /// New textures for new UVs.
 #[derive(Debug, Clone)]
 pub struct BakedTextures {
-    /// What was to be made.
+    /// The plan that was carried out.
     pub plan: BakePlan,
-    /// For each plane its side in texels and the file, PNG or JPEG.
+    /// Side in texels and file, PNG or JPEG, of each plane.
     pub files: Vec<(u32, Vec<u8>)>,
-    /// For each primitive the tangents of its new UVs, where it has normals and a normal map.
+    /// For each primitive the tangents of its new UVs, if it has normals and a normal map.
     pub tangents: Vec<Option<Vec<CornerTangents>>>,
-    /// Whether the document has colors at its vertices and no texture to resample.
+    /// `true` if the document has vertex colors and no texture to resample.
     pub has_colors_only: bool,
 }
 
 impl BakedTextures {
-    /// Whether something that could show the new UVs was not resampled.
+    /// Returns whether something that could show the new UVs was not resampled.
     pub fn is_partial(&self) -> bool {
         self.has_colors_only || !self.plan.kept.is_empty()
     }

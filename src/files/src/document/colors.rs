@@ -1,12 +1,12 @@
-//! Colors of vertices: PLY and OBJ have them in sRGB, glTF linear.
+//! Colors of vertices: sRGB in PLY and OBJ, linear in glTF.
 
 /// Red, green, blue and alpha, linear.
 pub(super) type Color = [f32; 4];
 
-/// What shows nothing of itself.
+/// The neutral color.
 pub(super) const WHITE: Color = [1.0; 4];
 
-/// Red, green, blue and alpha in the unit interval, alpha as it is.
+/// Converts sRGB to linear light, clamped to the unit interval; alpha is not converted.
 pub(super) fn from_srgb([r, g, b, a]: [f64; 4]) -> Color {
     let linear = |x: f64| {
         let x = x.clamp(0.0, 1.0);
@@ -19,7 +19,7 @@ pub(super) fn from_srgb([r, g, b, a]: [f64; 4]) -> Color {
     [linear(r), linear(g), linear(b), a.clamp(0.0, 1.0)].map(|x| x as f32)
 }
 
-/// The color without its alpha, in sRGB.
+/// Converts a color to sRGB, without its alpha.
 pub(super) fn to_srgb([r, g, b, _]: Color) -> [f64; 3] {
     [r, g, b].map(|x| {
         let x = f64::from(x).clamp(0.0, 1.0);
@@ -31,7 +31,7 @@ pub(super) fn to_srgb([r, g, b, _]: Color) -> [f64; 3] {
     })
 }
 
-/// The color of three or four linear numbers.
+/// Returns the color of three or four linear numbers.
 pub(super) fn from_linear(channels: &[f64]) -> Color {
     std::array::from_fn(|k| channels.get(k).map_or(1.0, |x| x.clamp(0.0, 1.0) as f32))
 }

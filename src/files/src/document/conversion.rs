@@ -4,23 +4,23 @@ use super::new_gltf::{self, New, NewMesh, NewPrimitive, Shape};
 use super::{Document, DocumentError, NewUvs, OutputFormat, Primitive, Warning};
 use std::collections::BTreeMap;
 
-/// A document in the form in which it is written, and what its vertices and triangles were before.
+/// A document in the form in which it is written, with the original numbers of its vertices and triangles.
 #[derive(Clone)]
 pub struct Conversion {
-    /// The document.
+    /// Converted document.
     pub document: Document,
-    /// For each vertex over all primitives its number in the file; `None` where none has changed.
+    /// For each vertex over all primitives its number in the file; `None` if no number has changed.
     pub vertices: Option<Vec<u32>>,
-    /// For each triangle over all primitives its number in the file; `None` where none has changed.
+    /// For each triangle over all primitives its number in the file; `None` if no number has changed.
     pub faces: Option<Vec<u32>>,
 }
 
-/// Which UVs of a file without sets of them go along into a new document. Those that textures sample always do.
+/// UVs of a file without UV sets that are transferred to a new document. Those that textures sample always are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OldUvs {
-    /// All.
+    /// All UVs.
     Kept,
-    /// No others: new ones take their place.
+    /// Only those that textures sample: new ones take the place of the others.
     Sampled,
 }
 
@@ -41,7 +41,7 @@ impl Conversion {
         }
     }
 
-    /// UVs for the file as UVs for the document.
+    /// Converts UVs for the file to UVs for the document.
     pub(super) fn uvs(&self, uvs: &NewUvs) -> NewUvs {
         let (Some(faces), Some([Some(corners)])) = (&self.faces, uvs.corners.as_array()) else {
             let corners = vec![None; self.document.primitives().len()];
@@ -60,8 +60,8 @@ impl Conversion {
 }
 
 impl Document {
-    /// The document in the form in which it is written: for glTF triangles of any file become glTF, with objects as meshes and with
-    /// materials, pictures and colors; else it stays as it is.
+    /// Converts the document to the form in which it is written: for glTF output triangles of any file become glTF,
+    /// with objects as meshes and with materials, pictures and colors; otherwise it is unchanged.
     pub fn for_output(
         self,
         format: OutputFormat,
@@ -75,7 +75,7 @@ impl Document {
     }
 }
 
-/// A document of triangles and colors without names.
+/// Creates a document of triangles and colors without names.
 pub(super) fn of_triangles(
     primitive: &Primitive,
     colors: Option<&[Color]>,
@@ -107,7 +107,7 @@ pub(super) fn of_triangles(
     Ok(Conversion::new(new, warnings.to_vec()))
 }
 
-/// What colors of vertices are seen on: without a material glTF would show a metal.
+/// Returns the material of vertex colors: without one glTF would show a metal.
 pub(super) fn colored() -> Material {
     Material::named("vertex colors")
 }

@@ -1,15 +1,15 @@
 use thiserror::Error;
 
-/// Why a file cannot be read or written.
+/// Reason why a file cannot be read or written.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum DocumentError {
-    /// The file is sound but has no triangle.
+    /// The file is valid but has no triangle.
     #[error("the file has no triangles")]
     NoTriangles,
-    /// Neither the content nor the name tells a format that can be read.
+    /// Neither the content nor the name indicates a readable format.
     #[error("not a glTF, OBJ, OFF, PLY or STL file")]
     UnknownFormat,
-    /// The file is glTF but breaks its rules where that matters here.
+    /// The file is glTF but breaks rules that matter here.
     #[error("invalid glTF: {0}")]
     InvalidGltf(String),
     /// The file is OBJ, OFF, PLY or STL but cannot be parsed.
@@ -18,10 +18,10 @@ pub enum DocumentError {
     /// A glTF version other than 2.
     #[error("glTF version {0} is not supported, only 2.x")]
     UnsupportedVersion(String),
-    /// A required extension that is not known here.
+    /// The file requires an unknown extension.
     #[error("the file requires the extension {0}, which is not supported")]
     UnsupportedExtension(String),
-    /// A URI that is neither data nor a file of the upload.
+    /// A URI is neither data nor a file of the upload.
     #[error("the file references `{0}`, which was not supplied")]
     MissingResource(String),
     /// A face names a vertex that does not exist.
@@ -30,21 +30,21 @@ pub enum DocumentError {
     /// A vertex position is infinite or not a number.
     #[error("a vertex position is not finite: {0}")]
     NonFinitePosition(String),
-    /// The file asks for more than is reasonable for its size.
+    /// The file demands more than is reasonable for its size.
     #[error("limit exceeded: {0}")]
     LimitExceeded(String),
     /// The output format cannot hold this document.
     #[error("cannot write {0}")]
     UnsupportedOutput(String),
-    /// A node shows a mesh several times, and each is to have UVs of its own.
+    /// A node shows a mesh several times, but each instance is to have UVs of its own.
     #[error(
         "node {0} has instances (EXT_mesh_gpu_instancing), which cannot have UVs of their own; make them nodes"
     )]
     Instanced(usize),
-    /// Triangles are to be cut where something has no value between vertices.
+    /// Triangles are to be cut, but some attribute cannot be interpolated.
     #[error("triangles cannot be split: {0} cannot be interpolated")]
     Indivisible(String),
-    /// A texture samples the set that was asked for.
+    /// A texture samples the requested set.
     #[error("textures sample UV set {0}; choose another, or overwrite it")]
     TexcoordInUse(u32),
     /// The UVs to write do not fit the document.
@@ -53,7 +53,7 @@ pub enum DocumentError {
 }
 
 impl DocumentError {
-    /// A stable name for programs.
+    /// Returns the stable code of the error, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::NoTriangles => "no_triangles",

@@ -1,7 +1,7 @@
 use super::Warning;
 use crate::io::Fanned;
 
-/// What users should know of polygons without an inside; `place` says what their places count.
+/// Returns a warning about polygons without an inside, if there are any; `place` names the unit of their places.
 pub(super) fn warning(fanned: &Fanned, place: &str) -> Option<Warning> {
     let n = fanned.n_polygons;
     let mut places: Vec<String> = fanned.first.iter().map(usize::to_string).collect();

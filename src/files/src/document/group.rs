@@ -3,7 +3,7 @@ use crate::io::IndexedTriangles;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The triangles of one primitive, as the file has them.
+/// The triangles of one primitive, as in the file.
 ///
 /// Strips and fans are expanded; faces that name a vertex twice are kept.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +21,7 @@ pub struct Primitive {
 }
 
 impl Primitive {
-    /// Puts vertices that no triangle uses, and whose coordinates are not finite, at the origin, and tells how many there were.
+    /// Moves vertices that no triangle uses, and whose coordinates are not finite, to the origin; returns their number.
     pub(super) fn place_unused(&mut self) -> usize {
         let mut n_placed = 0;
         for position in &mut self.positions {
@@ -33,7 +33,7 @@ impl Primitive {
         n_placed
     }
 
-    /// All triangles of a file whose format knows no meshes.
+    /// Creates a primitive from all triangles of a file whose format has no meshes.
     pub(super) fn of_file(mesh: IndexedTriangles) -> Result<Self, DocumentError> {
         if mesh.triangles.is_empty() {
             return Err(DocumentError::NoTriangles);
@@ -64,7 +64,7 @@ pub enum GroupBy {
     Primitive,
 }
 
-/// As the command line names it.
+/// Writes the name used on the command line.
 impl fmt::Display for GroupBy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -76,7 +76,7 @@ impl fmt::Display for GroupBy {
     }
 }
 
-/// The label of an atlas for all, here as in the page.
+/// Label of an atlas for all, here and in the web page.
 const WHOLE_SCENE: &str = "Whole scene";
 
 /// Primitives that share one UV space.
@@ -86,19 +86,19 @@ pub struct Group {
     pub name: String,
     /// Label for people: the name of the mesh or the material, else `mesh 0`, `material 0` or `Whole scene`.
     pub label: String,
-    /// Indices into the document's primitives, ascending.
+    /// Indices into the document's primitives, in increasing order.
     pub primitives: Vec<usize>,
 }
 
-/// What a file calls its meshes and materials.
+/// Names of meshes and materials in a file.
 pub(super) trait Names {
-    /// The name of a mesh, if it has one.
+    /// Returns the name of a mesh, if it has one.
     fn mesh(&self, index: usize) -> Option<String>;
-    /// The name of a material, if it has one.
+    /// Returns the name of a material, if it has one.
     fn material(&self, index: usize) -> Option<String>;
 }
 
-/// Of a file that names nothing.
+/// A file without names.
 pub(super) struct Nameless;
 
 impl Names for Nameless {
@@ -110,7 +110,7 @@ impl Names for Nameless {
     }
 }
 
-/// Groups in the order of their first primitives.
+/// Returns groups in the order of their first primitives.
 pub(super) fn groups(primitives: &[Primitive], by: GroupBy, names: &impl Names) -> Vec<Group> {
     let mut places = std::collections::HashMap::new();
     let mut groups: Vec<Group> = Vec::new();
@@ -130,7 +130,7 @@ pub(super) fn groups(primitives: &[Primitive], by: GroupBy, names: &impl Names) 
 }
 
 impl GroupBy {
-    /// How a primitive is grouped: one without a material shares nothing with other meshes.
+    /// Returns the grouping of a primitive: one without a material shares nothing with other meshes.
     fn of(self, primitive: &Primitive) -> Self {
         match self {
             Self::Material if primitive.material.is_none() => Self::Mesh,

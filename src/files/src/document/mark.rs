@@ -1,7 +1,7 @@
-//! The record that a file keeps of the UVs written to it: which set, and what was promised of it.
+//! The record in a file of the UVs written to it: the set, and the promises about it.
 //!
-//! Anybody can write such a record, so it may only add to what is judged. Nothing here takes a face, a pair of faces or a
-//! group out of a judgment.
+//! Anybody can write such a record, so it may only add to a judgment. Nothing here removes a face, a pair of faces or a
+//! group from a judgment.
 use super::{Document, DocumentError, GroupBy};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -9,53 +9,53 @@ use sha2::{Digest as _, Sha256};
 use std::fmt;
 use unwrapd_maps::mesh::{CornerUvs, Resolution};
 
-/// The version that is written and read.
+/// Version that is written and read.
 const VERSION: u32 = 1;
 
-/// What UVs were made for: what shared a UV space, and what was promised of its charts.
+/// Purpose of UVs: the grouping, and the promises about the charts.
 ///
-/// Records of version 0.1.0 may have a member `charts`, which is not read: it named the only charts to be judged.
+/// Records of version 0.1.0 may have a member `charts`, which is ignored: it named the only charts to be judged.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Terms {
-    /// What shared one UV space. Told to readers; a judgment groups by the file or by its caller.
+    /// Grouping of UV spaces. For information only; a judgment groups by the file or by its caller.
     pub group_by: GroupBy,
-    /// Whether each node got a part of its own, in proportion to what it shows in the scene.
+    /// `true` if each node got a part of its own, in proportion to its size in the scene.
     #[serde(default, skip_serializing_if = "is_false")]
     pub separate_nodes: bool,
-    /// Least distance of two charts, in texels of the coarsest of the mip levels that count.
+    /// Least distance of two charts, in texels of the coarsest relevant mip level.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub padding: Option<u32>,
-    /// The texture that `padding` is counted in.
+    /// Texture whose texels `padding` counts.
     pub resolution: Resolution,
-    /// Pages that charts lie on.
+    /// Pages on which charts lie.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pages: Option<u32>,
     /// Mip levels beyond the first in which charts keep the padding.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub mips: u32,
-    /// Whether charts end where texels end.
+    /// `true` if charts end at texel borders.
     #[serde(default, skip_serializing_if = "is_false")]
     pub aligned: bool,
     /// Bits at which the map stays bijective.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bits: Option<u32>,
-    /// Whether faces may overlap: without it, overlaps are tested even if the caller does not ask for that.
+    /// Allows overlaps: without it, overlaps are tested even if the caller does not ask for that.
     #[serde(default, skip_serializing_if = "is_false")]
     pub overlaps: bool,
 }
 
-/// Which UV set of each primitive is meant.
+/// UV set of each primitive.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Sets {
-    /// The same of all.
+    /// One set for all primitives.
     One(u32),
-    /// One of each triangle primitive in file order; none of those that take no part.
+    /// One entry per triangle primitive in file order; `None` for primitives that take no part.
     Each(Vec<Option<u32>>),
 }
 
 impl Sets {
-    /// The set of a primitive.
+    /// Returns the set of a primitive.
     pub fn of(&self, primitive: usize) -> Option<u32> {
         match self {
             Self::One(set) => Some(*set),
@@ -63,7 +63,7 @@ impl Sets {
         }
     }
 
-    /// The lowest set that is named.
+    /// Returns the lowest set.
     pub fn lowest(&self) -> Option<u32> {
         match self {
             Self::One(set) => Some(*set),
@@ -71,7 +71,7 @@ impl Sets {
         }
     }
 
-    /// One number where it is the same of all.
+    /// Creates the sets, as one number if all are equal.
     fn new(sets: Vec<Option<u32>>) -> Self {
         match sets.first() {
             Some(Some(first)) if sets.iter().all(|set| *set == Some(*first)) => Self::One(*first),
@@ -80,7 +80,7 @@ impl Sets {
     }
 }
 
-/// In words: `UV set 0` or `UV sets 0 and 1`.
+/// Writes `UV set 0` or `UV sets 0 and 1`.
 impl fmt::Display for Sets {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -100,20 +100,20 @@ impl fmt::Display for Sets {
     }
 }
 
-/// A mark: UV sets, their terms, and a digest of the UVs by which a file that was changed is recognized.
+/// A mark: UV sets, their terms, and a digest of the UVs that reveals later changes.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Mark {
     version: u32,
-    /// The UV sets that were written.
+    /// UV sets that were written.
     #[serde(rename = "texcoord")]
     pub sets: Sets,
-    /// What they were made for.
+    /// Purpose of the UVs.
     #[serde(flatten)]
     pub terms: Terms,
     digest: String,
 }
 
-/// What the record requires, in words; empty if it requires nothing.
+/// Writes the requirements of the record in words; nothing if there are none.
 impl fmt::Display for Terms {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut required = Vec::new();
@@ -143,19 +143,19 @@ impl fmt::Display for Terms {
     }
 }
 
-/// Whether a file has a mark that can be believed.
+/// Presence and validity of a file's mark.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Marked {
-    /// It has none.
+    /// There is no mark.
     Not,
-    /// It has one that does not fit its UVs: they were changed since.
+    /// There is a mark that does not fit its UVs: they were changed since.
     Stale,
-    /// It has one that fits.
+    /// There is a mark that fits.
     Fits(Box<Mark>),
 }
 
 impl Mark {
-    /// The mark of UVs as a file will have them: of each primitive the set and the UVs, in the numbers of the file.
+    /// Creates the mark of UVs to be written: for each primitive the set and the UVs, in the numbers of the file.
     pub(super) fn new(
         terms: &Terms,
         written: impl Iterator<Item = Option<(u32, Vec<CornerUvs>)>>,
@@ -174,18 +174,18 @@ impl Mark {
         }
     }
 
-    /// The mark as the file has it.
+    /// Returns the mark in the form of the file.
     pub(super) fn value(&self) -> Value {
         serde_json::to_value(self).unwrap_or_default()
     }
 
-    /// The mark that a file has, if it is of a version that is known.
+    /// Parses the mark of a file; `None` if its version is unknown.
     pub(super) fn parse(value: &Value) -> Option<Self> {
         let mark = Self::deserialize(value).ok()?;
         (mark.version == VERSION).then_some(mark)
     }
 
-    /// Whether the UVs of the document are those that were marked.
+    /// Returns whether the UVs of the document are those that were marked.
     fn fits(&self, document: &Document) -> Result<bool, DocumentError> {
         let n_primitives = document.primitives().len();
         if matches!(&self.sets, Sets::Each(sets) if sets.len() != n_primitives) {
@@ -206,7 +206,7 @@ impl Mark {
 }
 
 impl Document {
-    /// Whether the document says of its UVs what they were made for.
+    /// Reads the mark of the document and compares it with its UVs.
     pub fn marked(&self) -> Result<Marked, DocumentError> {
         Ok(match self.mark().as_ref().map(Mark::parse) {
             None => Marked::Not,
@@ -215,8 +215,8 @@ impl Document {
         })
     }
 
-    /// The texture that a UV set was made for, as the document says. The UVs may have been changed since: that does not change
-    /// the shape of the texture.
+    /// Returns the texture for which a UV set was made, according to the document. Later changes of the UVs do not
+    /// change the shape of the texture.
     pub fn texture_of(&self, set: u32) -> Option<Resolution> {
         let mark = Mark::parse(&self.mark()?)?;
         let is_marked = |primitive: usize| mark.sets.of(primitive) == Some(set);
@@ -224,7 +224,7 @@ impl Document {
         (is_known && mark.terms.resolution.is_regular()).then_some(mark.terms.resolution)
     }
 
-    /// What the document has in the place of a mark.
+    /// Returns the value in the place of a mark.
     fn mark(&self) -> Option<Value> {
         match self {
             Self::Gltf(document) => document.mark(),
@@ -234,7 +234,7 @@ impl Document {
     }
 }
 
-/// A digest of the UVs of every face corner in file order, whatever the numbers of the vertices.
+/// A digest of the UVs of every face corner in file order, independent of the numbering of vertices.
 #[derive(Default)]
 struct UvDigest(Sha256);
 
@@ -247,7 +247,7 @@ impl UvDigest {
         }
     }
 
-    /// The first 16 bytes in hexadecimal: changes by accident are to be recognized, not forgeries.
+    /// Returns the first 16 bytes in hexadecimal: the digest is to reveal accidental changes, not forgeries.
     fn text(self) -> String {
         let digest = self.0.finalize();
         let bytes = std::array::from_fn(|k| digest[k]);

@@ -1,12 +1,13 @@
 //! glTF and other files, read and written with everything else preserved.
 //!
-//! A [`Document`] is what a file said, whole; [`Primitive`]s are the triangles in it. Nothing is welded, repaired or
-//! reordered here: positions are rounded to f32 and handed over as the file has them, and a new UV set is written into
-//! the document of record, so what an unwrapping was not asked to change cannot be lost.
+//! A [`Document`] is the whole content of a file; [`Primitive`]s are the triangles in it. Nothing is welded, repaired
+//! or reordered here: positions are rounded to f32 and otherwise passed on as in the file, and a new UV set is written
+//! into the document of record, so nothing that an unwrapping was not asked to change can be lost.
 //!
-//! This module does no input or output of its own. An [`Upload`] carries the main file and every file it may refer to;
-//! a URI that is neither data nor a member of the upload is an error, never an open file or a connection. Every input is
-//! taken to be hostile: counts are believed only as far as bytes back them, and every failure is a [`DocumentError`].
+//! This module does no input or output of its own. An [`Upload`] carries the main file and every file to which it may
+//! refer; a URI that is neither data nor a member of the upload is an error, never an open file or a connection. Every
+//! input is treated as hostile: counts are believed only as far as bytes back them, and every failure is a
+//! [`DocumentError`].
 #![doc = include_str!("formats.md")]
 mod bake;
 mod colors;
@@ -54,7 +55,7 @@ pub use unwrapd_api::{Upload, Warning};
 use unwrapd_maps::mesh::{CornerUvs, VAxis};
 pub use uvs::{Corners, Layout, NewUvs, OutputFormat, WriteOptions, Written};
 
-/// A file as it was read.
+/// Content of a file.
 #[derive(Clone)]
 pub enum Document {
     /// glTF 2.0, `.glb` or `.gltf`.
@@ -66,7 +67,7 @@ pub enum Document {
 }
 
 impl Document {
-    /// Reads the main file of `upload`; its format is known by its content, else by the extension of its name.
+    /// Reads the main file of `upload`; its format is determined by its content, else by the extension of its name.
     pub fn read(upload: &Upload) -> Result<Self, DocumentError> {
         match format_of(upload) {
             Some(Format::Glb | Format::Gltf) => gltf::GltfDocument::read(upload).map(Self::Gltf),
@@ -75,7 +76,7 @@ impl Document {
         }
     }
 
-    /// What reading noticed and users should know.
+    /// Returns the warnings of reading for users.
     pub fn warnings(&self) -> &[Warning] {
         match self {
             Self::Gltf(document) => document.warnings(),
@@ -84,7 +85,7 @@ impl Document {
         }
     }
 
-    /// The triangle primitives in file order.
+    /// Returns the triangle primitives in file order.
     pub fn primitives(&self) -> &[Primitive] {
         match self {
             Self::Gltf(document) => document.primitives(),
@@ -93,8 +94,7 @@ impl Document {
         }
     }
 
-    /// What shares one UV space unless something else is asked for: the meshes of one material of
-    /// glTF, else all of a file, as that has one UV space.
+    /// Returns the default grouping of UV spaces: by material for glTF, else all of a file, as that has one UV space.
     pub fn grouping(&self) -> GroupBy {
         match self {
             Self::Gltf(_) => GroupBy::Material,
@@ -102,8 +102,8 @@ impl Document {
         }
     }
 
-    /// Which primitives share one UV space, in the order of their first primitives. Files without meshes and materials
-    /// are one group.
+    /// Groups the primitives that share one UV space, in the order of their first primitives. Files without meshes and
+    /// materials are one group.
     pub fn groups(&self, by: GroupBy) -> Vec<Group> {
         match self {
             Self::Gltf(document) => group::groups(self.primitives(), by, document),
@@ -113,7 +113,8 @@ impl Document {
         }
     }
 
-    /// The index of a material with this name, or else with this number; other files than glTF are read without materials.
+    /// Returns the index of a material with this name, or else with this number; files other than glTF are read without
+    /// materials.
     pub fn material(&self, name: &str) -> Option<usize> {
         match self {
             Self::Gltf(document) => document.material(name),
@@ -121,7 +122,7 @@ impl Document {
         }
     }
 
-    /// Where v points in the numbers of the file.
+    /// Returns the direction of v in the numbers of the file.
     pub fn v_axis(&self) -> VAxis {
         match self {
             Self::Gltf(_) => VAxis::Down,
@@ -129,7 +130,8 @@ impl Document {
         }
     }
 
-    /// The UVs of set `set` per face corner in the numbers of the file; `None` where the primitive has no such set.
+    /// Returns the UVs of set `set` per face corner in the numbers of the file; `None` if the primitive has no such
+    /// set.
     pub fn corner_uvs(
         &self,
         primitive: usize,
@@ -142,7 +144,7 @@ impl Document {
         }
     }
 
-    /// The normals of a primitive per face corner; `None` where it has none.
+    /// Returns the normals of a primitive per face corner; `None` if it has none.
     pub fn corner_normals(
         &self,
         primitive: usize,
@@ -154,7 +156,7 @@ impl Document {
         }
     }
 
-    /// The document with a mesh for every node that shows one; other files know no nodes.
+    /// Gives every node that shows a mesh a mesh of its own; other files than glTF have no nodes.
     pub fn with_separate_meshes(self) -> Result<Self, DocumentError> {
         match self {
             Self::Gltf(document) => document.with_separate_meshes().map(Self::Gltf),
@@ -162,7 +164,7 @@ impl Document {
         }
     }
 
-    /// The primitives where the first node that shows them has them; mirrored ones are mirrored back.
+    /// Returns the primitives in the placement of the first node that shows them; mirrored ones are mirrored back.
     pub fn primitives_in_scene(&self) -> Result<Vec<Primitive>, DocumentError> {
         match self {
             Self::Gltf(document) => document.primitives_in_scene(),
@@ -170,7 +172,7 @@ impl Document {
         }
     }
 
-    /// The document with the triangles of each primitive cut into pieces; what vertices have beside positions is interpolated.
+    /// Cuts the triangles of each primitive into pieces; attributes other than positions are interpolated.
     pub fn subdivided(self, cuts: &[Subdivision]) -> Result<Self, DocumentError> {
         Subdivision::check(cuts, self.primitives())?;
         match self {
@@ -182,7 +184,7 @@ impl Document {
         }
     }
 
-    /// The document with its triangles where a map carries them: positions, normals and tangents. All else is as it was; positions
+    /// Moves the triangles of the document by a map: positions, normals and tangents. All else is unchanged; positions
     /// are those of the meshes, before any transform of a node, skin or morph target.
     pub fn moved(self, map: &dyn SpaceMap) -> Result<Self, DocumentError> {
         Ok(match self {
@@ -192,12 +194,12 @@ impl Document {
         })
     }
 
-    /// The document with `uvs` as a UV set.
+    /// Writes the document with `uvs` as a UV set.
     pub fn write(&self, uvs: &NewUvs, options: &WriteOptions) -> Result<Written, DocumentError> {
         self.write_baked(uvs, options, None)
     }
 
-    /// The document with `uvs` as a UV set and with textures made for it; only those of glTF are known.
+    /// Writes the document with `uvs` as a UV set and with textures made for it; only those of glTF are known.
     pub fn write_baked(
         &self,
         uvs: &NewUvs,
@@ -224,7 +226,7 @@ impl Document {
         Ok(written)
     }
 
-    /// Triangles of another format, written as glTF.
+    /// Writes triangles of another format as glTF.
     fn write_converted(
         &self,
         uvs: &NewUvs,

@@ -1,7 +1,7 @@
-//! New glTF files for triangles that came from another format: a node and a mesh for each object, a primitive for each material.
+//! New glTF files for triangles from another format: a node and a mesh for each object, a primitive for each material.
 //!
-//! Only the document without new UVs is made here; they are then written as into any other glTF document, so vertices are
-//! split and the set is chosen in one place.
+//! Only the document without new UVs is created here; they are then written as into any other glTF document, so
+//! vertices are split and the set is chosen in one place.
 use super::colors::{Color, WHITE};
 use super::gltf::GltfDocument;
 use super::material::GltfMaterials;
@@ -10,10 +10,10 @@ use super::{DocumentError, Upload};
 use serde_json::{Value, json};
 use unwrapd_maps::mesh::UsedVertices;
 
-/// The one buffer's name while the document is made.
+/// Name of the only buffer while the document is created.
 const BUFFER: &str = "data.bin";
 
-/// Triangles and what is known of them.
+/// Triangles and their attributes.
 pub(super) struct Shape<'a> {
     pub positions: &'a [[f32; 3]],
     pub triangles: &'a [[u32; 3]],
@@ -25,7 +25,7 @@ pub(super) struct Shape<'a> {
     pub colors: Option<&'a [Color]>,
 }
 
-/// Some triangles of a shape, that are a mesh.
+/// Some triangles of a shape that form a mesh.
 pub(super) struct NewMesh {
     pub name: Option<String>,
     pub primitives: Vec<NewPrimitive>,
@@ -34,9 +34,9 @@ pub(super) struct NewMesh {
 /// Triangles with one material.
 pub(super) struct NewPrimitive {
     pub material: Option<usize>,
-    /// Indices of the triangles, ascending.
+    /// Indices of the triangles, in increasing order.
     pub faces: Vec<u32>,
-    /// Whether the UVs that there are are kept.
+    /// `true` if existing UVs are kept.
     pub with_uvs: bool,
 }
 
@@ -49,7 +49,7 @@ pub(super) struct New {
     pub faces: Vec<u32>,
 }
 
-/// The document of these meshes.
+/// Creates the document of these meshes.
 pub(super) fn document(
     shape: &Shape,
     meshes: &[NewMesh],
@@ -87,13 +87,13 @@ pub(super) fn document(
     })
 }
 
-/// The vertices of some faces, ascending.
+/// Returns the vertices of some faces, in increasing order.
 fn used(shape: &Shape, faces: &[u32]) -> Vec<u32> {
     let corners = faces.iter().flat_map(|&f| shape.triangles[f as usize]);
     UsedVertices::new(corners).into_vec()
 }
 
-/// The vertices of a primitive, with what all its corners have.
+/// Returns the vertices of a primitive, with the attributes that all its corners have.
 fn vertices_of(shape: &Shape, primitive: &NewPrimitive, of_file: &[u32]) -> Vertices {
     let faces = || primitive.faces.iter().map(|&face| face as usize);
     let has_normals = faces().all(|face| shape.normals[face].is_some());
@@ -140,7 +140,7 @@ fn upload(parts: Parts, meshes: &[Value], materials: &GltfMaterials) -> Upload {
     }
 }
 
-/// Accessors, buffer views and the buffer, growing together.
+/// Accessors, buffer views and the buffer, which grow together.
 #[derive(Default)]
 struct Parts {
     bin: Vec<u8>,
@@ -222,7 +222,7 @@ fn little(numbers: impl Iterator<Item = f32>) -> Vec<u8> {
     numbers.flat_map(f32::to_le_bytes).collect()
 }
 
-/// Unit normals, rounded once from f64; `None` where one cannot be made of unit length.
+/// Normalizes normals, rounding once from f64; returns `None` if one has no direction.
 pub(super) fn unit_normals(normals: [[f64; 3]; 3]) -> Option<[[f32; 3]; 3]> {
     let unit = |n: [f64; 3]| {
         let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();

@@ -1,4 +1,4 @@
-//! A new OBJ file for triangles that came from another format.
+//! New OBJ files for triangles from another format.
 use super::colors::{Color, to_srgb};
 use super::obj_text::push_face;
 use super::texcoord_lines::{TexcoordLines, decimal};
@@ -11,10 +11,10 @@ use std::collections::HashMap;
 use std::io::Write as _;
 use unwrapd_maps::mesh::VAxis;
 
-/// A primitive with all that an OBJ file says of it.
+/// A primitive with all its data in an OBJ file.
 pub(super) struct ObjPart<'a> {
     pub primitive: &'a Primitive,
-    /// The name of its object.
+    /// Name of its object.
     pub object: &'a str,
     pub material: Option<&'a str>,
     /// UVs per face, v up.
@@ -51,7 +51,7 @@ pub(super) fn write(
     })
 }
 
-/// The text of an OBJ file: each primitive with vertices of its own, those of one object after the other.
+/// Returns the text of an OBJ file: each primitive with vertices of its own, those of one object after the other.
 pub(super) fn text(parts: &[ObjPart], material_file: Option<&str>) -> Vec<u8> {
     let mut vertices = Vec::new();
     if let Some(name) = material_file {
@@ -89,7 +89,7 @@ fn push_vertices(text: &mut Vec<u8>, part: &ObjPart) {
     }
 }
 
-/// Lines that corners name by their numbers.
+/// Lines to which corners refer by number.
 #[derive(Default)]
 struct Lines {
     texcoords: TexcoordLines,
@@ -98,7 +98,7 @@ struct Lines {
 }
 
 impl Lines {
-    /// The number, from 0, of the line for a normal.
+    /// Returns the number, from 0, of the line for a normal.
     fn normal(&mut self, normal: [f32; 3]) -> u32 {
         let next = self.numbers_of_normals.len() as u32;
         let key = normal.map(f32::to_bits);
@@ -129,7 +129,7 @@ fn push_faces(text: &mut Vec<u8>, part: &ObjPart, first_vertex: u32, lines: &mut
     }
 }
 
-/// OBJ has one UV set.
+/// Refuses UV sets other than 0: OBJ has only one.
 pub(super) fn only_set(options: &WriteOptions) -> Result<(), DocumentError> {
     match options.texcoord {
         None | Some(0) => Ok(()),
@@ -139,7 +139,7 @@ pub(super) fn only_set(options: &WriteOptions) -> Result<(), DocumentError> {
     }
 }
 
-/// What happens to a primitive in an OBJ file: corners have UVs of their own, so no vertex is split.
+/// Returns the note on a primitive in an OBJ file: corners have UVs of their own, so no vertex is split.
 pub(super) fn note(primitive: &Primitive, replaced: bool) -> PrimitiveNote {
     PrimitiveNote {
         mesh: primitive.mesh,

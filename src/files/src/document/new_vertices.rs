@@ -1,19 +1,19 @@
-//! Vertices with all attributes, of corners that have some each.
+//! Vertices with attributes, made from corners that have attributes each.
 use std::collections::HashMap;
 
-/// What a corner of a triangle has.
+/// Attributes of a corner of a triangle.
 #[derive(Clone, Copy)]
 pub(super) struct Corner {
-    /// The vertex of the file.
+    /// Vertex of the file.
     pub vertex: u32,
     pub normal: Option<[f32; 3]>,
     pub uv: Option<[f32; 2]>,
 }
 
-/// What corners must share to be one vertex.
+/// Attributes in which corners must agree to be one vertex.
 type Key = (Option<[u32; 3]>, Option<[u32; 2]>);
 
-/// The vertices and triangles of a primitive.
+/// Vertices and triangles of a primitive.
 pub(super) struct Vertices {
     /// For each vertex that of the file.
     pub origins: Vec<u32>,
@@ -23,8 +23,8 @@ pub(super) struct Vertices {
 }
 
 impl Vertices {
-    /// The vertices `of_file`, ascending, split where corners of one differ. The first corner met stays with the vertex, copies for
-    /// the others follow behind.
+    /// Splits the vertices `of_file`, increasing, whose corners differ. The first corner found stays with the vertex,
+    /// copies for the others follow after all vertices.
     pub fn new(
         of_file: &[u32],
         corners: impl Iterator<Item = [Corner; 3]>,

@@ -1,9 +1,9 @@
 //! Wavefront OBJ: polygons, vertex order, groups, materials and comments are kept.
 //!
-//! The text is the document. It is read once into triangles, and written by going through its statements again: texture
-//! coordinates are replaced, corners of polygons are given the new ones, everything else stands as it stood. OBJ has one
-//! UV set, so an old one is always replaced. A polygon whose triangles lie apart in UV space is split along
-//! diagonals between them, as a corner of a polygon has one UV.
+//! The text is the document. It is read once into triangles, and written by traversing its statements again: texture
+//! coordinates are replaced, corners of polygons get the new ones, everything else is unchanged. OBJ has one UV set, so
+//! an old one is always replaced. A polygon whose triangles lie apart in UV space is split along diagonals between
+//! them, as a corner of a polygon has one UV.
 use super::obj_materials::ObjMaterials;
 use super::obj_text::rewrite;
 use super::warning::unused_not_finite;
@@ -16,7 +16,7 @@ use crate::io;
 use std::collections::BTreeMap;
 use unwrapd_maps::mesh::{CornerUvs, VAxis};
 
-/// A file as it was read.
+/// Content of a file.
 #[derive(Clone)]
 pub struct ObjDocument {
     bytes: Vec<u8>,
@@ -47,29 +47,29 @@ impl ObjDocument {
         })
     }
 
-    /// The document with its triangles where a map carries them.
+    /// Moves the triangles of the document by a map.
     pub fn moved(self, map: &dyn SpaceMap) -> Result<Self, DocumentError> {
         let positions = &self.primitives[0].positions;
         let bytes = obj_moved::moved(&self.bytes, &self.obj, positions, map);
         Self::parse(bytes, self.resources)
     }
 
-    /// What the document has in the place of a mark.
+    /// Returns the value in the place of a mark.
     pub(super) fn mark(&self) -> Option<serde_json::Value> {
         obj_mark::find(&self.bytes)
     }
 
-    /// What reading noticed.
+    /// Returns the warnings of reading.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 
-    /// The triangles: all polygons of the file as one primitive.
+    /// Returns the triangles: all polygons of the file as one primitive.
     pub fn primitives(&self) -> &[Primitive] {
         &self.primitives
     }
 
-    /// The texture coordinates, which are set 0; `None` where a corner has none.
+    /// Returns the texture coordinates, which are set 0; `None` if a corner has none.
     pub fn corner_uvs(
         &self,
         primitive: usize,
@@ -81,12 +81,12 @@ impl ObjDocument {
         Ok(self.face_uvs().collect())
     }
 
-    /// The normals per face corner; `None` where a corner has none.
+    /// Returns the normals per face corner; `None` if a corner has none.
     pub fn corner_normals(&self) -> Option<Vec<[[f64; 3]; 3]>> {
         self.face_normals().collect()
     }
 
-    /// The document with `uvs`.
+    /// Writes the document with `uvs`.
     pub fn write(&self, uvs: &NewUvs, options: &WriteOptions) -> Result<Written, DocumentError> {
         new_obj::only_set(options)?;
         let materials = self.materials();
@@ -125,8 +125,8 @@ impl ObjDocument {
         Ok(Written { files, notes })
     }
 
-    /// A value for each corner of each triangle, in the order of the triangles; `None` for a triangle of which a corner
-    /// has none.
+    /// Iterates over the values at the corners of each triangle, in order; `None` for a triangle with a corner without
+    /// a value.
     fn per_face<T>(
         &self,
         value: impl Fn(&io::obj::Corner) -> Option<T>,
@@ -136,32 +136,32 @@ impl ObjDocument {
         triangles.map(move |&[a, b, c]| Some([of(a)?, of(b)?, of(c)?]))
     }
 
-    /// The texture coordinates of each triangle that has them.
+    /// Iterates over the texture coordinates of each triangle, if it has them.
     pub(super) fn face_uvs(&self) -> impl Iterator<Item = Option<CornerUvs>> {
         self.per_face(|corner| Some(self.obj.texcoords[corner.texcoord? as usize]))
     }
 
-    /// The normals of each triangle that has them.
+    /// Iterates over the normals of each triangle, if it has them.
     pub(super) fn face_normals(&self) -> impl Iterator<Item = Option<[[f64; 3]; 3]>> {
         self.per_face(|corner| Some(self.obj.normals[corner.normal? as usize].map(f64::from)))
     }
 
-    /// The corners of each polygon; one of n has n − 2 triangles.
+    /// Iterates over the number of corners of each polygon; one of n corners has n − 2 triangles.
     pub(super) fn polygon_sizes(&self) -> impl Iterator<Item = usize> {
         self.obj.polygons().map(<[_]>::len)
     }
 
-    /// The text.
+    /// Returns the text.
     pub(super) fn bytes(&self) -> &[u8] {
         &self.bytes
     }
 
-    /// The files that it may refer to.
+    /// Returns the files to which it may refer.
     pub(super) fn resources(&self) -> &BTreeMap<String, Vec<u8>> {
         &self.resources
     }
 
-    /// The materials that the text names.
+    /// Returns the materials of the text.
     pub(super) fn materials(&self) -> ObjMaterials {
         ObjMaterials::of(&self.bytes, &self.resources)
     }

@@ -1,4 +1,4 @@
-//! OBJ as glTF: each object a mesh, each of its materials a primitive.
+//! Conversion of OBJ to glTF: each object a mesh, each of its materials a primitive.
 use super::conversion::{Conversion, OldUvs, colored};
 use super::material::{Dropped, GltfMaterials, Material, MaterialFiles};
 use super::new_gltf::{self, NewMesh, NewPrimitive, Shape, unit_normals};
@@ -8,14 +8,15 @@ use super::{DocumentError, Warning, warning};
 use std::collections::{BTreeSet, HashMap};
 
 impl ObjDocument {
-    /// The same triangles as glTF, with objects, materials, pictures and colors.
+    /// Converts the triangles to glTF, with objects, materials, pictures and colors.
     pub(super) fn to_gltf(&self, old_uvs: OldUvs) -> Result<Conversion, DocumentError> {
         convert(self, old_uvs)
     }
 }
 
-/// The document as glTF.
+/// Converts the document to glTF.
 fn convert(document: &ObjDocument, old_uvs: OldUvs) -> Result<Conversion, DocumentError> {
+    // Objects and materials.
     let parts = ObjParts::of(document.bytes());
     let parts_of_faces = parts_of_faces(document, &parts);
     let described = document.materials();
@@ -31,6 +32,7 @@ fn convert(document: &ObjDocument, old_uvs: OldUvs) -> Result<Conversion, Docume
     let mut meshes = meshes(&parts, &parts_of_faces, |material| {
         materials.index(&parts, material, files)
     });
+    // Old UVs are kept only if wanted or if a texture of the mesh samples them.
     for mesh in &mut meshes {
         let is_textured = |p: &NewPrimitive| p.material.is_some_and(|m| materials.is_textured[m]);
         let with_uvs = old_uvs == OldUvs::Kept || mesh.primitives.iter().any(is_textured);
@@ -59,7 +61,7 @@ fn convert(document: &ObjDocument, old_uvs: OldUvs) -> Result<Conversion, Docume
     Ok(Conversion::new(new, warnings))
 }
 
-/// The object and the material of each triangle.
+/// Returns the object and the material of each triangle.
 fn parts_of_faces(document: &ObjDocument, parts: &ObjParts) -> Vec<Part> {
     let sizes = document.polygon_sizes();
     let polygons = parts.of_polygons.iter().zip(sizes);
@@ -68,7 +70,7 @@ fn parts_of_faces(document: &ObjDocument, parts: &ObjParts) -> Vec<Part> {
         .collect()
 }
 
-/// Objects and their materials in the order of their first triangles.
+/// Returns objects and their materials in the order of their first triangles.
 fn meshes(
     parts: &ObjParts,
     parts_of_faces: &[Part],
@@ -101,7 +103,7 @@ fn meshes(
     meshes
 }
 
-/// v points down in glTF; what is not a number is none.
+/// Turns v down for glTF; returns `None` if a number is not finite.
 fn downward(uvs: [[f64; 2]; 3]) -> Option<[[f32; 2]; 3]> {
     let uvs = uvs.map(|[u, v]| [u as f32 + 0.0, (1.0 - v) as f32 + 0.0]);
     uvs.as_flattened()
@@ -110,7 +112,7 @@ fn downward(uvs: [[f64; 2]; 3]) -> Option<[[f32; 2]; 3]> {
         .then_some(uvs)
 }
 
-/// The materials in use.
+/// Materials in use.
 struct Materials<'a> {
     found: GltfMaterials<'a>,
     indices: HashMap<Option<u32>, usize>,
@@ -121,7 +123,7 @@ struct Materials<'a> {
 }
 
 impl Materials<'_> {
-    /// The index of a material, which is made where it is met first.
+    /// Returns the index of a material, which is created at its first occurrence.
     fn index(
         &mut self,
         parts: &ObjParts,

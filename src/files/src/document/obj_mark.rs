@@ -3,17 +3,17 @@ use super::mark::Mark;
 use super::{DocumentError, Terms, Written};
 use serde_json::Value;
 
-/// What the line begins with.
+/// Beginning of the line.
 const BEGIN: &[u8] = b"# unwrapd {";
 
-/// What the text has in the place of a mark.
+/// Returns the value in the place of a mark.
 pub(super) fn find(text: &[u8]) -> Option<Value> {
     let line = &text[..length(text)];
     serde_json::from_slice(line.get(BEGIN.len() - 1..)?).ok()
 }
 
-/// Lets the main file say what its UVs were made for, if that is known, and no longer what an older line says. The UVs are those
-/// that are read of it: its polygons tell the triangles.
+/// Replaces the mark of the main file by one with the purpose of its UVs, if that is known. The marked UVs are those
+/// that are read from the file, because its polygons determine the triangles.
 pub(super) fn renew(written: &mut Written, terms: Option<&Terms>) -> Result<(), DocumentError> {
     let again = written.read_again()?;
     let Some((_, text)) = written.files.first_mut() else {
@@ -28,7 +28,7 @@ pub(super) fn renew(written: &mut Written, terms: Option<&Terms>) -> Result<(), 
     Ok(())
 }
 
-/// The bytes of the line with the mark; 0 where there is none.
+/// Returns the length in bytes of the line with the mark; 0 if there is none.
 fn length(text: &[u8]) -> usize {
     if !text.starts_with(BEGIN) {
         return 0;

@@ -1,25 +1,25 @@
-//! The material files that an OBJ text names, and the pictures that these name.
+//! Material files of an OBJ text, and their pictures.
 use super::material::{MaterialFiles, Pictures};
 use super::obj_parts::name_of;
 use super::{Warning, warning};
 use crate::io::obj::{Statement, statements};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What an OBJ text refers to.
+/// References of an OBJ text.
 #[derive(Default)]
 pub(super) struct ObjMaterials {
-    /// The materials that are described.
+    /// Materials that are described.
     pub files: MaterialFiles,
     /// Names of the material files that were supplied.
     supplied: BTreeSet<String>,
-    /// And of those that were not.
+    /// Names of the material files that were not supplied.
     missing: BTreeSet<String>,
     /// Names of the materials in use.
     used: BTreeSet<String>,
 }
 
 impl ObjMaterials {
-    /// Of a text, with the files that were supplied beside it.
+    /// Collects the materials of a text, with the supplied files.
     pub fn of(text: &[u8], resources: &BTreeMap<String, Vec<u8>>) -> Self {
         let mut materials = Self::default();
         for statement in named(text) {
@@ -36,7 +36,7 @@ impl ObjMaterials {
         materials
     }
 
-    /// Adds a file whose name has blanks, or several files.
+    /// Adds one file whose name has blanks, or several files.
     fn add(&mut self, line: &str, words: Vec<String>, resources: &BTreeMap<String, Vec<u8>>) {
         let find = |path: &str| {
             let found = Pictures::candidates("", path).find(|name| resources.contains_key(name));
@@ -58,7 +58,7 @@ impl ObjMaterials {
         }
     }
 
-    /// The supplied files with the pictures that they name.
+    /// Returns the supplied files with their pictures.
     pub fn beside(&self, resources: &BTreeMap<String, Vec<u8>>) -> Vec<(String, Vec<u8>)> {
         let mut names: Vec<&str> = self.supplied.iter().map(String::as_str).collect();
         let mut pictures = Pictures::among(resources);
@@ -71,7 +71,7 @@ impl ObjMaterials {
         names.into_iter().map(file).collect()
     }
 
-    /// What is to be said where a material file is missing.
+    /// Returns a warning if a material file is missing.
     pub fn warnings(&self) -> Vec<Warning> {
         if self.missing.is_empty() {
             return Vec::new();
@@ -82,7 +82,7 @@ impl ObjMaterials {
         vec![Warning::new("material_files_missing", message)]
     }
 
-    /// The warning that textures no longer fit, where their UVs are replaced.
+    /// Returns a warning that textures no longer fit because their UVs are replaced.
     pub fn warnings_of_new_uvs(&self) -> Option<Warning> {
         let is_textured = |name: &&str| self.files.maps_of(name).next().is_some();
         let textured: Vec<&str> = (self.used.iter().map(String::as_str))
@@ -102,7 +102,7 @@ impl ObjMaterials {
     }
 }
 
-/// The statements that name materials and their files; others are not taken apart.
+/// Iterates over the statements about materials and their files; others are not parsed.
 fn named(text: &[u8]) -> impl Iterator<Item = Statement<'_>> {
     let lines = text.split(|byte| matches!(byte, b'\n' | b'\r'));
     let is_named = |line: &&[u8]| {
@@ -112,7 +112,7 @@ fn named(text: &[u8]) -> impl Iterator<Item = Statement<'_>> {
     lines.filter(is_named).flat_map(statements)
 }
 
-/// Paths of the material files that a text may mean, relative to it.
+/// Returns the possible paths of the material files of a text, relative to it.
 pub(super) fn material_paths(text: &[u8]) -> BTreeSet<String> {
     let libraries = named(text).filter(|statement| statement.keyword == b"mtllib");
     let names = libraries.flat_map(|statement| {
@@ -125,7 +125,7 @@ pub(super) fn material_paths(text: &[u8]) -> BTreeSet<String> {
         .collect()
 }
 
-/// Paths of the pictures that the material file at `path` may mean, relative to the main file.
+/// Returns the possible paths of the pictures of the material file at `path`, relative to the main file.
 pub(super) fn picture_paths(path: &str, bytes: &[u8]) -> BTreeSet<String> {
     let mut files = MaterialFiles::default();
     files.add(path, bytes);

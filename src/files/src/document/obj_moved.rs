@@ -6,10 +6,10 @@ use crate::io::obj::{Corner, Obj, statements};
 use std::collections::HashMap;
 use std::io::Write as _;
 
-/// Goes through the statements of `bytes`, which `obj` and `positions` were read from.
+/// Rewrites the statements of `bytes`, from which `obj` and `positions` were read.
 ///
-/// What a vertex line says beside the position stays. Vertices may share a normal that the map moves apart: every pair of
-/// vertex and normal gets one of its own. These lines stand before the first face.
+/// The rest of a vertex line after the position is kept. Vertices may share a normal that the map moves apart: every
+/// pair of vertex and normal gets one of its own. These lines come before the first face.
 pub(super) fn moved(
     bytes: &[u8],
     obj: &Obj,
@@ -68,7 +68,7 @@ impl Normals {
         normals
     }
 
-    /// The `vn` lines.
+    /// Returns the `vn` lines.
     fn lines(
         &self,
         obj: &Obj,

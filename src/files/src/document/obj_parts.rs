@@ -1,10 +1,10 @@
-//! What an OBJ text says of its polygons and vertices beside their shape: objects, groups, materials, colors.
+//! Data of polygons and vertices of an OBJ text besides their shape: objects, groups, materials, colors.
 use super::Warning;
 use super::colors::{Color, WHITE, from_srgb};
 use crate::io::obj::{Statement, statements};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-/// Meshes and primitives that a file is divided into at most: each is an object in JSON and a draw call.
+/// Most meshes and primitives into which a file is divided: each is an object in JSON and a draw call.
 const MOST_PARTS: usize = 8192;
 
 /// Names and colors of an OBJ file.
@@ -18,11 +18,11 @@ pub(super) struct ObjParts {
     pub of_polygons: Vec<Part>,
     /// For each vertex its color, if any has one.
     pub colors: Option<Vec<Color>>,
-    /// Groups that say more than the objects do.
+    /// Number of groups that divide objects further.
     n_lost_groups: usize,
-    /// Points, lines and curves.
+    /// Number of points, lines and curves.
     n_lost_elements: usize,
-    /// Parts that are too many to be told apart.
+    /// Number of parts, if they are too many to be kept apart.
     n_joined_parts: usize,
 }
 
@@ -34,13 +34,14 @@ pub(super) struct Part {
 }
 
 impl ObjParts {
-    /// Goes through the statements of a text.
+    /// Reads the statements of a text.
     pub fn of(bytes: &[u8]) -> Self {
         let (mut objects, mut groups, mut materials) =
             (Names::default(), Names::default(), Names::default());
         let mut polygons = Vec::new();
         let mut colors = Vec::new();
         let (mut is_colored, mut n_lost_elements) = (false, 0);
+        // Read names and colors in effect at each polygon and vertex.
         for statement in statements(bytes) {
             match statement.keyword {
                 b"o" => objects.begin(&statement),
@@ -58,6 +59,7 @@ impl ObjParts {
                 _ => {}
             }
         }
+        // Objects divide the file into parts; without objects, groups do.
         let has_objects = !objects.all.is_empty();
         let part = |&[object, group, material]: &[Option<u32>; 3]| Part {
             object: if has_objects { object } else { group },
@@ -80,7 +82,7 @@ impl ObjParts {
         }
     }
 
-    /// What of it a glTF file does not say.
+    /// Returns warnings about content that a glTF file cannot hold.
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = Vec::new();
         if self.n_joined_parts > 0 {
@@ -104,7 +106,7 @@ impl ObjParts {
     }
 }
 
-/// The names after a statement, without their places.
+/// Returns the names after a statement, joined by single blanks.
 pub(super) fn name_of(statement: &Statement) -> String {
     let words: Vec<_> = statement
         .words
@@ -114,7 +116,7 @@ pub(super) fn name_of(statement: &Statement) -> String {
     words.join(" ")
 }
 
-/// Names in the order of their first use, and the one in effect.
+/// Names in the order of their first use, and the current one.
 #[derive(Default)]
 struct Names {
     all: Vec<String>,
@@ -134,7 +136,7 @@ impl Names {
     }
 }
 
-/// Forgets objects, and then materials, where there are too many parts. Returns how many there were then.
+/// Drops objects, and then materials, if there are too many parts. Returns the number of parts in that case, else 0.
 fn join(parts: &mut [Part]) -> usize {
     let n = |parts: &[Part]| parts.iter().collect::<HashSet<_>>().len();
     let n_parts = n(parts);
@@ -150,7 +152,7 @@ fn join(parts: &mut [Part]) -> usize {
     n_parts
 }
 
-/// Groups of objects that have more than one.
+/// Counts the groups of objects that have more than one.
 fn lost_groups(polygons: &[[Option<u32>; 3]]) -> usize {
     let pairs: BTreeSet<_> = polygons.iter().map(|[o, g, _]| (*o, *g)).collect();
     let pairs: Vec<_> = pairs.into_iter().collect();
@@ -158,7 +160,7 @@ fn lost_groups(polygons: &[[Option<u32>; 3]]) -> usize {
     mixed.flatten().filter(|(_, group)| group.is_some()).count()
 }
 
-/// `v x y z r g b`.
+/// Parses the color of `v x y z r g b`.
 fn color(statement: &Statement) -> Option<Color> {
     let [_, _, _, r, g, b] = statement.words[..] else {
         return None;

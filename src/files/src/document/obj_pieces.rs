@@ -1,4 +1,4 @@
-//! Polygons whose corners have several texture coordinates.
+//! Splitting of polygons whose corners have several texture coordinates.
 use crate::polygon::{smallest_first, triangulate};
 use std::collections::HashMap;
 use unwrapd_maps::mesh::UnionFind;
@@ -6,9 +6,9 @@ use unwrapd_maps::mesh::UnionFind;
 /// A polygon with the numbers of texture coordinates per triangle.
 pub(super) struct NumberedPolygon<'a> {
     pub n_corners: usize,
-    /// The triangles inside it, as indices of its corners.
+    /// Triangles inside it, as indices of its corners.
     pub triangles: Vec<[u32; 3]>,
-    /// Their texture coordinates.
+    /// Numbers of their texture coordinates.
     pub numbers: &'a [[u32; 3]],
 }
 
@@ -16,8 +16,9 @@ pub(super) struct NumberedPolygon<'a> {
 type Piece = Vec<(u32, u32)>;
 
 impl NumberedPolygon<'_> {
-    /// The polygon whole where each corner has one number, else in as few pieces as its triangles allow. A reader that fills a
-    /// piece finds the polygon's own triangles again: what would be filled by others is given as triangles.
+    /// Returns the whole polygon if each corner has one number, else as few pieces as its triangles allow. A reader
+    /// that triangulates a piece gets the polygon's own triangles again: pieces for which it would not are given as
+    /// triangles.
     pub fn pieces(&self, position: impl Fn(u32) -> [f64; 3]) -> Vec<Piece> {
         if let Some(whole) = self.whole() {
             return vec![whole];
@@ -45,7 +46,8 @@ impl NumberedPolygon<'_> {
             .collect()
     }
 
-    /// The triangles that hang together across diagonals with the same numbers on both sides, ascending.
+    /// Returns the sets of triangles that are connected across diagonals with the same numbers on both sides, in
+    /// increasing order.
     fn connected(&self) -> Vec<Vec<usize>> {
         let mut sets = UnionFind::new(self.triangles.len());
         let mut sides = HashMap::new();
@@ -72,8 +74,8 @@ impl NumberedPolygon<'_> {
         corners.map(|(&corner, &number)| (corner, number)).collect()
     }
 
-    /// The corners of connected triangles, where these are what fills them. Among connected triangles a corner has one number:
-    /// those around it are neighbors one after the other.
+    /// Returns the corners of connected triangles, if triangulating them gives these triangles. Among connected
+    /// triangles a corner has one number, because the triangles around it are neighbors one after the other.
     fn outline(&self, members: &[usize], position: impl Fn(u32) -> [f64; 3]) -> Option<Piece> {
         let mut piece: Piece = members.iter().flat_map(|&t| self.triangle(t)).collect();
         piece.sort_unstable();
@@ -101,7 +103,7 @@ impl NumberedPolygon<'_> {
     }
 }
 
-/// The corners of a triangle with their numbers.
+/// Iterates over the corners of a triangle with their numbers.
 fn zipped<'a>(
     (corners, numbers): (&'a [u32; 3], &'a [u32; 3]),
 ) -> impl Iterator<Item = (&'a u32, &'a u32)> {

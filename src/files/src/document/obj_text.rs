@@ -5,16 +5,16 @@ use super::uvs::Corners;
 use crate::io::obj::{Corner, Obj, Statement, statements};
 use std::io::Write as _;
 
-/// The text, and how many polygons had to be split.
+/// The text, and the number of polygons that had to be split.
 pub(super) struct Rewritten {
     pub text: Vec<u8>,
     pub split_polygons: usize,
 }
 
-/// Goes through the statements of `bytes`, which `obj` and `positions` were read from.
+/// Rewrites the statements of `bytes`, from which `obj` and `positions` were read.
 ///
-/// The new `vt` lines stand before the first face. Positions keep their text where it says what was read, f32 by f32;
-/// otherwise ([`decimal`]) the text is that of the f32, so that vertices that are one here are one for every reader.
+/// The new `vt` lines come before the first face. Positions keep their text if it is exactly the f32 that was read;
+/// otherwise the text is that of the f32 ([`decimal`]), so that vertices that are one here are one for every reader.
 pub(super) fn rewrite(
     bytes: &[u8],
     obj: &Obj,
@@ -45,7 +45,7 @@ pub(super) fn rewrite(
     }
 }
 
-/// How the lines of a text end.
+/// Returns the line ending of a text.
 pub(super) fn line_end(bytes: &[u8]) -> &'static str {
     let end = bytes.iter().position(|&b| b == b'\n' || b == b'\r');
     match end.map(|e| &bytes[e..]) {
@@ -54,13 +54,13 @@ pub(super) fn line_end(bytes: &[u8]) -> &'static str {
     }
 }
 
-/// The comment of a statement that is written anew.
+/// Returns the comment of a statement that is rewritten.
 fn comment<'a>(statement: &Statement<'a>) -> Option<&'a [u8]> {
     let start = statement.raw.iter().position(|&b| b == b'#')?;
     Some(statement.raw[start..].trim_ascii_end())
 }
 
-/// Puts the comment on a line of its own, as not every reader takes one after the corners of a face.
+/// Puts the comment on a line of its own, as not every reader accepts one after the corners of a face.
 pub(super) fn push_comment(text: &mut Vec<u8>, statement: &Statement, line_end: &str) {
     if let Some(comment) = comment(statement) {
         text.extend_from_slice(comment);
@@ -68,7 +68,7 @@ pub(super) fn push_comment(text: &mut Vec<u8>, statement: &Statement, line_end: 
     }
 }
 
-/// Writes a statement with other words, its comment behind them.
+/// Writes a statement with other words, followed by its comment.
 pub(super) fn push_statement(
     text: &mut Vec<u8>,
     statement: &Statement,
@@ -104,7 +104,7 @@ fn push_vertex(text: &mut Vec<u8>, statement: &Statement, line_end: &str) {
     }
 }
 
-/// The text of the f32 nearest to a number, where the number is another.
+/// Returns the text of the f32 nearest to a number, if the number differs from it.
 fn corrected(word: &[u8]) -> Option<String> {
     let number: f64 = std::str::from_utf8(word).ok()?.parse().ok()?;
     let decimal = decimal(number as f32 + 0.0);
@@ -112,7 +112,7 @@ fn corrected(word: &[u8]) -> Option<String> {
     (written.to_bits() != number.to_bits()).then_some(decimal)
 }
 
-/// Lines and surfaces may name texture coordinates too, and these are gone.
+/// Writes lines and surfaces without their texture coordinates, which no longer exist.
 fn push_without_texcoords(text: &mut Vec<u8>, statement: &Statement, line_end: &str) {
     if !statement.words.iter().any(|word| word.contains(&b'/')) {
         text.extend_from_slice(statement.raw);
@@ -130,11 +130,11 @@ fn push_without_texcoords(text: &mut Vec<u8>, statement: &Statement, line_end: &
     push_statement(text, statement, &words, line_end);
 }
 
-/// The polygons with the numbers of their new texture coordinates.
+/// Polygons with the numbers of their new texture coordinates.
 struct Faces<'a> {
     obj: &'a Obj,
     positions: &'a [[f32; 3]],
-    /// Per triangle.
+    /// Numbers per triangle.
     numbers: Vec<[u32; 3]>,
     line_end: &'static str,
     n_polygons: usize,
@@ -167,7 +167,7 @@ impl<'a> Faces<'a> {
         }
     }
 
-    /// Writes the next polygon: whole where the UVs of its triangles agree, else in pieces.
+    /// Writes the next polygon: whole if the UVs of its triangles agree, else in pieces.
     fn push_next(&mut self, text: &mut Vec<u8>) {
         let Some(&end) = self.obj.polygon_ends.get(self.n_polygons) else {
             return;

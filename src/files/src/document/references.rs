@@ -1,12 +1,12 @@
-//! The files that an upload refers to.
+//! Files to which an upload refers.
 
 use std::collections::BTreeSet;
 
 use super::{Upload, gltf, obj_materials};
 use crate::io::{Content, Format, detect};
 
-/// Adds the files that an upload refers to, and those that these refer to, as far as `read` finds them. Whether a missing one is
-/// needed the document knows.
+/// Adds the files to which an upload refers, and those to which these refer, as far as `read` finds them. Whether a
+/// missing one is needed is decided when the document is read.
 pub fn with_references(mut upload: Upload, read: impl Fn(&str) -> Option<Vec<u8>>) -> Upload {
     let mut tried = BTreeSet::new();
     while let new = (references(&upload))
@@ -25,8 +25,8 @@ pub fn with_references(mut upload: Upload, read: impl Fn(&str) -> Option<Vec<u8>
     upload
 }
 
-/// Returns the paths that the main file, and the material files among the others, may refer to: those of buffers, images, material
-/// files and their pictures. None is absolute or climbs out of the folder.
+/// Returns the paths to which the main file, and the material files among the others, may refer: those of buffers,
+/// images, material files and their pictures. None is absolute or leaves the folder.
 pub fn references(upload: &Upload) -> BTreeSet<String> {
     match format_of(upload) {
         Some(Format::Glb | Format::Gltf) => gltf::references(&upload.bytes).into_iter().collect(),

@@ -6,11 +6,11 @@ use super::{DocumentError, Primitive, SpaceMap, Subdivision, Upload, Warning, fa
 use crate::io::{self, Format};
 use unwrapd_maps::mesh::CornerUvs;
 
-/// A file as it was read.
+/// Content of a file.
 #[derive(Clone)]
 pub struct SoupDocument {
     primitives: Vec<Primitive>,
-    /// For each vertex, where the file has any.
+    /// Colors of the vertices, if the file has any.
     colors: Option<Vec<Color>>,
     warnings: Vec<Warning>,
 }
@@ -39,17 +39,17 @@ impl SoupDocument {
         Ok(document)
     }
 
-    /// What reading noticed.
+    /// Returns the warnings of reading.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 
-    /// The triangles and colors as glTF.
+    /// Converts the triangles and colors to glTF.
     pub(super) fn to_gltf(&self) -> Result<Conversion, DocumentError> {
         of_triangles(&self.primitives[0], self.colors.as_deref(), &self.warnings)
     }
 
-    /// The colors of the vertices.
+    /// Returns the colors of the vertices.
     pub(super) fn colors(&self) -> Option<&[Color]> {
         self.colors.as_deref()
     }
@@ -66,12 +66,12 @@ impl SoupDocument {
         self.colors = (colors.len() == self.primitives[0].positions.len()).then_some(colors);
     }
 
-    /// The triangles: all polygons of the file as one primitive.
+    /// Returns the triangles: all polygons of the file as one primitive.
     pub fn primitives(&self) -> &[Primitive] {
         &self.primitives
     }
 
-    /// The triangles cut into pieces.
+    /// Cuts the triangles into pieces.
     #[must_use]
     pub fn subdivided(mut self, cuts: &[Subdivision]) -> Self {
         for (primitive, cut) in self.primitives.iter_mut().zip(cuts) {
@@ -83,7 +83,7 @@ impl SoupDocument {
         self
     }
 
-    /// The triangles where a map carries them.
+    /// Moves the triangles by a map.
     pub fn moved(mut self, map: &dyn SpaceMap) -> Result<Self, DocumentError> {
         let positions = &mut self.primitives[0].positions;
         *positions = map.positions(positions);
@@ -94,7 +94,7 @@ impl SoupDocument {
         }
     }
 
-    /// These formats have no UVs that are read here.
+    /// Returns `None`: UVs of these formats are not read.
     pub fn corner_uvs(
         &self,
         _primitive: usize,

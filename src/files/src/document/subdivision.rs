@@ -3,9 +3,9 @@ use super::{DocumentError, Primitive};
 /// Triangles of a primitive cut into pieces.
 #[derive(Debug, Clone, Default)]
 pub struct Subdivision {
-    /// Vertices that are added behind the primitive's own.
+    /// Vertices added after the primitive's own.
     pub added: Vec<AddedVertex>,
-    /// All triangles now, over own and added vertices.
+    /// All resulting triangles, over own and added vertices.
     pub triangles: Vec<[u32; 3]>,
 }
 
@@ -14,14 +14,14 @@ pub struct Subdivision {
 pub struct AddedVertex {
     /// Its position.
     pub position: [f32; 3],
-    /// The vertices of the triangle.
+    /// Vertices of the triangle.
     pub corners: [u32; 3],
-    /// Its barycentric weights there, by which everything but the position is interpolated.
+    /// Barycentric weights in the triangle, by which everything except the position is interpolated.
     pub weights: [f64; 3],
 }
 
 impl Subdivision {
-    /// A primitive that is nothing but positions and triangles, cut.
+    /// Cuts a primitive that has only positions and triangles.
     pub(super) fn apply(&self, primitive: &mut Primitive) {
         let added = self.added.iter().map(|vertex| vertex.position);
         primitive.positions.extend(added);
@@ -42,7 +42,7 @@ impl Subdivision {
         }
     }
 
-    /// Refuses what does not belong to the primitives.
+    /// Refuses subdivisions that do not fit the primitives.
     pub(super) fn check(all: &[Self], primitives: &[Primitive]) -> Result<(), DocumentError> {
         let fits = |(cut, primitive): (&Self, &Primitive)| {
             let own = primitive.positions.len();

@@ -6,13 +6,13 @@ use std::io::Write as _;
 #[derive(Default)]
 pub(super) struct TexcoordLines {
     numbers: HashMap<(u32, [u32; 2]), u32>,
-    /// The lines so far.
+    /// Text of the lines so far.
     pub text: Vec<u8>,
 }
 
 impl TexcoordLines {
-    /// The number, from 1, of the line for a corner. The decimals written are the shortest that give the UV again, exactly,
-    /// whether they are read as f32 or f64.
+    /// Returns the number, from 1, of the line for a corner. Writes the shortest decimals that give the UV again,
+    /// exactly, whether they are read as f32 or f64.
     pub fn number(&mut self, vertex: u32, uv: [f32; 2], line_end: &str) -> u32 {
         let next = self.numbers.len() as u32 + 1;
         let key = (vertex, uv.map(f32::to_bits));
@@ -26,7 +26,7 @@ impl TexcoordLines {
     }
 }
 
-/// The decimal that stands for a coordinate in a text file: read as f32 it is `x`, and equal coordinates have equal texts.
+/// Returns the decimal for a coordinate in a text file: read as f32 it is `x`, and equal coordinates have equal texts.
 pub(super) fn decimal(x: f32) -> String {
     x.to_string()
 }

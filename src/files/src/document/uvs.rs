@@ -3,33 +3,34 @@ use crate::io::Format;
 use serde::{Deserialize, Serialize};
 use unwrapd_maps::mesh::VAxis;
 
-/// The UVs of each face's three corners.
+/// UVs of each face's three corners.
 pub type Corners = [[f32; 2]; 3];
 
 /// A UV set to write.
 #[derive(Debug, Clone)]
 pub struct NewUvs {
-    /// What it has to do with the set that it replaces.
+    /// Relation to the set that it replaces.
     pub layout: Layout,
-    /// Unit squares side by side along u that a new layout may cover.
+    /// Number of unit squares side by side along u that a new layout may cover.
     pub pages: u32,
-    /// Where v points in these numbers; 1 − v is written where the file's points the other way.
+    /// Direction of v in these numbers; 1 − v is written if that of the file is opposite.
     pub v_axis: VAxis,
-    /// Per primitive of the document the UVs of each corner of each face; `None` where the primitive takes no part.
+    /// For each primitive of the document the UVs of each corner of each face; `None` if the primitive takes no part.
     pub corners: Vec<Option<Vec<Corners>>>,
 }
 
-/// What a UV set has to do with the one that it replaces.
+/// Relation of a UV set to the one that it replaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Layout {
-    /// Nothing: textures that sampled the old one need a re-bake, and their transforms are taken off.
+    /// Unrelated: textures that sampled the old one need a re-bake, and their transforms are removed.
     New,
-    /// It is the old one, edited: textures stay where they are.
+    /// An edited version of the old one: textures are unchanged.
     Edited,
 }
 
 impl NewUvs {
-    /// Whether there is one entry per primitive and one corner triple per face, all finite and in a new layout on its pages.
+    /// Checks that there is one entry per primitive and one corner triple per face, all finite and in a new layout on
+    /// its pages.
     pub(super) fn check(&self, primitives: &[Primitive]) -> Result<(), DocumentError> {
         let fits = self.corners.len() == primitives.len()
             && self
@@ -53,7 +54,8 @@ impl NewUvs {
         }
     }
 
-    /// The UVs of a primitive with v pointing as asked; 1 − v is exact for multiples of 2⁻²³ in the unit square.
+    /// Returns the UVs of a primitive with the requested direction of v; 1 − v is exact for multiples of 2⁻²³ in the
+    /// unit square.
     pub fn toward(&self, primitive: usize, v_axis: VAxis) -> Option<Vec<Corners>> {
         let corners = self.corners[primitive].as_ref()?;
         let turned = |[u, v]: [f32; 2]| {
@@ -79,7 +81,7 @@ pub enum OutputFormat {
 }
 
 impl OutputFormat {
-    /// The extension of its main file.
+    /// Returns the extension of its main file.
     pub fn extension(self) -> &'static str {
         match self {
             Self::Glb => Format::Glb.extension(),
@@ -89,32 +91,32 @@ impl OutputFormat {
     }
 }
 
-/// How to write a document.
+/// Options for writing a document.
 #[derive(Debug, Clone)]
 pub struct WriteOptions {
-    /// What kind of file.
+    /// Type of the main file.
     pub format: OutputFormat,
     /// Name of the main file without its extension.
     pub stem: String,
-    /// The set to write, as in `TEXCOORD_n`; by default the first one that breaks no texture.
+    /// Set to write, as in `TEXCOORD_n`; by default the first one that breaks no texture.
     pub texcoord: Option<u32>,
-    /// Replace a set that textures sample; set 0 where `texcoord` names none.
+    /// Replaces a set that textures sample; set 0 if `texcoord` is `None`.
     pub overwrite: bool,
-    /// What the UVs were made for, which the file will say where it can.
+    /// Purpose of the UVs, which the file records if possible.
     pub terms: Option<Terms>,
 }
 
-/// Written files and what was done to write them.
+/// Written files and notes.
 #[derive(Debug, Clone)]
 pub struct Written {
     /// Relative names and contents, the main file first.
     pub files: Vec<(String, Vec<u8>)>,
-    /// What the reader of the report has to know.
+    /// Notes for the report.
     pub notes: WriteNotes,
 }
 
 impl Written {
-    /// The document in the written bytes.
+    /// Reads the document from the written bytes.
     pub fn read_again(&self) -> Result<Document, DocumentError> {
         let mut files = self.files.iter().cloned();
         let (name, bytes) = files.next().unwrap_or_default();

@@ -1,6 +1,6 @@
 use unwrapd_api::Warning;
 
-/// Says that vertices that no face uses have coordinates that are not finite.
+/// Returns a warning about vertices that no face uses with coordinates that are not finite, if there are any.
 pub(super) fn unused_not_finite(n_vertices: usize) -> Option<Warning> {
     (n_vertices > 0).then(|| {
         Warning::new(
@@ -10,7 +10,7 @@ pub(super) fn unused_not_finite(n_vertices: usize) -> Option<Warning> {
     })
 }
 
-/// The first names of many, each cut short, for a message.
+/// Lists the first of many names, each shortened, for a message.
 pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     const SHOWN: usize = 6;
     let mut names = names.map(shortened);
@@ -22,7 +22,7 @@ pub(super) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     }
 }
 
-/// The beginning of a name that a file gives.
+/// Returns the beginning of a name from a file.
 fn shortened(name: &str) -> String {
     name.chars().filter(|c| !c.is_control()).take(80).collect()
 }

@@ -1,8 +1,8 @@
-//! Reading one value after the other, from words of text or from bytes.
+//! Sequential reading of values, from words of text or from bytes.
 
 use super::ReadError;
 
-/// How numbers are written.
+/// Encoding of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
     /// Words separated by blanks.
@@ -11,7 +11,7 @@ pub(super) enum Encoding {
     BigEndian,
 }
 
-/// A place in a file of a given format.
+/// A position in a file of a given format.
 pub(super) struct Cursor<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -29,7 +29,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// An error at this place.
+    /// Creates an error at this position.
     pub fn malformed(&self, cause: &'static str) -> ReadError {
         ReadError::Malformed {
             format: self.format,
@@ -39,14 +39,14 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The next word of text; `None` at the end.
+    /// Takes the next word of text; `None` at the end.
     pub fn word(&mut self) -> Option<&'a [u8]> {
         let word = self.peek_word()?;
         self.at += word.len();
         Some(word)
     }
 
-    /// The next word, not yet taken; passes over the blanks before it.
+    /// Returns the next word without taking it; skips the blanks before it.
     pub fn peek_word(&mut self) -> Option<&'a [u8]> {
         let rest = &self.bytes[self.at..];
         let blanks = rest.iter().position(|b| !b.is_ascii_whitespace())?;
@@ -56,14 +56,14 @@ impl<'a> Cursor<'a> {
         Some(&word[..length.unwrap_or(word.len())])
     }
 
-    /// Passes over the rest of the line.
+    /// Skips the rest of the line.
     pub fn end_line(&mut self) {
         let rest = &self.bytes[self.at..];
         let length = rest.iter().position(|&b| b == b'\n').map(|n| n + 1);
         self.at += length.unwrap_or(rest.len());
     }
 
-    /// Passes over everything up to and with `mark`; false where it does not come, and the cursor stays.
+    /// Skips everything up to and including `mark`; returns `false`, without moving, if it does not occur.
     pub fn skip_past(&mut self, mark: &[u8]) -> bool {
         let found = self.bytes[self.at..]
             .windows(mark.len())
@@ -72,13 +72,13 @@ impl<'a> Cursor<'a> {
         found.is_some()
     }
 
-    /// A number written as text, whatever the encoding of the file.
+    /// Reads a number written as text, whatever the encoding of the file.
     pub fn parse<T: std::str::FromStr>(&mut self, cause: &'static str) -> Result<T, ReadError> {
         let parsed = self.word().and_then(super::number);
         parsed.ok_or_else(|| self.malformed(cause))
     }
 
-    /// A 32-bit integer.
+    /// Reads a 32-bit integer.
     pub fn int(&mut self) -> Result<i32, ReadError> {
         match self.encoding {
             Encoding::Text => self.parse("expected an integer"),
@@ -87,7 +87,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// A 64-bit count or tag.
+    /// Reads a 64-bit count or tag.
     pub fn size(&mut self) -> Result<u64, ReadError> {
         match self.encoding {
             Encoding::Text => self.parse("expected a count or a tag"),
@@ -96,7 +96,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// A coordinate; NaN and infinity are numbers here.
+    /// Reads a coordinate; NaN and infinity count as numbers here.
     pub fn float(&mut self) -> Result<f64, ReadError> {
         match self.encoding {
             Encoding::Text => self.parse("expected a coordinate"),
@@ -105,7 +105,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Three coordinates.
+    /// Reads three coordinates.
     pub fn point(&mut self) -> Result<[f64; 3], ReadError> {
         Ok([self.float()?, self.float()?, self.float()?])
     }

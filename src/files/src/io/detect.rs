@@ -1,9 +1,10 @@
-//! How the first bytes of a file tell its format.
+//! Detection of a file's format from its first bytes.
 
 use super::{gmsh, medit, obj, off, ply, stl, tet};
 use unwrapd_api::{Content, Format, SEARCHED_BYTES, without_mark};
 
-/// Returns the format of a file that is read for `content`: by its first bytes where they tell, else by the extension of its name.
+/// Returns the format of a file that is read for `content`: by its first bytes if they are characteristic, else by the
+/// extension of its name.
 pub fn detect(name: &str, bytes: &[u8], content: Content) -> Option<Format> {
     let head = Head {
         bytes: &bytes[..bytes.len().min(SEARCHED_BYTES)],
@@ -14,14 +15,15 @@ pub fn detect(name: &str, bytes: &[u8], content: Content) -> Option<Format> {
         .or_else(|| head.find(content, resemblance))
 }
 
-/// Returns the format of a file of `size` bytes that is read for `content`, by its first bytes, of which [`SEARCHED_BYTES`] suffice.
+/// Returns the format of a file of `size` bytes that is read for `content`, by its first bytes; [`SEARCHED_BYTES`] are
+/// enough.
 pub fn format_of_content(head: &[u8], size: u64, content: Content) -> Option<Format> {
     let head = Head { bytes: head, size };
     head.find(content, signature)
         .or_else(|| head.find(content, resemblance))
 }
 
-/// Returns the test for bytes that no other format begins with; `None` where a format has none.
+/// Returns the test for bytes with which no other format begins; `None` if the format has no such bytes.
 fn signature(format: Format) -> Option<Test> {
     match format {
         Format::Glb => Some(is_glb),
@@ -40,7 +42,7 @@ fn signature(format: Format) -> Option<Test> {
     }
 }
 
-/// Returns the test for text that is usual in files of a format, for files whose name says nothing.
+/// Returns the test for text that is usual in files of a format, for files without a telling name.
 fn resemblance(format: Format) -> Option<Test> {
     match format {
         Format::Obj => Some(is_obj),
@@ -49,23 +51,23 @@ fn resemblance(format: Format) -> Option<Test> {
     }
 }
 
-/// Whether the first bytes of a file look like those of a format.
+/// Test whether the first bytes of a file look like those of a format.
 type Test = fn(&Head) -> bool;
 
 /// The beginning of a file.
 struct Head<'a> {
     bytes: &'a [u8],
-    /// Bytes of the whole file.
+    /// Size of the whole file, in bytes.
     size: u64,
 }
 
 impl<'a> Head<'a> {
-    /// The first format for `content` whose test it passes.
+    /// Returns the first format for `content` whose test the file passes.
     fn find(&self, content: Content, test: fn(Format) -> Option<Test>) -> Option<Format> {
         Format::that_hold(content).find(|&format| test(format).is_some_and(|is_it| is_it(self)))
     }
 
-    /// What stands there, without a byte order mark and blanks before it.
+    /// Returns the text without a byte order mark and leading blanks.
     fn text(&self) -> &'a [u8] {
         without_mark(self.bytes).trim_ascii_start()
     }

@@ -3,7 +3,7 @@
 use super::elements::Elements;
 use super::{Format, ReadError, gmsh, medit, obj, off, tet, vtu};
 
-/// The formats in which meshes to deform are read and written.
+/// Formats in which meshes to deform are read and written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ElementFormat {
     /// Gmsh `.msh`.
@@ -21,12 +21,12 @@ pub enum ElementFormat {
 }
 
 impl ElementFormat {
-    /// The format that the extension of a file's name stands for.
+    /// Returns the format for the extension of a file's name.
     pub fn of_name(name: &str) -> Option<Self> {
         Format::of_name(name).and_then(Self::of)
     }
 
-    /// A format, if it is one of these.
+    /// Converts a general format; `None` if it is not one of these.
     pub fn of(format: Format) -> Option<Self> {
         Some(match format {
             Format::Msh => Self::Gmsh,
@@ -61,8 +61,8 @@ impl ElementFormat {
         }
     }
 
-    /// The text of a file. Numbers are the shortest that read back as the same `f64`. OBJ and OFF hold the
-    /// [surface](Elements::surface) only.
+    /// Returns the text of a file. Numbers are the shortest that read back as the same `f64`. OBJ and OFF hold only the
+    /// [surface](Elements::surface).
     pub fn write(self, elements: &Elements) -> String {
         match self {
             Self::Gmsh => gmsh::write(elements),

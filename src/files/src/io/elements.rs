@@ -1,4 +1,4 @@
-//! What is deformed, as files have it, and the formats it comes in.
+//! Elements of meshes to deform, as in their files.
 
 use super::ReadError;
 use std::borrow::Cow;
@@ -17,17 +17,17 @@ pub struct Elements {
 }
 
 impl Elements {
-    /// The checked tetrahedra; triangles beside them, which files have as boundaries, are left out.
+    /// Converts to checked tetrahedra; triangles besides them, which some files contain as boundaries, are left out.
     pub fn into_tet_mesh(self) -> Result<TetMesh, ElementError> {
         TetMesh::new(self.vertices, self.tets)
     }
 
-    /// The checked triangles of a planar mesh.
+    /// Converts to the checked triangles of a planar mesh.
     pub fn into_planar_mesh(self) -> Result<PlanarMesh, ElementError> {
         PlanarMesh::flat(&self.vertices, self.triangles)
     }
 
-    /// The triangles or, where there are none, those that bound the tetrahedra.
+    /// Returns the triangles or, if there are none, those that bound the tetrahedra.
     pub fn surface(&self) -> Cow<'_, [[u32; 3]]> {
         if self.triangles.is_empty() {
             Cow::Owned(boundary_triangles(&self.tets))
@@ -57,7 +57,7 @@ impl From<&PlanarMesh> for Elements {
     }
 }
 
-/// One vertex per line with 17 significant digits, enough for any reader to find the same `f64`.
+/// Writes one vertex per line with 17 significant digits, enough for any reader to get the same `f64`.
 pub fn text_positions<const D: usize>(vertices: &[[f64; D]]) -> String {
     let mut text = String::new();
     for vertex in vertices {

@@ -1,21 +1,21 @@
-//! The faces of a file, and the triangles that polygons become.
+//! Faces of a file, and the triangles into which polygons are split.
 
 use super::{Coordinate, ReadError};
 use crate::polygon::{Filling, triangulate};
 
-/// Of how many polygons the places are kept.
+/// Number of polygons whose places are kept.
 const PLACES: usize = 5;
 
 /// Polygons without an inside: they cross themselves or have no area, and became the fans of their first corners.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Fanned {
-    /// How many there are.
+    /// Number of such polygons.
     pub n_polygons: usize,
-    /// Where the first of them are: lines of a text from 1, or else faces from 0.
+    /// Places of the first of them: lines of a text from 1, or else faces from 0.
     pub first: Vec<usize>,
 }
 
-/// Triangles in the making. Polygons are fans until all positions are known ([`Faces::filled`]).
+/// Triangles under construction. Polygons are fans until all positions are known ([`Faces::filled`]).
 #[derive(Default)]
 pub(super) struct Faces {
     triangles: Vec<[u32; 3]>,
@@ -23,17 +23,17 @@ pub(super) struct Faces {
     checked: Vec<u32>,
 }
 
-/// A face of more than three corners.
+/// A face with more than three corners.
 struct Polygon {
-    /// The first triangle of its fan.
+    /// First triangle of its fan.
     first: usize,
     n_corners: usize,
-    /// What a message calls it by.
+    /// Place that messages name.
     place: usize,
 }
 
 impl Faces {
-    /// Appends a face; fewer than three corners have no triangles.
+    /// Appends a face; one of fewer than three corners has no triangles.
     pub fn push(&mut self, corners: &[u32], place: usize) {
         if corners.len() > 3 {
             self.polygons.push(Polygon {
@@ -47,7 +47,7 @@ impl Faces {
             .extend(pairs.map(|pair| [corners[0], pair[0], pair[1]]));
     }
 
-    /// The same for indices as a file has them, of so many vertices.
+    /// Like [`push`](Self::push), for indices of a file, which must be below `n_vertices`.
     pub fn push_checked(
         &mut self,
         corners: &[i64],
@@ -70,14 +70,15 @@ impl Faces {
         Ok(())
     }
 
-    /// The largest index.
+    /// Returns the largest index.
     pub fn last_corner(&self) -> Option<u32> {
         self.triangles.iter().flatten().copied().max()
     }
 
-    /// All triangles in the order of the faces, those of polygons inside them, and the polygons for which there is no inside.
+    /// Returns all triangles in the order of the faces, those of polygons inside them, and the polygons without an
+    /// inside.
     ///
-    /// `position` gives the vertex of a corner and where it is.
+    /// `position` returns the vertex of a corner and its position.
     ///
     /// # Errors
     /// If the position of a corner is not finite.

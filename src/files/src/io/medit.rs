@@ -1,14 +1,14 @@
-//! Medit `.mesh`, text: sections of a keyword, a count and as many lines, each line ending in a reference number.
+//! Medit `.mesh`, text: sections of a keyword, a count and that number of lines, each ending in a reference number.
 //!
-//! Vertices, triangles and tetrahedra are read, references are not. Sections of vertices, edges and normals that describe more
-//! (corners, ridges, required ones) are passed over; elements of other shapes are refused, as the mesh would have holes
-//! without them. No crate for the format was found.
+//! Vertices, triangles and tetrahedra are read, references are not. Sections that describe properties of vertices,
+//! edges and normals (corners, ridges, required ones) are skipped; elements of other shapes are refused, as the mesh
+//! would have holes without them. No crate for the format was found.
 use super::cursor::Cursor;
 use super::elements::{Elements, push_element};
 use super::{ReadError, position};
 use std::fmt::Write;
 
-/// Whether the text begins with the format's first keyword.
+/// Returns whether the text begins with the format's first keyword.
 pub(super) fn has_header(text: &[u8]) -> bool {
     text.starts_with(b"MeshVersionFormatted")
 }
@@ -84,7 +84,7 @@ fn read_section<const N: usize>(
     Ok(())
 }
 
-/// The text of the elements in three dimensions.
+/// Returns the text of the elements in three dimensions.
 pub fn write(elements: &Elements) -> String {
     let n_vertices = elements.vertices.len();
     let mut text = format!("MeshVersionFormatted 2\nDimension 3\nVertices\n{n_vertices}\n");

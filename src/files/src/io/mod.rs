@@ -1,10 +1,10 @@
 //! Readers of triangle, polygon and tetrahedral meshes in text and binary files.
 //!
-//! Bytes in, plain arrays or a [`ReadError`] out; nothing is opened, nothing panics, and memory is bounded by
-//! a small multiple of the input: a count that a file claims is never trusted, it only says when to stop.
-//! Polygons become triangles inside them ([`polygon`](super::polygon)), in the order of the file. Coordinates are parsed as `f64` and, for surfaces that are unwrapped, rounded to
-//! `f32` once, −0 becoming 0: what is welded, mapped and measured is what is written. What is deformed ([`Elements`]) keeps
-//! its `f64`.
+//! Bytes in, plain arrays or a [`ReadError`] out; nothing is opened, nothing panics, and memory is bounded by a small
+//! multiple of the input: a count that a file claims is never trusted, it only says when to stop. Polygons become
+//! triangles inside them ([`polygon`](super::polygon)), in the order of the file. Coordinates are parsed as `f64` and,
+//! for surfaces to unwrap, rounded to `f32` once, −0 becoming 0: the positions that are welded, mapped and measured are
+//! those that are written. Meshes to deform ([`Elements`]) keep their `f64`.
 mod cursor;
 mod detect;
 mod element_format;
@@ -34,11 +34,11 @@ pub struct IndexedTriangles<T = f32> {
     pub positions: Vec<[T; 3]>,
     /// Three vertex indices for each triangle.
     pub triangles: Vec<[u32; 3]>,
-    /// Polygons that have no inside.
+    /// Polygons without an inside.
     pub fanned: Fanned,
 }
 
-/// Why a file cannot be used.
+/// Reason why a file cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ReadError {
     /// The file does not follow its format.
@@ -46,20 +46,20 @@ pub enum ReadError {
     Malformed {
         /// Name of the format.
         format: &'static str,
-        /// What `at` counts: `line` or `byte`.
+        /// Unit of `at`: `line` or `byte`.
         place: &'static str,
-        /// Where, lines from 1.
+        /// Position of the error; lines count from 1.
         at: usize,
-        /// What is wrong there.
+        /// Description of the error.
         cause: &'static str,
     },
-    /// A coordinate is NaN, infinite or, where it is kept as `f32`, beyond its range.
+    /// A coordinate is NaN, infinite or, if stored as `f32`, beyond its range.
     #[error("vertex {vertex} has a coordinate that is not a finite number")]
     NonFinitePosition {
         /// Index of the vertex, from 0.
         vertex: usize,
     },
-    /// A face names a vertex that is not there.
+    /// A face names a vertex that does not exist.
     #[error("a face names vertex {index}, but there are only {n_vertices}")]
     IndexOutOfRange {
         /// Index of the vertex, from 0.
@@ -70,7 +70,7 @@ pub enum ReadError {
 }
 
 impl ReadError {
-    /// Stable name of the cause, for programs.
+    /// Returns the stable code of the error, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Malformed { .. } => "invalid_mesh",
@@ -80,11 +80,11 @@ impl ReadError {
     }
 }
 
-/// The numbers that coordinates are kept as.
+/// Number types of coordinates.
 trait Coordinate: Copy + Default {
     const NAN: Self;
 
-    /// The nearest such number, without a negative zero; `None` where that is not finite.
+    /// Returns the nearest such number, without a negative zero; `None` if that is not finite.
     fn nearest(x: f64) -> Option<Self>;
 
     fn to_f64(self) -> f64;
@@ -114,13 +114,13 @@ impl Coordinate for f64 {
     }
 }
 
-/// A position as a file has it, without negative zeros; NaN where a coordinate is not finite. [`Faces::filled`] refuses faces with
-/// such a corner: a vertex that no face uses may hold anything.
+/// Converts a position of a file, without negative zeros; coordinates that are not finite become NaN. [`Faces::filled`]
+/// refuses faces with such a corner: a vertex that no face uses may hold anything.
 fn any_position<T: Coordinate>(coordinates: [f64; 3]) -> [T; 3] {
     coordinates.map(|x| T::nearest(x).unwrap_or(T::NAN))
 }
 
-/// A position as the rest of the program sees it: finite, without negative zeros.
+/// Converts a position of a file, which must be finite, without negative zeros.
 fn position<T: Coordinate>(coordinates: [f64; 3], vertex: usize) -> Result<[T; 3], ReadError> {
     match coordinates.map(T::nearest) {
         [Some(x), Some(y), Some(z)] => Ok([x, y, z]),
@@ -128,7 +128,7 @@ fn position<T: Coordinate>(coordinates: [f64; 3], vertex: usize) -> Result<[T; 3
     }
 }
 
-/// The lines of a text, numbered from 1; `\n`, `\r\n` and `\r` all end a line.
+/// Iterates over the lines of a text, numbered from 1; `\n`, `\r\n` and `\r` all end a line.
 fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     let mut rest = bytes;
     let mut number = 0;
@@ -149,18 +149,18 @@ fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     })
 }
 
-/// The words of a line, separated by blanks.
+/// Iterates over the words of a line, separated by blanks.
 fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     line.split(u8::is_ascii_whitespace)
         .filter(|word| !word.is_empty())
 }
 
-/// A number in a text; `nan` and `inf` are numbers here, [`position`] refuses them.
+/// Parses a number in a text; `nan` and `inf` count as numbers here, [`position`] refuses them.
 fn number<T: std::str::FromStr>(word: &[u8]) -> Option<T> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
-/// Three numbers from the next three words.
+/// Parses three numbers from the next three words.
 fn three_numbers<'a>(words: &mut impl Iterator<Item = &'a [u8]>) -> Option<[f64; 3]> {
     Some([
         number(words.next()?)?,

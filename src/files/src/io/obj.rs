@@ -1,11 +1,11 @@
-//! OBJ: vertices, texture coordinates and polygons, with what is needed to write the same file again.
+//! OBJ: vertices, texture coordinates and polygons, with everything needed to write the same file again.
 //!
-//! Read without a library: those at hand give triangles grouped by material, while a file that is to be written
-//! back needs its polygons in order and every other statement ([`statements`]) as it stands.
+//! Read without a library: the available ones give triangles grouped by material, while a file that is to be written
+//! back needs its polygons in order and every other statement ([`statements`]) unchanged.
 //!
 //! A vertex may be named before it is defined; a negative index counts back from the vertices defined so far. A
-//! position that is not there is an error. A texture coordinate or normal that is not there is taken as not
-//! given, as neither is needed to map the surface.
+//! position that does not exist is an error. A texture coordinate or normal that does not exist counts as not given, as
+//! neither is needed to map the surface.
 use super::{
     Coordinate, Elements, Faces, IndexedTriangles, ReadError, any_position, number, three_numbers,
     words,
@@ -28,7 +28,7 @@ pub struct Corner {
 pub struct Obj<T = f32> {
     /// Positions and the triangles of all polygons, in the file's order.
     pub mesh: IndexedTriangles<T>,
-    /// Texture coordinates as the file has them, v up.
+    /// Texture coordinates as in the file, v up.
     pub texcoords: Vec<[f64; 2]>,
     /// Normals.
     pub normals: Vec<[f32; 3]>,
@@ -36,12 +36,13 @@ pub struct Obj<T = f32> {
     pub corners: Vec<Corner>,
     /// For each polygon the end of its corners in `corners`.
     pub polygon_ends: Vec<usize>,
-    /// The triangles again, by their corners in `corners`: of n corners n − 2 for each polygon, one polygon after the other.
+    /// Triangles of `mesh` again, as indices into `corners`: n − 2 for each polygon of n corners, one polygon after the
+    /// other.
     pub corner_triangles: Vec<[u32; 3]>,
 }
 
 impl<T> Obj<T> {
-    /// The polygons in the file's order; those of fewer than three corners have no triangles.
+    /// Iterates over the polygons in the file's order; those of fewer than three corners have no triangles.
     pub fn polygons(&self) -> impl Iterator<Item = &[Corner]> {
         let mut start = 0;
         self.polygon_ends.iter().map(move |&end| {
@@ -57,11 +58,11 @@ impl<T> Obj<T> {
 pub struct Statement<'a> {
     /// Number of its first line, from 1.
     pub line: usize,
-    /// The text as it stands, with its line ending.
+    /// Text with its line ending.
     pub raw: &'a [u8],
-    /// The first word; empty for blank lines and comments.
+    /// First word; empty for blank lines and comments.
     pub keyword: &'a [u8],
-    /// The words after it, up to a comment.
+    /// Words after the keyword, up to a comment.
     pub words: Vec<&'a [u8]>,
 }
 
@@ -74,7 +75,7 @@ fn malformed(line: usize, cause: &'static str) -> ReadError {
     }
 }
 
-/// The statements of a file; their `raw` texts one after the other are the file.
+/// Iterates over the statements of a file; their `raw` texts one after the other are the file.
 pub fn statements(bytes: &[u8]) -> impl Iterator<Item = Statement<'_>> {
     let mut rest = bytes;
     let mut line = 1;
@@ -97,7 +98,7 @@ pub fn statements(bytes: &[u8]) -> impl Iterator<Item = Statement<'_>> {
     })
 }
 
-/// The first statement with its ending, and its number of lines. A comment is not continued.
+/// Returns the first statement with its ending, and its number of lines. A comment is not continued.
 fn statement_text(bytes: &[u8]) -> (&[u8], usize) {
     let mut end = 0;
     let mut n_lines = 0;
@@ -120,7 +121,7 @@ fn statement_text(bytes: &[u8]) -> (&[u8], usize) {
     }
 }
 
-/// Whether the text has a line that is a vertex.
+/// Returns whether the text has a line that defines a vertex.
 pub(super) fn has_vertex(text: &[u8]) -> bool {
     let is_vertex = |line: &[u8]| {
         let line = line.trim_ascii_start();
@@ -132,7 +133,7 @@ pub(super) fn has_vertex(text: &[u8]) -> bool {
             .any(is_vertex)
 }
 
-/// A corner as the text has it: indices from 1, negative ones already resolved, 0 where none is given.
+/// A corner as in the text: indices from 1, negative ones already resolved, 0 if not given.
 type RawCorner = [i64; 3];
 
 /// Reads an OBJ file.
@@ -145,6 +146,7 @@ pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<Obj<T>, ReadError> 
     let mut raw_corners: Vec<RawCorner> = Vec::new();
     let (mut faces, mut polygon) = (Faces::default(), Vec::new());
     for statement in statements(bytes) {
+        // Read vertices and raw corners; corners may precede the vertices they name.
         let words = &mut statement.words.iter().copied();
         match statement.keyword {
             b"v" => {
@@ -179,6 +181,7 @@ pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<Obj<T>, ReadError> 
             _ => {}
         }
     }
+    // Resolve corners and fill polygons.
     resolve(&mut obj, &raw_corners)?;
     let vertex_of = |corner: u32| obj.corners[corner as usize].vertex;
     let position = |corner: u32| {
@@ -194,7 +197,7 @@ pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<Obj<T>, ReadError> 
     Ok(obj)
 }
 
-/// One or two numbers; what is not a number becomes NaN, and is for the measures to find.
+/// Parses one or two numbers; anything else becomes NaN, which the measures report.
 fn texcoord<'a>(words: &mut impl Iterator<Item = &'a [u8]>) -> [f64; 2] {
     let mut next = |default| {
         words
@@ -223,7 +226,7 @@ fn raw_corner(word: &[u8], defined: [usize; 3]) -> Option<RawCorner> {
     Some(corner)
 }
 
-/// Checks the corners against what the whole file defines.
+/// Checks the corners against the definitions of the whole file.
 fn resolve<T>(obj: &mut Obj<T>, raw_corners: &[RawCorner]) -> Result<(), ReadError> {
     let n_vertices = obj.mesh.positions.len();
     let optional = |index: i64, n: usize| {
@@ -245,7 +248,7 @@ fn resolve<T>(obj: &mut Obj<T>, raw_corners: &[RawCorner]) -> Result<(), ReadErr
     Ok(())
 }
 
-/// The text of a surface: the triangles, or else the boundary of the tetrahedra.
+/// Returns the text of a surface: the triangles, or else the boundary of the tetrahedra.
 pub fn write(elements: &Elements) -> String {
     let mut text = String::new();
     for [x, y, z] in &elements.vertices {

@@ -1,8 +1,8 @@
 //! OFF, the text format of Geomview: `OFF`, counts, one vertex a line, one polygon a line.
 //!
-//! Of the variants (`[ST][C][N]OFF`) the coordinates come first on a vertex line in every one; what follows them
-//! (normals, colors, texture coordinates) is passed over, and so are the colors of faces. Four-dimensional and
-//! binary files are refused. The counts are read as `u64` and nothing is reserved by them.
+//! In all variants (`[ST][C][N]OFF`) the coordinates come first on a vertex line; the numbers after them (normals,
+//! colors, texture coordinates) are skipped, and so are the colors of faces. Four-dimensional and binary files are
+//! refused. The counts are read as `u64` and nothing is allocated by them.
 use super::{
     Coordinate, Elements, Faces, IndexedTriangles, ReadError, any_position, lines, number,
     three_numbers, words,
@@ -26,14 +26,14 @@ fn is_keyword(word: &[u8]) -> bool {
     })
 }
 
-/// Lines with something on them, comments cut off.
+/// Iterates over the nonempty lines, without comments.
 fn statements(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     lines(bytes)
         .map(|(n, line)| (n, line.split(|&b| b == b'#').next().unwrap_or_default()))
         .filter(|(_, line)| words(line).next().is_some())
 }
 
-/// Whether the text begins with one of the format's keywords.
+/// Returns whether the text begins with one of the format's keywords.
 pub(super) fn has_header(bytes: &[u8]) -> bool {
     statements(&bytes[..bytes.len().min(4096)])
         .next()
@@ -68,7 +68,7 @@ pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<IndexedTriangles<T>
     Ok(mesh)
 }
 
-/// The numbers of vertices and faces, on the line of the keyword or on the next.
+/// Reads the numbers of vertices and faces, on the line of the keyword or on the next.
 fn counts<'a>(
     statements: &mut impl Iterator<Item = (usize, &'a [u8])>,
 ) -> Result<(u64, u64), ReadError> {
@@ -103,7 +103,7 @@ fn read_polygon(line: &[u8], polygon: &mut Vec<i64>) -> Option<()> {
     Some(())
 }
 
-/// The text of a surface: the triangles, or else the boundary of the tetrahedra.
+/// Returns the text of a surface: the triangles, or else the boundary of the tetrahedra.
 pub fn write(elements: &Elements) -> String {
     let triangles = elements.surface();
     let mut text = format!("OFF\n{} {} 0\n", elements.vertices.len(), triangles.len());

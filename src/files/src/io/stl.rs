@@ -1,15 +1,15 @@
 //! STL, text and binary.
 //!
-//! The format has no vertices, only three positions for each facet; bit-equal positions become one vertex here.
-//! Normals are not used. Read without a library: the ones at hand read only the first of several solids, refuse
-//! facets whose normal is not a number (which is what exporters write for slivers), and take a binary file for
-//! text when its header happens to begin with `solid`.
+//! The format has no vertices, only three positions for each facet; bit-equal positions become one vertex here. Normals
+//! are ignored. Read without a library: the available ones read only the first of several solids, refuse facets whose
+//! normal is NaN (which exporters write for slivers), and take a binary file for text if its header happens to begin
+//! with `solid`.
 use super::{Faces, IndexedTriangles, ReadError, lines, position, three_numbers, words};
 use std::collections::HashMap;
 
-/// A header of 80 bytes and the number of facets.
+/// Size of the header in bytes: 80 bytes and the number of facets.
 const HEADER: usize = 84;
-/// A normal, three positions, and a number of two bytes.
+/// Size of a facet in bytes: a normal, three positions, and a number of two bytes.
 const FACET: usize = 50;
 
 fn malformed(place: &'static str, at: usize, cause: &'static str) -> ReadError {
@@ -26,14 +26,14 @@ fn claimed_facets(bytes: &[u8]) -> Option<usize> {
     Some(u32::from_le_bytes(count.try_into().ok()?) as usize)
 }
 
-/// Whether the file has room for the binary facets it claims, at least one. Bytes after the last of them are ignored: some
-/// exporters append their own data. A text would claim hundreds of millions.
+/// Returns whether the file has room for the binary facets that it claims, at least one. Bytes after the last facet are
+/// ignored: some exporters append their own data. A text would claim hundreds of millions.
 pub(super) fn is_binary(head: &[u8], size: u64) -> bool {
     let has_room = |n: usize| n > 0 && (HEADER + n * FACET) as u64 <= size;
     claimed_facets(head).is_some_and(has_room)
 }
 
-/// Whether a text file begins like this: with its first word, and facets after it.
+/// Returns whether a text file begins like this: with its first word, and facets after it.
 pub(super) fn is_text(head: &[u8]) -> bool {
     has_text_header(head)
         && head
@@ -41,7 +41,7 @@ pub(super) fn is_text(head: &[u8]) -> bool {
             .any(|word| word.eq_ignore_ascii_case(b"facet"))
 }
 
-/// Whether the file begins as a text file does.
+/// Returns whether the file begins like a text file.
 fn has_text_header(bytes: &[u8]) -> bool {
     let first = words(&bytes[..bytes.len().min(4096)]).next();
     first.is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
@@ -56,7 +56,7 @@ pub fn read(bytes: &[u8]) -> Result<IndexedTriangles, ReadError> {
     }
 }
 
-/// Vertices found so far, by the bits of their position.
+/// Vertices found so far, keyed by the bits of their position.
 #[derive(Default)]
 struct Builder {
     positions: Vec<[f32; 3]>,

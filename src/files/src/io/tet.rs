@@ -5,7 +5,7 @@ use super::elements::{Elements, push_element};
 use super::{ReadError, lines, position, words};
 use std::fmt::Write;
 
-/// Whether the first line of the text is two numbers: how many vertices, how many tetrahedra.
+/// Returns whether the first line of the text is two numbers, the counts of vertices and tetrahedra.
 pub(super) fn has_counts(text: &[u8]) -> bool {
     let line = lines(text).next().map_or(&[][..], |(_, line)| line);
     words(line).count() == 2 && words(line).flatten().all(u8::is_ascii_digit)
@@ -33,7 +33,7 @@ pub fn read(bytes: &[u8]) -> Result<Elements, ReadError> {
     Ok(elements)
 }
 
-/// The text of the tetrahedra.
+/// Returns the text of the tetrahedra.
 pub fn write(elements: &Elements) -> String {
     let mut text = format!("{} {}\n", elements.vertices.len(), elements.tets.len());
     for [x, y, z] in &elements.vertices {

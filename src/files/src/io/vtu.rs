@@ -1,26 +1,26 @@
 //! VTK's XML format for unstructured grids, `.vtu`, as text: written for viewers such as ParaView, not read.
 //!
-//! Few lines, so no crate: `vtkio`'s last stable release is of 2021 and would bring an XML writer, compressors and a binary
-//! framework.
+//! Written without a library because it takes few lines: `vtkio`'s last stable release is from 2021 and would bring an
+//! XML writer, compressors and a binary framework.
 use super::Elements;
 use std::fmt::Write;
 
-/// VTK's numbers for a triangle and a tetrahedron.
+/// VTK's numbers of triangles and tetrahedra.
 const TYPES: [&str; 2] = ["5", "10"];
 
-/// Numbers of each element.
+/// Numbers for each element.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellData {
-    /// What they are.
+    /// Name of the numbers.
     pub name: &'static str,
-    /// How many each element has.
+    /// Count of numbers per element.
     pub components: usize,
-    /// All of them, element after element.
+    /// All numbers, element after element.
     pub values: Vec<f64>,
 }
 
-/// The text of the elements, triangles before tetrahedra, with what is known of the last ones: data of fewer elements than
-/// there are belong to the last, and the others get NaN.
+/// Returns the text of the elements, triangles before tetrahedra, with data. Data of fewer elements belong to the last
+/// ones; the others get NaN.
 pub fn write(elements: &Elements, data: &[CellData]) -> String {
     let n_cells = elements.triangles.len() + elements.tets.len();
     let mut text = format!(
@@ -29,10 +29,12 @@ pub fn write(elements: &Elements, data: &[CellData]) -> String {
          <DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n",
         elements.vertices.len()
     );
+    // Vertices.
     for [x, y, z] in &elements.vertices {
         let _ = writeln!(text, "{x:?} {y:?} {z:?}"); // writing to a string cannot fail
     }
     text.push_str("</DataArray>\n</Points>\n<Cells>\n");
+    // Cells.
     array(&mut text, "connectivity", |text| {
         for [a, b, c] in &elements.triangles {
             let _ = writeln!(text, "{a} {b} {c}");
@@ -59,6 +61,7 @@ pub fn write(elements: &Elements, data: &[CellData]) -> String {
         }
     });
     text.push_str("</Cells>\n");
+    // Data of the cells.
     if !data.is_empty() {
         text.push_str("<CellData>\n");
         for cells in data {
@@ -79,7 +82,7 @@ fn array(text: &mut String, name: &str, content: impl FnOnce(&mut String)) {
     text.push_str("</DataArray>\n");
 }
 
-/// One line per element.
+/// Writes one line per element.
 fn numbers(text: &mut String, data: &CellData, n_cells: usize) {
     let CellData {
         name,

@@ -1,4 +1,4 @@
-//! Pixels: blending, lines, copying, and the PNG they end in.
+//! Pixels: blending, lines, copying, and the final PNG.
 
 use super::color::{BACKGROUND, Rgb, mix};
 use super::png::png;
@@ -20,7 +20,7 @@ impl Canvas {
         }
     }
 
-    /// Fills the pixels of a rectangle, cut at the borders.
+    /// Fills the pixels of a rectangle, clipped at the borders.
     pub fn fill(
         &mut self,
         columns: std::ops::Range<usize>,
@@ -34,7 +34,7 @@ impl Canvas {
         }
     }
 
-    /// Copies `other` with its upper left corner at `(column, row)`; it must fit.
+    /// Copies `other` with its upper left corner to `(column, row)`; it must fit.
     pub fn place(&mut self, other: &Canvas, column: usize, row: usize) {
         for (k, line) in other.pixels.chunks(other.width.max(1)).enumerate() {
             let start = (row + k) * self.width + column;
@@ -42,7 +42,7 @@ impl Canvas {
         }
     }
 
-    /// Lays the lines of a mask on the picture.
+    /// Blends the lines of a mask over the picture.
     pub fn ink(&mut self, lines: &Lines, color: Rgb, opacity: f32) {
         for (pixel, &coverage) in self.pixels.iter_mut().zip(&lines.coverage) {
             if coverage > 0 {
@@ -51,14 +51,14 @@ impl Canvas {
         }
     }
 
-    /// The PNG file.
+    /// Returns the PNG file.
     pub fn png(&self) -> Vec<u8> {
         let bytes = self.pixels.as_flattened();
         png(bytes, self.width, self.height, ExtendedColorType::Rgb8)
     }
 }
 
-/// How much of each pixel is covered by lines; where lines meet it is the greater, not the sum.
+/// Coverage of each pixel by lines; where lines meet it is their maximum, not their sum.
 pub(super) struct Lines {
     width: usize,
     height: usize,
@@ -74,7 +74,7 @@ impl Lines {
         }
     }
 
-    /// Draws a segment with round ends; coordinates in pixels, pixel (0, 0) has its center at (0.5, 0.5).
+    /// Draws a segment with round ends; coordinates are in pixels, and pixel (0, 0) has its center at (0.5, 0.5).
     pub fn segment(&mut self, a: [f64; 2], b: [f64; 2], thickness: f64) {
         let reach = 0.5 * thickness + 0.5;
         let d = [b[0] - a[0], b[1] - a[1]];
@@ -98,7 +98,7 @@ impl Lines {
         }
     }
 
-    /// Columns of row `y` that the part of the segment near that row can touch.
+    /// Returns the columns of row `y` that the part of the segment near that row can touch.
     fn columns_near(&self, a: [f64; 2], d: [f64; 2], y: f64, reach: f64) -> std::ops::Range<usize> {
         let at = |y: f64| (((y - a[1]) / d[1]).clamp(0.0, 1.0)) * d[0] + a[0];
         let (from, to) = if d[1].abs() > 1e-9 {
@@ -110,7 +110,7 @@ impl Lines {
     }
 }
 
-/// Pixels that an interval touches, of `n`.
+/// Returns the pixels, of `n`, that an interval touches.
 fn span(from: f64, to: f64, n: usize) -> std::ops::Range<usize> {
     let end = (to.ceil().max(0.0) as usize).min(n);
     (from.floor().max(0.0) as usize).min(end)..end

@@ -1,19 +1,20 @@
 //! Colors, chosen and mixed in Oklab, where equal steps look equal (Ottosson 2020).
 
-/// Red, green and blue as a PNG has them.
+/// Red, green and blue as in a PNG.
 pub(super) type Rgb = [u8; 3];
 
 pub(super) const BACKGROUND: Rgb = [255, 255, 255];
-/// Lines and letters.
+/// Color of lines and letters.
 pub(super) const INK: Rgb = [38, 42, 51];
-/// Faces turned over, as in the figures of the literature.
+/// Color of flipped faces, as in the figures of the literature.
 pub(super) const FLIPPED: Rgb = [255, 214, 10];
-/// Covered more than once.
+/// Color of places that are covered more than once.
 pub(super) const OVERLAP: Rgb = [222, 38, 44];
-/// Without a value.
+/// Color of faces without a value.
 pub(super) const NO_VALUE: Rgb = [176, 176, 176];
 
-/// The muted fill of a chart: equal lightness, hues spread by the golden angle so that neighbors in number differ.
+/// Returns the muted fill of a chart: similar lightness, hues spread by the golden angle so that neighbors in number
+/// differ.
 pub(super) fn chart(id: u32) -> Rgb {
     const GOLDEN_TURN: f64 = 0.618_033_988_749_894_9;
     let turn = (0.58 + GOLDEN_TURN * f64::from(id)).fract();
@@ -22,10 +23,10 @@ pub(super) fn chart(id: u32) -> Rgb {
     rgb([lightness, 0.075 * cos, 0.075 * sin])
 }
 
-/// The scale of heat maps: pale where there is no distortion, dark where there is most; `t` in [0, 1].
+/// Returns the color of a heat map: pale for no distortion, dark for the largest; `t` in [0, 1].
 ///
-/// Lightness falls evenly from 0.95 to 0.28 while the hue turns from sand over coral to plum; no yellow, which is for
-/// flipped faces.
+/// Lightness falls evenly from 0.95 to 0.28 while the hue turns from sand over coral to plum; without yellow, which is
+/// for flipped faces.
 pub(super) fn heat(t: f64) -> Rgb {
     const STOPS: [[f64; 3]; 5] = [
         [0.950, 0.002, 0.012],
@@ -40,7 +41,7 @@ pub(super) fn heat(t: f64) -> Rgb {
     rgb([0, 1, 2].map(|k| STOPS[stop][k] * (1.0 - part) + STOPS[stop + 1][k] * part))
 }
 
-/// `over` laid on `under` with the given opacity in [0, 1].
+/// Blends `over` onto `under` with the given opacity in [0, 1].
 pub(super) fn mix(under: Rgb, over: Rgb, opacity: f32) -> Rgb {
     let channel = |k: usize| {
         let (u, o) = (f32::from(under[k]), f32::from(over[k]));
@@ -49,7 +50,7 @@ pub(super) fn mix(under: Rgb, over: Rgb, opacity: f32) -> Rgb {
     [channel(0), channel(1), channel(2)]
 }
 
-/// Oklab to sRGB.
+/// Converts Oklab to sRGB.
 fn rgb([lightness, a, b]: [f64; 3]) -> Rgb {
     let l = (lightness + 0.396_337_777_4 * a + 0.215_803_757_3 * b).powi(3);
     let m = (lightness - 0.105_561_345_8 * a - 0.063_854_172_8 * b).powi(3);

@@ -1,13 +1,13 @@
-//! The heat map: how distorted each face is.
+//! The heat map of each face's distortion.
 use super::legend;
 use super::panel::{Panel, Style, sheet};
 use super::raster::Mode;
 use super::scale::{HeatmapMeasure, Scale};
 use unwrapd_maps::mesh::VAxis;
 
-/// A PNG of the faces in the colors of their distortion, with a legend below; flipped faces are yellow.
+/// Draws a PNG of the faces in the colors of their distortion, with a legend below; flipped faces are yellow.
 ///
-/// All panels share one scale. `size` as in [`layout_png`](super::layout_png); the legend comes on top of it.
+/// All panels share one scale. `size` as in [`layout_png`](super::layout_png); the legend is added to it.
 pub fn heatmap_png(panels: &[Panel], measure: HeatmapMeasure, size: u32, v_axis: VAxis) -> Vec<u8> {
     let scale = Scale::new(panels, measure);
     let color = |panel: &Panel, face: usize| {

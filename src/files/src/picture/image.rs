@@ -4,23 +4,23 @@ use super::png::png;
 use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageReader, Limits};
 use std::io::Cursor;
 
-/// Bytes of a file at most: those of a photograph are a tenth of it.
+/// Largest file, in bytes: photographs take a tenth of it.
 const MOST_FILE_BYTES: usize = 64 << 20;
-/// Pixels of a picture at most; more is refused before anything is decoded.
+/// Most pixels of a picture; more are refused before decoding.
 const MOST_PIXELS: u64 = 100_000_000;
-/// Bytes that a decoder may allocate: the picture at 16 bits per channel, and as much again.
+/// Most bytes that a decoder may allocate: the picture at 16 bits per channel, and the same again.
 const MOST_BYTES: u64 = 16 * MOST_PIXELS;
 
-/// Why a picture cannot be read.
+/// Reason why a picture cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ImageError {
-    /// Neither PNG nor JPEG.
+    /// The file is neither PNG nor JPEG.
     #[error("the picture is not PNG or JPEG")]
     UnknownFormat,
-    /// The file has more bytes than are read.
+    /// The file has too many bytes.
     #[error("the picture has {0} bytes; the limit is 64 MiB")]
     TooManyBytes(usize),
-    /// The picture has more pixels than are read.
+    /// The picture has too many pixels.
     #[error("the picture has {width} × {height} pixels; the limit is 100 megapixels")]
     TooLarge {
         /// Columns.
@@ -34,7 +34,7 @@ pub enum ImageError {
 }
 
 impl ImageError {
-    /// Stable name of the cause, for programs.
+    /// Returns the stable code of the error, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::UnknownFormat => "unknown_format",
@@ -56,7 +56,7 @@ pub struct Image {
 }
 
 impl Image {
-    /// A transparent picture.
+    /// Creates a transparent picture.
     pub fn transparent(width: usize, height: usize) -> Self {
         Self {
             width,
@@ -65,7 +65,7 @@ impl Image {
         }
     }
 
-    /// Decodes a PNG or JPEG file, upright as its metadata says; more than 8 bits per channel are rounded.
+    /// Decodes a PNG or JPEG file, turned upright according to its metadata; more than 8 bits per channel are rounded.
     pub fn decode(bytes: &[u8]) -> Result<Self, ImageError> {
         if bytes.len() > MOST_FILE_BYTES {
             return Err(ImageError::TooManyBytes(bytes.len()));
@@ -95,7 +95,7 @@ impl Image {
         })
     }
 
-    /// The PNG file.
+    /// Returns the PNG file.
     pub fn png(&self) -> Vec<u8> {
         let bytes = self.pixels.as_flattened();
         png(bytes, self.width, self.height, ExtendedColorType::Rgba8)

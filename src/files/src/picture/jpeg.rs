@@ -1,14 +1,15 @@
-//! Pixels as a JPEG file.
+//! Encoding of JPEG files.
 
 use super::image::Image;
 use image::codecs::jpeg::JpegEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 
-/// Of 100: textures are mostly seen larger than a pixel per texel, and are resampled from what was compressed before.
+/// Quality, of 100: textures are mostly seen larger than a pixel per texel, and are resampled from compressed ones.
 const QUALITY: u8 = 92;
 
 impl Image {
-    /// The picture as a JPEG file, colors at full resolution; `None` where something is transparent, which JPEG cannot say.
+    /// Returns the picture as a JPEG file, with colors at full resolution; `None` if some pixel is transparent, which
+    /// JPEG cannot store.
     pub fn jpeg(&self) -> Option<Vec<u8>> {
         let opaque = self
             .pixels

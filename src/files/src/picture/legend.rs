@@ -1,4 +1,4 @@
-//! The strip under a heat map: what is shown, the scale with its numbers, the colors outside the scale.
+//! The strip below a heat map: title, scale with numbers, and colors outside the scale.
 use super::canvas::{Canvas, Lines};
 use super::color::{self, FLIPPED, INK, NO_VALUE, Rgb};
 use super::scale::Scale;
@@ -10,13 +10,13 @@ pub(super) struct Exceptions {
     pub no_value: bool,
 }
 
-/// Numbers that may stand at a tick, as multiples of the ideal value.
+/// Numbers at possible ticks, as multiples of the ideal value.
 const TICKS: [f64; 19] = [
     1.0, 1.05, 1.1, 1.2, 1.35, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0, 5.0, 10.0, 20.0, 50.0, 100.0, 1e3,
     1e4, 1e6,
 ];
 
-/// The picture with its legend below it: title, scale and exceptions in one line, or in two where it is narrow.
+/// Returns the picture with its legend below it: title, scale and exceptions in one line, or in two if it is narrow.
 pub(super) fn below(drawn: &Canvas, title: &str, scale: &Scale, exceptions: &Exceptions) -> Canvas {
     let letters = (drawn.width as f64 / 80.0).clamp(6.0, 16.0);
     let narrow = drawn.width < 640;
@@ -46,7 +46,7 @@ pub(super) fn below(drawn: &Canvas, title: &str, scale: &Scale, exceptions: &Exc
     canvas
 }
 
-/// Ticks and numbers, from the right end of the bar as many as have room.
+/// Draws ticks and numbers, from the right end of the bar, leaving out those without room.
 fn ticks(ink: &mut Lines, scale: &Scale, bar: [f64; 2], y: f64, letters: f64) {
     let mut free = f64::INFINITY;
     for tick in TICKS.iter().rev().map(|tick| tick * scale.ideal) {
@@ -80,7 +80,7 @@ fn ticks(ink: &mut Lines, scale: &Scale, bar: [f64; 2], y: f64, letters: f64) {
     }
 }
 
-/// Colored squares with their meaning at the right; returns where they begin.
+/// Draws colored squares with their meaning at the right; returns the left end.
 fn swatches(
     canvas: &mut Canvas,
     ink: &mut Lines,

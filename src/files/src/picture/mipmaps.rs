@@ -1,21 +1,21 @@
-//! A picture at several scales, to be sampled between its pixels.
+//! A picture at several scales, sampled between its pixels.
 
 use super::Image;
 
-/// Red, green, blue times alpha, and alpha, from 0 to 1.
+/// Red, green and blue times alpha, and alpha, from 0 to 1.
 pub(super) type Premultiplied = [f32; 4];
 
-/// A coarser copy: red, green, blue times alpha, and alpha, from 0 to 65535.
+/// A coarser copy: red, green and blue times alpha, and alpha, from 0 to 65535.
 struct Level {
     width: usize,
     height: usize,
     pixels: Vec<[u16; 4]>,
 }
 
-/// A picture and as many halvings of it as were needed so far.
+/// A picture and its halvings, computed on demand.
 pub(super) struct Mipmaps<'a> {
     image: &'a Image,
-    /// Level 1 and on; level 0 is the picture itself.
+    /// Levels from 1 on; level 0 is the picture itself.
     halved: Vec<Level>,
 }
 
@@ -27,7 +27,7 @@ impl<'a> Mipmaps<'a> {
         }
     }
 
-    /// Makes the levels up to `level`, fewer where a picture of one pixel is reached; the finest that is there.
+    /// Computes the levels up to `level`, fewer if a picture of one pixel is reached; returns the last one available.
     pub fn up_to(&mut self, level: usize) -> usize {
         while self.halved.len() < level {
             let finest = self.halved.len();
@@ -41,7 +41,7 @@ impl<'a> Mipmaps<'a> {
         level.min(self.halved.len())
     }
 
-    /// Columns and rows of a level.
+    /// Returns columns and rows of a level.
     fn size(&self, level: usize) -> [usize; 2] {
         match level.checked_sub(1) {
             None => [self.image.width, self.image.height],
@@ -59,7 +59,7 @@ impl<'a> Mipmaps<'a> {
         [r * a, g * a, b * a, a]
     }
 
-    /// Averages of two by two pixels; at odd sizes the last column or row stands for two.
+    /// Averages two by two pixels; at odd sizes the last column or row counts twice.
     fn halving(&self, level: usize) -> Level {
         let [w, h] = self.size(level);
         let (width, height) = (w.div_ceil(2), h.div_ceil(2));
@@ -81,7 +81,8 @@ impl<'a> Mipmaps<'a> {
         }
     }
 
-    /// The color at a place in pixels of the picture, linear between pixel centers, constant beyond the outermost ones.
+    /// Returns the color at a place in pixels of the picture, linear between pixel centers, constant beyond the
+    /// outermost ones.
     pub fn sample(&self, level: usize, at: [f64; 2]) -> Premultiplied {
         let size = self.size(level);
         let scale = 0.5_f64.powi(level as i32);
@@ -99,12 +100,12 @@ impl<'a> Mipmaps<'a> {
     }
 }
 
-/// a + t b.
+/// Returns a + t b.
 pub(super) fn mix(a: Premultiplied, b: Premultiplied, t: f32) -> Premultiplied {
     [0, 1, 2, 3].map(|k| a[k] + t * b[k])
 }
 
-/// (1 − t) a + t b.
+/// Returns (1 − t) a + t b.
 fn between(a: Premultiplied, b: Premultiplied, t: f32) -> Premultiplied {
     [0, 1, 2, 3].map(|k| a[k] + t * (b[k] - a[k]))
 }

@@ -1,10 +1,10 @@
-//! Drawings of UV layouts and their distortion; pictures with transparency, and deformed with a mesh.
+//! Drawings of UV layouts and their distortion; pictures with transparency, and pictures deformed with a mesh.
 //!
-//! A picture lies as the texture does: where all UVs are inside the unit square, the picture is that square, and a
-//! pixel of it is a texel of a texture of the same size. Faces are filled by supersampling with a half-open scan
-//! conversion, so a sample on a common edge belongs to one face, and what is covered twice overlaps indeed. Edges of
-//! faces are drawn where faces are large enough to show them, the borders of charts always.
-//! Equal input gives equal bytes.
+//! A drawing has the orientation of the texture: if all UVs are inside the unit square, the picture is that square, and
+//! each pixel is a texel of a texture of the same size. Faces are filled by supersampling with half-open scan
+//! conversion, so a sample on a common edge belongs to one face, and samples covered twice are real overlaps. Edges of
+//! faces are drawn where faces are large enough to show them, the borders of charts always. Equal input gives equal
+//! bytes.
 mod canvas;
 mod color;
 mod heat;

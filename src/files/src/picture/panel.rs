@@ -9,29 +9,29 @@ use unwrapd_maps::mesh::{CornerUvs, VAxis};
 /// Faces that share one UV space.
 #[derive(Debug, Clone, Copy)]
 pub struct Panel<'a> {
-    /// Written above the square when there are several.
+    /// Name, written above the square if there are several panels.
     pub name: &'a str,
     /// UVs of each face.
     pub uvs: &'a [CornerUvs],
-    /// The chart of each face.
+    /// Chart of each face.
     pub charts: &'a [u32],
-    /// The distortion of each face.
+    /// Distortion of each face.
     pub distortion: &'a [FaceDistortion],
 }
 
-/// Least and greatest side of a picture in pixels.
+/// Smallest and largest side of a picture in pixels.
 const SIDES: std::ops::RangeInclusive<u32> = 64..=4096;
 /// Most panels on a sheet; a note tells how many are left out.
 const MOST_PANELS: usize = 36;
-/// Share of a bounding square that is left free at each side.
+/// Free share of a bounding square at each side.
 const FRAME_MARGIN: f64 = 0.02;
 
-/// Thickness of chart borders in a picture of so many pixels.
+/// Returns the thickness of chart borders, in pixels, in a picture with a side of `pixels`.
 fn border_thickness(pixels: usize) -> f64 {
     1.4 * (pixels as f64 / 1024.0).clamp(0.75, 2.0)
 }
 
-/// The square of UV space that is drawn: the unit square if it holds all, else the bounding square.
+/// The square of UV space that is drawn: the unit square if it contains all UVs, else the bounding square.
 #[derive(Clone, Copy)]
 struct Frame {
     origin: [f64; 2],
@@ -68,7 +68,7 @@ impl Frame {
         }
     }
 
-    /// Where a UV lies in a picture of so many pixels, row 0 at the top.
+    /// Returns the position of a UV in a picture with a side of `pixels`, row 0 at the top.
     fn pixel(&self, uv: [f64; 2], pixels: usize, v_axis: VAxis) -> [f64; 2] {
         let [x, y] = [0, 1].map(|axis| (uv[axis] - self.origin[axis]) / self.side);
         let y = match v_axis {
@@ -83,11 +83,11 @@ fn is_finite(face: &CornerUvs) -> bool {
     face.as_flattened().iter().all(|x| x.is_finite())
 }
 
-/// How panels are drawn.
+/// Drawing style of panels.
 pub(super) struct Style<'a> {
     /// Color of a face that is not flipped, by its index.
     pub color: &'a dyn Fn(&Panel, usize) -> Rgb,
-    /// How such a face is laid on others.
+    /// Treatment of overlaps of such faces.
     pub mode: Mode,
 }
 
@@ -130,7 +130,7 @@ fn square(panel: &Panel, pixels: usize, v_axis: VAxis, style: &Style) -> Canvas 
     canvas
 }
 
-/// Edges between faces fade out where faces are too small to tell them apart.
+/// Returns the opacity of the edges of a face; they fade out where faces are too small to tell them apart.
 fn edge_opacity(corners: &[[f64; 2]; 3]) -> f32 {
     let [a, b, c] = corners;
     let doubled_area = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs();
@@ -139,9 +139,10 @@ fn edge_opacity(corners: &[[f64; 2]; 3]) -> f32 {
     (0.05 * (size - 3.0)).clamp(0.0, 0.38) as f32
 }
 
-/// Edges whose two ends no other face has: borders of charts.
+/// Returns the borders of charts: edges whose two ends no other face has.
 ///
-/// Compared by hash: with 64 bits two of a million edges collide once in a million pictures, and then a border is missing.
+/// Compared by hash: with 64 bits two of a million edges collide once in a million pictures, and then a border is
+/// missing.
 fn border_edges(uvs: &[CornerUvs]) -> Vec<[[f64; 2]; 2]> {
     let edge = |corner: usize| {
         let face = &uvs[corner / 3];
@@ -171,12 +172,13 @@ fn edge_hash(ends: [[f64; 2]; 2]) -> u64 {
     mix(point(ends[0]).wrapping_add(point(ends[1])))
 }
 
-/// Draws panels side by side under their names, or the only one alone.
+/// Draws panels side by side under their names; a single panel is drawn alone.
 pub(super) fn sheet(panels: &[Panel], size: u32, v_axis: VAxis, style: &Style) -> Canvas {
     let size = size.clamp(*SIDES.start(), *SIDES.end()) as usize;
     if let [panel] = panels {
         return square(panel, size, v_axis, style);
     }
+    // Size and grid of the sheet.
     let shown = panels.len().min(MOST_PANELS);
     let columns = (1..=MOST_PANELS).find(|c| c * c >= shown).unwrap_or(1);
     let rows = shown.div_ceil(columns).max(1);
@@ -190,6 +192,7 @@ pub(super) fn sheet(panels: &[Panel], size: u32, v_axis: VAxis, style: &Style) -
         .max(32);
     let cell = [pixels + margin, pixels + title + margin];
     let note = if shown < panels.len() { title } else { 0 };
+    // Panels with frames.
     let mut canvas = Canvas::new(columns * cell[0] + margin, rows * cell[1] + note + margin);
     for (k, panel) in panels.iter().take(shown).enumerate() {
         let (column, row) = (
@@ -204,6 +207,7 @@ pub(super) fn sheet(panels: &[Panel], size: u32, v_axis: VAxis, style: &Style) -
         let drawn = square(panel, pixels, v_axis, style);
         canvas.place(&drawn, column, row);
     }
+    // Names, and a note on panels that are left out.
     let mut titles = Lines::new(&canvas);
     for (k, panel) in panels.iter().take(shown).enumerate() {
         let (column, row) = (margin + k % columns * cell[0], k / columns * cell[1]);

@@ -1,13 +1,13 @@
-//! Filling triangles on a grid of samples, one or several to a pixel.
+//! Filling of triangles on a grid of samples, one or several per pixel.
 
 use std::ops::Range;
 
 use super::canvas::Canvas;
 use super::color::{BACKGROUND, INK, OVERLAP, Rgb, mix};
 
-/// Steps of a corner's coordinates to a sample.
+/// Steps of a corner's coordinates per sample.
 const STEPS: i64 = 256;
-/// Corners are moved to this far from the origin at most, in samples: products of two differences stay exact.
+/// Largest coordinate of corners after clamping, in samples: products of two differences stay exact.
 const FARTHEST: f64 = (1 << 20) as f64;
 /// Most samples along a side; bounds the memory of a picture.
 const MOST_SAMPLES: usize = 4096;
@@ -19,21 +19,21 @@ pub(super) struct Raster {
     side: usize,
     per_pixel: usize,
     colors: Vec<Rgb>,
-    /// Faces that cover each sample; stops at 2.
+    /// Number of faces that cover each sample; stops at 2.
     layers: Vec<u8>,
 }
 
-/// How a face is laid on what is there.
+/// Treatment of samples that are covered already.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Mode {
-    /// A sample covered before shows the overlap.
+    /// Shows an overlap.
     Counted,
-    /// Over everything.
+    /// Draws over everything.
     OnTop,
 }
 
 impl Raster {
-    /// Samples for a picture of `pixels` by `pixels`.
+    /// Creates the samples of a picture of `pixels` by `pixels`.
     pub fn new(pixels: usize) -> Self {
         let per_pixel = (MOST_SAMPLES / pixels.max(1)).clamp(1, 3);
         let side = pixels * per_pixel;
@@ -45,7 +45,7 @@ impl Raster {
         }
     }
 
-    /// Fills a triangle given in pixels. Its edges are drawn with the given opacity, each face drawing its half.
+    /// Fills a triangle given in pixels. Its edges are drawn with the given opacity; each face draws its half.
     pub fn fill(&mut self, corners: [[f64; 2]; 3], color: Rgb, edge_opacity: f32, mode: Mode) {
         let fixed = steps(corners.map(|p| p.map(|x| x * self.per_pixel as f64)));
         let edges = Edges::new(&fixed);
@@ -67,7 +67,7 @@ impl Raster {
         }
     }
 
-    /// Gives some samples of a row a color.
+    /// Colors some samples of a row.
     fn set(&mut self, row: usize, columns: Range<usize>, color: Rgb, mode: Mode) {
         let samples = row * self.side + columns.start..row * self.side + columns.end;
         let over = match mode {
@@ -104,13 +104,13 @@ impl Raster {
     }
 }
 
-/// Corners given in samples, rounded to steps.
+/// Rounds corners given in samples to steps.
 pub(crate) fn steps(corners: [[f64; 2]; 3]) -> [[i64; 2]; 3] {
     corners.map(|p| p.map(|x| (x.clamp(-FARTHEST, FARTHEST) * STEPS as f64).round() as i64))
 }
 
-/// The samples inside a triangle, row by row, on a grid of `size` columns and rows. Half open, so that a sample on a common edge
-/// belongs to one of two triangles.
+/// Iterates over the samples inside a triangle, row by row, on a grid of `size` columns and rows. Half open, so that a
+/// sample on a common edge belongs to one of two triangles.
 pub(crate) fn spans(
     mut corners: [[i64; 2]; 3],
     size: [usize; 2],
@@ -133,14 +133,14 @@ pub(crate) fn spans(
     })
 }
 
-/// Rows of samples at or above `low` and below `high`.
+/// Returns the rows of samples at or above `low` and below `high`.
 fn rows(low: i64, high: i64, side: usize) -> Range<usize> {
     let first = |y: i64| (y + STEPS / 2 - 1).div_euclid(STEPS).clamp(0, side as i64) as usize;
     first(low)..first(high)
 }
 
-/// First sample of row `y` at or right of the edge, whose ends are in ascending order of y: exact, and the same for
-/// both faces of an edge.
+/// Returns the first sample of row `y` at or to the right of an edge whose ends are in increasing order of y: exact,
+/// and equal for both faces of the edge.
 fn first_sample(a: [i64; 2], b: [i64; 2], y: i64) -> i64 {
     let height = (b[1] - a[1]).max(1);
     let x_times_height = a[0] * height + (b[0] - a[0]) * (y - a[1]);
@@ -152,7 +152,7 @@ fn first_sample(a: [i64; 2], b: [i64; 2], y: i64) -> i64 {
 
 /// Distances to the three lines of a triangle's edges.
 struct Edges {
-    /// Per edge a point on it and its unit normal.
+    /// Point and unit normal of each edge.
     lines: [([f64; 2], [f64; 2]); 3],
 }
 
@@ -168,7 +168,7 @@ impl Edges {
         Self { lines }
     }
 
-    /// Distances of the samples of a row.
+    /// Returns the distances along a row of samples.
     fn of_row(&self, row: usize) -> RowDistances {
         let step = STEPS as f64;
         let y = (row as f64 + 0.5) * step;
@@ -182,12 +182,12 @@ impl Edges {
 
 /// Signed distances to three lines along a row of samples, in samples.
 struct RowDistances {
-    /// Per line the distance of the first sample, and what each further one adds.
+    /// Distance of the first sample, and the step to each further one, per line.
     lines: [(f64, f64); 3],
 }
 
 impl RowDistances {
-    /// Distance of a sample inside to the nearest edge.
+    /// Returns the distance of a sample inside to the nearest edge.
     fn at(&self, column: usize) -> f64 {
         let column = column as f64;
         let distances = self
@@ -196,7 +196,7 @@ impl RowDistances {
         distances[0].min(distances[1]).min(distances[2])
     }
 
-    /// Samples, of some inside, that are at least so far from all edges; perhaps not all of them.
+    /// Returns samples, among some inside, that are at least `least` from all edges; may miss some of them.
     fn farther(&self, columns: &Range<usize>, least: f64) -> Range<usize> {
         let middle = usize::midpoint(columns.start, columns.end) as f64;
         let (mut low, mut high) = (columns.start as f64, columns.end as f64);

@@ -1,4 +1,4 @@
-//! What a heat map shows, and the colors of its values.
+//! Color scale of a heat map.
 use super::color::{self, NO_VALUE, Rgb};
 use super::panel::Panel;
 use serde::{Deserialize, Serialize};
@@ -19,7 +19,7 @@ pub enum HeatmapMeasure {
 }
 
 impl HeatmapMeasure {
-    /// The value of a face; infinite for one without area.
+    /// Returns the value of a face; infinite for one without area.
     pub(super) fn value(self, face: &FaceDistortion) -> f64 {
         match self {
             Self::Conformal => face.conformal,
@@ -28,7 +28,7 @@ impl HeatmapMeasure {
         }
     }
 
-    /// The value of an isometry.
+    /// Returns the value of an isometry.
     pub(super) fn ideal(self) -> f64 {
         match self {
             Self::Conformal | Self::Area => 1.0,
@@ -45,20 +45,20 @@ impl HeatmapMeasure {
     }
 }
 
-/// From values to colors: logarithmic from the ideal value to `greatest`.
+/// Color scale: logarithmic from the ideal value to `greatest`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scale {
     pub ideal: f64,
     pub greatest: f64,
 }
 
-/// Ends of scales, as multiples of the ideal value.
+/// Possible ends of scales, as multiples of the ideal value.
 const ENDS: [f64; 12] = [
     1.2, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 1e3, 1e4, 1e6,
 ];
 
 impl Scale {
-    /// The shortest scale that holds 99 % of the drawn area.
+    /// Chooses the shortest scale that contains 99 % of the drawn area.
     pub fn new(panels: &[Panel], measure: HeatmapMeasure) -> Self {
         let mut values: Vec<(f64, f64)> = panels
             .iter()
@@ -80,7 +80,7 @@ impl Scale {
         Self { ideal, greatest }
     }
 
-    /// Where on the scale a value lies, in [0, 1].
+    /// Returns the position of a value on the scale, in [0, 1].
     pub fn position(&self, value: f64) -> f64 {
         ((value / self.ideal).ln() / (self.greatest / self.ideal).ln()).clamp(0.0, 1.0)
     }

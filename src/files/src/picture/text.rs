@@ -1,13 +1,13 @@
-//! Letters and digits as strokes, for titles and legends.
+//! Stroke letters and digits for titles and legends.
 use super::canvas::Lines;
 
-/// Height of capital letters and digits in units of the strokes.
+/// Height of capital letters and digits, in units of the strokes.
 const UNITS: f64 = 6.0;
-/// Space between two letters.
+/// Space between two letters, in units of the strokes.
 const GAP: f64 = 2.0;
 
-/// Polylines of a letter, separated by blanks; each point is two digits, x to the right and y down from the top line.
-/// The base line is y = 6. Capitals are drawn as small letters, what is not known as a box.
+/// Returns the polylines of a letter, separated by blanks; each point is two digits, x to the right and y down from the
+/// top line. The base line is y = 6. Capitals are drawn as small letters, unknown characters as a box.
 #[rustfmt::skip]
 fn strokes(letter: char) -> &'static str {
     match letter.to_ascii_lowercase() {
@@ -42,7 +42,7 @@ fn letter_width(letter: char) -> f64 {
     widest.fold(if letter == ' ' { 1.0 } else { 0.0 }, f64::max)
 }
 
-/// Width of a line of text whose digits are `height` pixels high.
+/// Returns the width of a line of text whose digits are `height` pixels high.
 pub(super) fn width(text: &str, height: f64) -> f64 {
     let units: f64 = text.chars().map(|letter| letter_width(letter) + GAP).sum();
     (units - GAP).max(0.0) * height / UNITS

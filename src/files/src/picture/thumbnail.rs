@@ -4,10 +4,10 @@ use super::{Image, ImageError};
 use image::RgbaImage;
 use image::imageops;
 
-/// Pixels of the shorter side: of a sheet of several squares, each is seen.
+/// Length of the shorter side in pixels: on a sheet of several squares, each remains visible.
 const SIDE: u32 = 72;
 
-/// A PNG of a picture, small; one that is small already keeps its size.
+/// Returns a small PNG of a picture; one that is already small keeps its size.
 pub fn thumbnail_png(picture: &[u8]) -> Result<Vec<u8>, ImageError> {
     let image = Image::decode(picture)?;
     let [width, height] = [image.width as u32, image.height as u32];

@@ -1,36 +1,37 @@
 //! Pictures deformed with a mesh.
 //!
-//! Each deformed triangle is filled with what its rest shape covers: the center of every pixel in it is mapped back by the
-//! triangle's affine map, and the picture sampled there. Where the picture shrinks, a coarser copy of it is taken by the smaller
-//! of the two scales, and several samples along the direction of the greater one, as graphics hardware does. Colors are mixed as
-//! they are stored (sRGB), premultiplied by alpha, so that transparent pixels lend no color.
+//! Each deformed triangle is filled with the content of its rest shape: the center of every pixel in it is mapped back
+//! by the triangle's affine map, and the picture is sampled there. Where the picture shrinks, a coarser copy is chosen
+//! by the smaller of the two scales, and several samples are taken along the direction of the greater one, as graphics
+//! hardware does. Colors are mixed as stored (sRGB), premultiplied by alpha, so that transparent pixels contribute no
+//! color.
 
 use super::mipmaps::{Mipmaps, Premultiplied, mix};
 use super::raster::{spans, steps};
 use super::{Image, ImageError};
 use unwrapd_method::numerics::vec2::{cross, sub};
 
-/// Samples of a pixel at most; a shrinking by more in one direction only is undersampled.
+/// Most samples per pixel; stronger shrinking in one direction only is undersampled.
 const MOST_SAMPLES: f64 = 16.0;
-/// Longest side of a warped picture, and the most pixels in it.
+/// Longest side of a warped picture, and most pixels in it.
 const LONGEST: f64 = 65_536.0;
 const MOST_PIXELS: f64 = 1e8;
 
-/// Triangles over a picture in pixels, (0, 0) its upper left corner, and where they go.
+/// Triangles over a picture in pixels, with (0, 0) at its upper left corner, and their deformed positions.
 #[derive(Clone, Copy, Debug)]
 pub struct Deformation<'a> {
     /// Vertices on the picture.
     pub rest: &'a [[f64; 2]],
-    /// The same vertices afterward; finite.
+    /// Positions of these vertices afterward; finite.
     pub deformed: &'a [[f64; 2]],
-    /// Three vertices each.
+    /// Three vertices per triangle.
     pub triangles: &'a [[u32; 3]],
 }
 
-/// What part of the plane a warped picture shows.
+/// Part of the plane that a warped picture shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
-    /// What the picture showed.
+    /// The area of the original picture.
     Source,
     /// The whole deformed mesh.
     Mesh,
@@ -39,13 +40,13 @@ pub enum Extent {
 /// A warped picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warped {
-    /// Its pixels; transparent where no triangle is.
+    /// Pixels; transparent where there is no triangle.
     pub image: Image,
-    /// Where its upper left corner lies, in pixels of the original.
+    /// Position of the upper left corner, in pixels of the original.
     pub origin: [i64; 2],
 }
 
-/// The picture under a deformation. A triangle covers the pixels whose centers it has; later ones lie over earlier ones.
+/// Warps the picture. A triangle covers the pixels whose centers it contains; later ones lie over earlier ones.
 pub fn warped(
     image: &Image,
     deformation: &Deformation,
@@ -81,7 +82,7 @@ pub fn warped(
     })
 }
 
-/// The upper left corner and the empty picture.
+/// Returns the upper left corner and the empty picture.
 fn frame(
     image: &Image,
     deformed: &[[f64; 2]],
@@ -113,12 +114,12 @@ fn frame(
 struct Inverse {
     rest: [f64; 2],
     deformed: [f64; 2],
-    /// Where a step to the right and a step down go.
+    /// Images of a step to the right and of a step down.
     columns: [[f64; 2]; 2],
 }
 
 impl Inverse {
-    /// `None` where the deformed triangle has no area.
+    /// Creates the map; returns `None` if the deformed triangle has no area.
     fn new(rest: [[f64; 2]; 3], deformed: [[f64; 2]; 3]) -> Option<Self> {
         let [u, v] = [1, 2].map(|k| sub(deformed[k], deformed[0]));
         let [p, q] = [1, 2].map(|k| sub(rest[k], rest[0]));
@@ -143,11 +144,11 @@ impl Inverse {
     }
 }
 
-/// What of the picture one pixel shows.
+/// The part of the picture that one pixel shows.
 struct Footprint {
     level: usize,
     n_samples: usize,
-    /// From the first sample to the end of the last one's share.
+    /// Vector from the first sample to the end of the last one's share.
     along: [f64; 2],
 }
 
@@ -187,7 +188,7 @@ impl Footprint {
     }
 }
 
-/// The pixel as a picture holds it.
+/// Converts a pixel to its stored form.
 fn stored([r, g, b, a]: Premultiplied) -> [u8; 4] {
     let byte = |x: f32| (x * 255.0).round() as u8;
     if a <= 0.0 {

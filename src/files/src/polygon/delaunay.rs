@@ -3,7 +3,7 @@
 use spade::handles::{DirectedEdgeHandle, FixedDirectedEdgeHandle, FixedVertexHandle};
 use spade::{CdtEdge, ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 
-/// A position of the polygon; several corners may be there.
+/// A position of the polygon, shared by one or more corners.
 struct Site {
     position: Point2<f64>,
     first_corner: usize,
@@ -20,15 +20,16 @@ impl HasPosition for Site {
 type Cdt = ConstrainedDelaunayTriangulation<Site>;
 type Edge<'a> = DirectedEdgeHandle<'a, Site, (), CdtEdge<()>, ()>;
 
-/// Of no corner, of no side.
+/// No corner, or no side.
 const NONE: u32 = u32::MAX;
 
-/// Appends the n − 2 triangles of a counter-clockwise polygon, as indices of its corners; `None`, and anything appended, where
-/// it is not simple: where sides cross, lie on each other in one direction, or pass through corners.
+/// Appends the n − 2 triangles of a counter-clockwise polygon, as indices of its corners. Returns `None`, after
+/// arbitrary additions, if it is not simple: if sides cross, lie on each other in one direction, or pass through
+/// corners.
 ///
-/// Each corner has the triangles of the wedge between its two sides. That these are inside, that no other side begins in
-/// the wedge, and that every corner of every triangle is in just one wedge, is what makes the union of the triangles have the
-/// polygon's sides, and no others, as its boundary.
+/// Each corner gets the triangles of the wedge between its two sides. These are inside, no other side begins in the
+/// wedge, and every corner of every triangle is in just one wedge: therefore the boundary of the union of the triangles
+/// consists of exactly the polygon's sides.
 pub(super) fn fill(points: &[[f64; 2]], triangles: &mut Vec<[u32; 3]>) -> Option<()> {
     let n = points.len();
     let (sites, site_of) = sites(points);
@@ -66,7 +67,7 @@ pub(super) fn fill(points: &[[f64; 2]], triangles: &mut Vec<[u32; 3]>) -> Option
     (n_triangles == n - 2).then_some(())
 }
 
-/// The positions, each once, and for each corner the first one at its position.
+/// Returns the positions, each once, and for each corner the first one at its position.
 fn sites(points: &[[f64; 2]]) -> (Vec<Site>, Vec<usize>) {
     let mut order: Vec<usize> = (0..points.len()).collect();
     let position = |k: usize| {
@@ -97,7 +98,7 @@ fn sites(points: &[[f64; 2]]) -> (Vec<Site>, Vec<usize>) {
     (sites, site_of)
 }
 
-/// Adds the sides of the polygon, each from a corner to the next; `None` where one is not a single edge.
+/// Adds the sides of the polygon, each from a corner to the next; returns `None` if one is not a single edge.
 fn add_sides(cdt: &mut Cdt, site_of: &[usize]) -> Option<Vec<FixedDirectedEdgeHandle>> {
     let n = site_of.len();
     let mut vertex_of = vec![FixedVertexHandle::from_index(0); n];
@@ -116,8 +117,9 @@ fn add_sides(cdt: &mut Cdt, site_of: &[usize]) -> Option<Vec<FixedDirectedEdgeHa
     Some(sides)
 }
 
-/// Turns counter-clockwise from a side to the next side that begins at its origin, which is returned, and gives all triangles
-/// between them the corner; `None` where that leads outside or to a triangle that has one.
+/// Turns counter-clockwise from a side to the next side that begins at its origin, assigns the corner to all triangles
+/// between them, and returns that side. Returns `None` if that leads outside or to a triangle that already has a
+/// corner.
 fn walk_wedge<'a>(side: Edge<'a>, corner: u32, corner_of: &mut [u32]) -> Option<Edge<'a>> {
     let mut edge = side;
     loop {

@@ -1,30 +1,31 @@
 //! Triangles inside polygons.
 //!
-//! A polygon of n corners becomes n − 2 triangles between its corners, wound as it is: a quad by the one of its diagonals
-//! that lies inside and folds less, larger ones by the constrained Delaunay triangulation (`spade`) of their projection
-//! onto the plane of their Newell normal, the mean plane of a polygon that is not flat. No vertex is added, and corners in
-//! the middle of a straight side are corners of triangles of positive area like all others. A polygon may touch itself, as
-//! one does that leads to a hole and back along a bridge: triangles belong to corners, not to positions.
+//! A polygon of n corners becomes n − 2 triangles between its corners, with its winding. A quad is split by the
+//! diagonal that lies inside and folds less; larger polygons get the constrained Delaunay triangulation (`spade`) of
+//! their projection onto the plane of their Newell normal, the mean plane of a polygon that is not flat. No vertex is
+//! added, and corners in the middle of a straight side are corners of triangles of positive area like all others. A
+//! polygon may touch itself, for example if it leads to a hole and back along a bridge: triangles belong to corners,
+//! not to positions.
 //!
-//! What crosses itself in that projection or has no area has no inside: it becomes the fan of its first corner, and
-//! that is said ([`Filling::Fan`]). Nothing here looks beyond one polygon.
+//! A polygon that crosses itself in that projection or has no area has no inside: it becomes the fan of its first
+//! corner, which is reported ([`Filling::Fan`]). Nothing here looks beyond one polygon.
 mod delaunay;
 mod plane;
 mod quad;
 
-/// How a polygon became triangles.
+/// Method by which a polygon became triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Filling {
-    /// By triangles that cover its inside once.
+    /// Triangles that cover its inside once.
     Inside,
-    /// By the fan of its first corner: it crosses itself or has no area.
+    /// The fan of its first corner: it crosses itself or has no area.
     Fan,
 }
 
-/// Appends the triangles of a polygon, as indices of its corners; fewer than three corners have none.
+/// Appends the triangles of a polygon, as indices of its corners; fewer than three corners have no triangles.
 ///
-/// The smallest index of a triangle comes first, and triangles ascend: a fan stays in its order, and equal corners give equal
-/// triangles. A corner at the position of the one before it gets a triangle that has no area.
+/// The smallest index of a triangle comes first, and triangles are sorted: a fan keeps its order, and equal corners
+/// give equal triangles. A corner at the position of the one before it gets a triangle without area.
 pub fn triangulate(corners: &[[f64; 3]], triangles: &mut Vec<[u32; 3]>) -> Filling {
     let n = corners.len();
     if n < 4 {
@@ -45,7 +46,7 @@ pub fn triangulate(corners: &[[f64; 3]], triangles: &mut Vec<[u32; 3]>) -> Filli
     Filling::Fan
 }
 
-/// The same triangle, begun at its smallest corner.
+/// Rotates a triangle so that it begins at its smallest corner.
 pub fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
     match a.min(b).min(c) {
         first if first == a => [a, b, c],
@@ -54,7 +55,7 @@ pub fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
     }
 }
 
-/// The triangles of the inside, in any order.
+/// Appends the triangles of the inside, in any order; `None` if there is no inside.
 fn fill(corners: &[[f64; 3]], triangles: &mut Vec<[u32; 3]>) -> Option<()> {
     let n = corners.len();
     let repeats = |k: usize| corners[k] == corners[(k + n - 1) % n];
@@ -80,7 +81,7 @@ fn fill(corners: &[[f64; 3]], triangles: &mut Vec<[u32; 3]>) -> Option<()> {
     Some(())
 }
 
-/// The same for a polygon without sides of length zero.
+/// Like [`fill`], for a polygon without sides of length zero.
 fn fill_distinct(corners: &[[f64; 3]], triangles: &mut Vec<[u32; 3]>) -> Option<()> {
     match corners {
         [a, b, c, d] => triangles.extend(quad::fill([*a, *b, *c, *d])?),

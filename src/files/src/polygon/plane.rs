@@ -2,18 +2,18 @@
 
 use unwrapd_method::numerics::vec3::{cross, dot, norm, perpendicular, sub, unit};
 
-/// Of the square of a polygon's extent, what its area has to be at least: below lies what rounding makes of none.
+/// Least area of a polygon, as a share of its squared extent: smaller areas are rounding errors of zero.
 const LEAST_AREA: f64 = 1e-12;
 
-/// The corners seen from the first, in units of a power of two no smaller than the largest coordinate; `None` where there
-/// is no such power.
+/// Returns the corners relative to the first, in units of a power of two no smaller than the largest coordinate; `None`
+/// if there is no such power.
 pub(super) fn scaled<const N: usize>(corners: &[[f64; 3]; N]) -> Option<[[f64; 3]; N]> {
     let frame = Frame::of(corners)?;
     Some(corners.map(|p| frame.enter(p)))
 }
 
-/// The corners in their mean plane, seen from the side from which they turn counter-clockwise; `None` where they have no
-/// area. Exact where the plane is that of two axes.
+/// Returns the corners in their mean plane, seen from the side from which they turn counter-clockwise; `None` if they
+/// have no area. Exact if the plane is that of two axes.
 pub(super) fn flattened(corners: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
     let frame = Frame::of(corners)?;
     let corners: Vec<[f64; 3]> = corners.iter().map(|&p| frame.enter(p)).collect();
@@ -32,7 +32,8 @@ pub(super) fn flattened(corners: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
     )
 }
 
-/// Twice the sum of the areas under all edges, as a vector: across the plane that the polygon has the most area in (Newell).
+/// Returns twice the sum of the areas under all edges, as a vector: normal to the plane in which the polygon has the
+/// most area (Newell).
 fn newell_normal(corners: &[[f64; 3]]) -> [f64; 3] {
     let mut normal = [0.0; 3];
     let following = corners.iter().cycle().skip(1);
@@ -45,7 +46,7 @@ fn newell_normal(corners: &[[f64; 3]]) -> [f64; 3] {
     normal
 }
 
-/// Where a polygon lies and how large it is.
+/// Position and scale of a polygon.
 struct Frame {
     origin: [f64; 3],
     scale: f64,

@@ -1,25 +1,26 @@
-//! Quads by the better of their two diagonals.
+//! Quads split by the better of their two diagonals.
 
 use super::plane::scaled;
 use unwrapd_method::numerics::vec3::{cross, dot, norm, sub};
 
-/// Of the quad's area, what each of two triangles has to have for the fold alone to decide: thinner ones are made where
-/// three corners are nearly on a line.
+/// Least area of each of two triangles, as a share of the quad's area, for the fold alone to decide: thinner ones arise
+/// if three corners are nearly collinear.
 const THIN: f64 = 1e-6;
-/// By how much the cosine of the fold has to be better than that of the first diagonal: a tenth of a degree, above what rounding
-/// makes of a flat quad.
+/// Least improvement in the cosine of the fold over the first diagonal: a tenth of a degree, above the rounding errors
+/// of a flat quad.
 const FLATTER: f64 = 1e-6;
 
-/// What is on both sides of a diagonal.
+/// The triangles on both sides of a diagonal.
 struct Halves {
-    /// The smaller triangle's share of the quad's area, seen along the quad's normal; negative where the diagonal is outside.
+    /// The smaller triangle's share of the quad's area, seen along the quad's normal; negative if the diagonal is
+    /// outside.
     least_share: f64,
-    /// The cosine of the angle between the triangles' normals.
+    /// Cosine of the angle between the triangles' normals.
     flatness: f64,
 }
 
-/// Two triangles: by the diagonal of the first corner, unless the other lies inside where it does not, or folds less. `None`
-/// where neither lies inside.
+/// Returns two triangles: split by the diagonal of the first corner, unless only the other lies inside, or it folds
+/// less. `None` if neither lies inside.
 pub(super) fn fill(corners: [[f64; 3]; 4]) -> Option<[[u32; 3]; 2]> {
     let [a, b, c, d] = scaled(&corners)?;
     let first = Halves::new(area(a, b, c), area(a, c, d));
@@ -48,7 +49,7 @@ impl Halves {
     }
 }
 
-/// Twice the area of a triangle, as a vector along its normal.
+/// Returns twice the area of a triangle, as a vector along its normal.
 fn area(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> [f64; 3] {
     cross(sub(b, a), sub(c, a))
 }

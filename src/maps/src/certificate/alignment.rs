@@ -1,10 +1,10 @@
-//! Whether charts end where texels end.
+//! Alignment of charts with texel borders.
 
 use super::topology::UvTopology;
 use crate::mesh::Resolution;
 
-/// The charts whose bounding rectangle does not lie on borders of texels of a texture of `resolution`, exactly: f32 times a
-/// whole number below 2²⁸ is exact in f64.
+/// Counts the charts whose bounding rectangle does not lie on texel borders of a texture of `resolution`, exactly: f32
+/// times an integer below 2²⁸ is exact in f64.
 pub(super) fn unaligned_charts(topology: &UvTopology, resolution: Resolution) -> usize {
     let texels = [resolution.width, resolution.height].map(f64::from);
     let is_border = |uv: &[f64; 2]| (0..2).all(|axis| (uv[axis] * texels[axis]).fract() == 0.0);
@@ -13,7 +13,7 @@ pub(super) fn unaligned_charts(topology: &UvTopology, resolution: Resolution) ->
         .count()
 }
 
-/// The smallest and greatest coordinates of every chart that has faces to judge.
+/// Iterates over the smallest and greatest coordinates of every chart that has faces to judge.
 pub(super) fn chart_bounds(topology: &UvTopology) -> impl Iterator<Item = [[f64; 2]; 2]> {
     let n_charts = topology.charts.nonorientable.len();
     let mut bounds: Vec<Option<[[f64; 2]; 2]>> = vec![None; n_charts];

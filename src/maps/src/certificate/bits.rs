@@ -1,4 +1,4 @@
-//! Whether a map holds when it is rounded to a number of bits.
+//! Stability of a map under rounding to a number of bits.
 
 use super::NAMED;
 use super::boundary::ChartBoundary;
@@ -54,7 +54,8 @@ pub(super) fn judge_bits(
     }
 }
 
-/// The coarsest of 16, 14 and 12 bits at which a bijective map holds whose orientations are kept at `grid_bits`.
+/// Returns the coarsest of 16, 14 and 12 bits at which a bijective map stays so, given that its orientations are kept
+/// at `grid_bits`.
 pub(super) fn coarsest_safe_bits(boundary: &ChartBoundary, grid_bits: u32) -> Option<u32> {
     let levels = LEVELS.into_iter().filter(|&bits| bits >= grid_bits);
     levels.into_iter().find(|&bits| {

@@ -1,4 +1,4 @@
-//! The edges of charts.
+//! Boundaries of charts.
 
 use super::box_tree::{Bounds, BoxTree, Visit, search_budget};
 use super::edges::Start;
@@ -7,25 +7,25 @@ use unwrapd_method::numerics::predicates::orient2d_sign;
 
 pub(crate) type Segment = [[f64; 2]; 2];
 
-/// An edge that has a face of its chart on one side only.
+/// An edge with a face of its chart on one side only.
 #[derive(Clone, Copy)]
 pub(crate) struct BoundaryEdge {
     pub face: u32,
     pub chart: u32,
-    /// The welded vertices of its ends.
+    /// Welded vertices of its ends.
     pub vertices: [u32; 2],
-    /// The UVs of its ends.
+    /// UVs of its ends.
     pub uvs: Segment,
 }
 
-/// The edges around all charts.
+/// Boundary edges of all charts.
 pub(crate) struct ChartBoundary {
     pub edges: Vec<BoundaryEdge>,
 }
 
 impl ChartBoundary {
-    /// The edges around the faces that count: those on which not just two faces meet with equal UVs. Where two meet whose
-    /// UVs agree only within the tolerance of charts, each has an edge of its own.
+    /// Collects the boundary edges of the faces that count: edges at which more or less than two faces meet with equal
+    /// UVs. Two faces whose UVs agree only within the tolerance of charts get an edge each.
     pub fn new(topology: &UvTopology, counts: impl Fn(u32) -> bool) -> ChartBoundary {
         let mut edges = Vec::new();
         let mut first = 0;
@@ -55,7 +55,7 @@ impl ChartBoundary {
         ChartBoundary { edges }
     }
 
-    /// The same with other units along the axes.
+    /// Scales the UVs along the axes.
     pub fn scaled(&self, by: [f64; 2]) -> ChartBoundary {
         let scaled = |edge: &BoundaryEdge| BoundaryEdge {
             uvs: edge.uvs.map(|[u, v]| [u * by[0], v * by[1]]),
@@ -78,7 +78,7 @@ impl ChartBoundary {
             })
     }
 
-    /// The smallest distance between edges of two charts, infinite when there is one chart.
+    /// Returns the smallest distance between edges of two charts, infinite if there is only one chart.
     pub fn closest(&self) -> (f64, Visit) {
         let charts: Vec<u32> = self.edges.iter().map(|edge| edge.chart).collect();
         self.tree(0.0)
@@ -102,7 +102,7 @@ fn bounds([a, b]: &Segment, margin: f64) -> Bounds {
     ]
 }
 
-/// The distance of two segments, rounded; 0 when they cross.
+/// Returns the distance of two segments, rounded; 0 if they cross.
 pub(crate) fn segment_distance([a, b]: Segment, [c, d]: Segment) -> f64 {
     let crosses = |a, b, c, d| orient2d_sign(a, b, c) * orient2d_sign(a, b, d) < 0;
     if crosses(a, b, c, d) && crosses(c, d, a, b) {

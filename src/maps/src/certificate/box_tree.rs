@@ -1,9 +1,9 @@
-//! Which of many boxes meet: a tree of bounding boxes over Morton order, in plane and space.
+//! A tree of bounding boxes in Morton order for finding boxes that meet, in plane and space.
 
 /// Smallest and greatest coordinates of a box.
 pub(crate) type Bounds<const D: usize = 2> = [[f64; D]; 2];
 
-/// Whether a search saw everything.
+/// Completeness of a search.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Visit {
     Complete,
@@ -11,8 +11,8 @@ pub(crate) enum Visit {
     Truncated,
 }
 
-/// How many box comparisons a search over `n` boxes may take: a few seconds' worth when every pair has to be looked at.
-/// Boxes that hardly overlap, however unequal, need some 20 each; only faces that lie in heaps come near it.
+/// Returns the budget of box comparisons for a search over `n` boxes: a few seconds' worth if every pair must be
+/// compared. Boxes that hardly overlap, however unequal, need about 20 each; only heaps of faces come near the budget.
 pub(crate) fn search_budget(n: usize) -> u64 {
     50_000_000 + 100 * n as u64
 }
@@ -20,19 +20,19 @@ pub(crate) fn search_budget(n: usize) -> u64 {
 /// Boxes per leaf: testing a handful outright is cheaper than descending further.
 const LEAF: usize = 4;
 
-/// The box of some points; of none, one that encloses nothing and meets nothing.
+/// Returns the box of some points; without points, a box that encloses and meets nothing.
 pub(crate) fn bounds_of<const D: usize>(points: &[[f64; D]]) -> Bounds<D> {
     let nothing = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
     points.iter().fold(nothing, |b, &p| union(b, &[p, p]))
 }
 
-/// A box larger by the least amount on every side: what touched it now meets it.
+/// Enlarges a box by the least amount on every side: boxes that touched it now meet it.
 pub(crate) fn enlarged<const D: usize>([low, high]: Bounds<D>) -> Bounds<D> {
     [low.map(f64::next_down), high.map(f64::next_up)]
 }
 
-/// A complete binary tree over boxes in Morton order of their centers; the children of node `i` are `2i` and `2i + 1`, the
-/// root is 1.
+/// A complete binary tree over boxes in Morton order of their centers; the children of node `i` are `2i` and `2i + 1`,
+/// the root is 1.
 pub(crate) struct BoxTree<const D: usize = 2> {
     items: Vec<u32>,
     boxes: Vec<Bounds<D>>,
@@ -85,7 +85,7 @@ impl<const D: usize> BoxTree<D> {
         Visit::Complete
     }
 
-    /// Visits every box whose interior meets this one's, in a fixed order.
+    /// Visits every box whose interior meets that of `bounds`, in a fixed order.
     pub fn meeting(&self, bounds: &Bounds<D>, mut visit: impl FnMut(u32)) {
         let leaves = self.nodes.len() / 2;
         let mut stack = vec![1];
@@ -118,9 +118,9 @@ impl<const D: usize> BoxTree<D> {
         (leaf * LEAF).min(end)..((leaf + 1) * LEAF).min(end)
     }
 
-    /// The smallest distance between two items of different groups, infinite when there is only one group.
+    /// Returns the smallest distance between two items of different groups, infinite if there is only one group.
     ///
-    /// `distance` of two items is never less than the distance of their boxes. Works through at most `budget` comparisons.
+    /// `distance` of two items is never less than the distance of their boxes. Makes at most `budget` comparisons.
     pub fn closest(
         &self,
         groups: &[u32],
@@ -152,7 +152,7 @@ impl<const D: usize> BoxTree<D> {
         (best, Visit::Truncated)
     }
 
-    /// The smaller of `best` and the smallest distance between items of two leaves that differ in group.
+    /// Returns the smaller of `best` and the smallest distance between items of two leaves that differ in group.
     fn closest_in_leaves(
         &self,
         [a, b]: [usize; 2],
@@ -172,7 +172,7 @@ impl<const D: usize> BoxTree<D> {
         best
     }
 
-    /// The group all items below a node belong to, if it is one.
+    /// Returns for each node the group of all items below it, if it is only one.
     fn groups_of_nodes(&self, groups: &[u32]) -> Vec<Option<u32>> {
         let leaves = self.nodes.len() / 2;
         let mut of_node = vec![None; 2 * leaves];
@@ -189,7 +189,7 @@ impl<const D: usize> BoxTree<D> {
     }
 }
 
-/// The pairs of children of a pair of nodes, each once also when the two are one.
+/// Iterates over the pairs of children of a pair of nodes, each once, also if the two nodes are one.
 fn children(a: usize, b: usize) -> impl Iterator<Item = (usize, usize)> {
     let across = [(2 * a, 2 * b), (2 * a, 2 * b + 1), (2 * a + 1, 2 * b + 1)];
     across
@@ -197,7 +197,7 @@ fn children(a: usize, b: usize) -> impl Iterator<Item = (usize, usize)> {
         .chain((a != b).then_some((2 * a + 1, 2 * b)))
 }
 
-/// The smallest box around two.
+/// Returns the smallest box around two.
 pub(crate) fn union<const D: usize>(a: Bounds<D>, b: &Bounds<D>) -> Bounds<D> {
     let axis = std::array::from_fn::<usize, D, _>(|axis| axis);
     [
@@ -206,7 +206,7 @@ pub(crate) fn union<const D: usize>(a: Bounds<D>, b: &Bounds<D>) -> Bounds<D> {
     ]
 }
 
-/// Whether the interiors of two boxes meet.
+/// Returns whether the interiors of two boxes meet.
 pub(crate) fn meet<const D: usize>(a: &Bounds<D>, b: &Bounds<D>) -> bool {
     (0..D).all(|axis| a[0][axis] < b[1][axis] && b[0][axis] < a[1][axis])
 }
@@ -220,7 +220,7 @@ fn box_distance<const D: usize>(a: &Bounds<D>, b: &Bounds<D>) -> f64 {
     (0..D).map(gap).fold(0.0, f64::hypot)
 }
 
-/// Place of a box's center on the Z-order curve over `whole`, the sides cut into 2^(64/D) cells.
+/// Returns the place of a box's center on the Z-order curve over `whole`, whose sides are cut into 2^(64/D) cells.
 fn morton<const D: usize>(b: &Bounds<D>, whole: &Bounds<D>) -> u64 {
     let bits = 64 / D;
     let cell: [u64; D] = std::array::from_fn(|axis| {

@@ -3,13 +3,13 @@
 /// Two faces that share an edge in UV space.
 pub(crate) struct Link {
     pub faces: [u32; 2],
-    /// Whether both run along the edge the same way, that is, are wound against each other.
+    /// `true` if both faces run along the edge in the same direction, that is, are wound against each other.
     pub same_direction: bool,
 }
 
 /// Components of linked faces.
 pub(crate) struct Charts {
-    /// The chart of every face, numbered in the order of their first faces.
+    /// Chart of every face, numbered in the order of their first faces.
     pub of_face: Vec<u32>,
     /// For each chart, whether its winding contradicts itself (a Möbius strip in one piece).
     pub nonorientable: Vec<bool>,
@@ -52,7 +52,7 @@ impl Charts {
     }
 }
 
-/// Union–find whose links carry a sign: whether a face is wound against its parent.
+/// Union–find whose links carry a sign: `true` for a face that is wound against its parent.
 struct Forest {
     parent: Vec<u32>,
     reversed: Vec<bool>,
@@ -60,7 +60,7 @@ struct Forest {
 }
 
 impl Forest {
-    /// The root of `face` and whether `face` is wound against it; halves the path on the way.
+    /// Returns the root of `face` and whether `face` is wound against it; halves the path on the way.
     fn root(&mut self, mut face: u32) -> (u32, bool) {
         let mut against = false;
         loop {

@@ -1,4 +1,4 @@
-//! What a certificate is asked to speak of.
+//! Claims that a certificate is asked to judge.
 
 use crate::mesh::{Resolution, VAxis};
 use serde::{Deserialize, Serialize};
@@ -15,29 +15,29 @@ pub enum Overlap {
     Test,
 }
 
-/// A distance that charts shall keep: so many texels of a texture.
+/// A distance to keep between charts, in texels of a texture.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Padding {
-    /// The distance, in texels.
+    /// Distance, in texels.
     pub texels: u32,
     /// The texture, which covers the unit square; one with [`Resolution::is_regular`].
     pub resolution: Resolution,
 }
 
-/// What is judged beside the orientation of every face.
+/// Claims to judge in addition to the orientation of every face.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Claims {
-    /// Whether faces are tested against each other. What follows is only judged if they are.
+    /// Enables tests of faces against each other, which all following claims need.
     pub overlap: Overlap,
-    /// The distance of charts to judge.
+    /// Distance of charts to judge.
     pub padding: Option<Padding>,
-    /// The texture of a unit square at the borders of whose texels charts shall end.
+    /// Texture of the unit square on whose texel borders charts are to end.
     pub aligned: Option<Resolution>,
-    /// The pages side by side of which each chart shall lie on one.
+    /// Number of pages side by side; each chart is to lie on one of them.
     pub pages: Option<u32>,
-    /// The bits that the map shall hold at.
+    /// Number of bits at which the map is to hold.
     pub bits: Option<u32>,
-    /// Where v points, which tells mirrored charts.
+    /// Direction of v, which decides which charts are mirrored.
     pub v_axis: VAxis,
 }
 

@@ -23,9 +23,10 @@ pub struct Crossings {
 
 /// Counts the pairs of triangles whose relative interiors meet, by exact predicates.
 ///
-/// Triangles that share a vertex or an edge, by index or by equal positions, therefore count only if they cross elsewhere, and
-/// so do those that touch: a vertex on a face, an edge on an edge. Coplanar triangles count if they overlap. Triangles of zero
-/// area cross nothing; neither do those with a coordinate that is not finite or an index out of range.
+/// Triangles that share a vertex or an edge, by index or by equal positions, or that only touch (a vertex on a face, an
+/// edge on an edge), therefore count only if they also cross elsewhere. Coplanar triangles count if they overlap.
+/// Triangles of zero area cross nothing; neither do those with a coordinate that is not finite or an index out of
+/// range.
 pub fn crossings(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Crossings {
     let corner = |v: u32| {
         let position = positions.get(v as usize)?;
@@ -51,7 +52,7 @@ pub fn crossings(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Crossings {
     found
 }
 
-/// Whether the relative interiors of two triangles have a common point.
+/// Returns whether the relative interiors of two triangles have a common point.
 fn cross(a: &Triangle, b: &Triangle) -> bool {
     let sides_of_a = a.map(|p| side(b, p));
     let sides_of_b = b.map(|p| side(a, p));
@@ -75,7 +76,8 @@ fn cross(a: &Triangle, b: &Triangle) -> bool {
     orient3d_sign(p[0], p[1], q[0], q[1]) < 0 && orient3d_sign(p[0], p[2], q[0], q[2]) > 0
 }
 
-/// On which side of a triangle's plane a point lies; a common corner, which the exact predicate is slow to find, is on it.
+/// Returns the side of a triangle's plane on which a point lies. A common corner, for which the exact predicate is
+/// slow, is on it.
 fn side(triangle: &Triangle, point: [f64; 3]) -> i8 {
     if triangle.contains(&point) {
         return 0;
@@ -83,7 +85,8 @@ fn side(triangle: &Triangle, point: [f64; 3]) -> i8 {
     orient3d_sign(triangle[0], triangle[1], triangle[2], point)
 }
 
-/// The corner that is alone on its side of a plane which passes between the corners; a corner on the plane is on the other side.
+/// Returns the corner that is alone on its side of a plane which passes between the corners; a corner on the plane
+/// counts for the other side.
 fn apex(sides: [i8; 3]) -> Option<usize> {
     if !(sides.contains(&1) && sides.contains(&-1)) {
         return None;
@@ -93,7 +96,7 @@ fn apex(sides: [i8; 3]) -> Option<usize> {
     })
 }
 
-/// Whether two triangles of one plane overlap: they do in the first coordinate plane on which both have an area.
+/// Returns whether two triangles of one plane overlap, tested in the first coordinate plane in which both have an area.
 fn coplanar_overlap(a: &Triangle, b: &Triangle) -> bool {
     [[0, 1], [1, 2], [2, 0]]
         .into_iter()

@@ -1,23 +1,23 @@
-//! Which faces meet at an edge, and which of them agree about its UVs.
+//! Faces that meet at an edge, grouped by equal UVs.
 
 use crate::mesh::CornerUvs;
 use std::cmp::Ordering;
 
-/// How a halfedge relates to the one before it in [`UvEdges::order`].
+/// Relation of a halfedge to the one before it in [`UvEdges::order`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Start {
     /// The first halfedge of another edge.
     Edge,
-    /// The same edge, but with other UVs: a seam lies between the two.
+    /// Another group of the same edge, with other UVs: a seam lies between the two.
     Group,
-    /// The same edge with the same UVs.
+    /// Another halfedge with the same edge and UVs.
     Same,
 }
 
 /// All halfedges, sorted so that those of one edge, and among them those with equal UVs, follow each other.
 ///
-/// A halfedge is named by its corner: `3 * face + c` goes from corner `c` to the next. Halfedges between equal vertices are
-/// left out.
+/// A halfedge is named by its corner: `3 * face + c` goes from corner `c` to the next. Halfedges between equal vertices
+/// are left out.
 pub(crate) struct UvEdges {
     pub order: Vec<u32>,
     pub start: Vec<Start>,
@@ -27,15 +27,15 @@ pub(crate) struct UvEdges {
 #[derive(Clone, Copy)]
 pub(crate) struct Halfedge {
     pub face: u32,
-    /// The vertices, the smaller number first.
+    /// Vertices, the smaller number first.
     pub vertices: [u32; 2],
-    /// The UVs at these vertices.
+    /// UVs at these vertices.
     pub uvs: [[f64; 2]; 2],
-    /// Whether the face runs from the smaller number to the greater.
+    /// `true` if the face runs from the smaller number to the greater.
     pub forward: bool,
 }
 
-/// The halfedge at `corner` of faces given by their vertices.
+/// Returns the halfedge at `corner` of faces given by their vertices.
 pub(crate) fn halfedge(corner: u32, faces: &[[u32; 3]], uvs: &[CornerUvs]) -> Halfedge {
     let (face, c) = ((corner / 3) as usize, (corner % 3) as usize);
     let next = (c + 1) % 3;
@@ -59,7 +59,7 @@ pub(crate) fn halfedge(corner: u32, faces: &[[u32; 3]], uvs: &[CornerUvs]) -> Ha
 }
 
 impl UvEdges {
-    /// The edges of `faces` over `n_vertices` welded vertices; UVs within `tolerance` of each other are equal.
+    /// Sorts the edges of `faces` over `n_vertices` welded vertices; UVs within `tolerance` of each other are equal.
     pub fn new(
         faces: &[[u32; 3]],
         uvs: &[CornerUvs],
@@ -91,7 +91,8 @@ impl UvEdges {
     }
 }
 
-/// Corners bucketed by the smaller vertex of their halfedge, in ascending order, and where each bucket begins.
+/// Buckets corners by the smaller vertex of their halfedge, in increasing order; returns them and the start of each
+/// bucket.
 fn by_lower_vertex(faces: &[[u32; 3]], n_vertices: usize) -> (Vec<u32>, Vec<usize>) {
     let lower = |face: &[u32; 3], c: usize| {
         let (a, b) = (face[c], face[(c + 1) % 3]);
@@ -119,7 +120,7 @@ fn by_lower_vertex(faces: &[[u32; 3]], n_vertices: usize) -> (Vec<u32>, Vec<usiz
     (order, first)
 }
 
-/// By the greater vertex, then by the UVs.
+/// Compares by the greater vertex, then by the UVs.
 fn compare(a: &Halfedge, b: &Halfedge) -> Ordering {
     a.vertices[1]
         .cmp(&b.vertices[1])

@@ -66,7 +66,8 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// Whether the map is proven locally injective: every face not exempt has positive area relative to its chart.
+    /// Returns whether the map is proven locally injective: every non-exempt face has positive area relative to its
+    /// chart.
     pub fn is_valid(&self) -> bool {
         self.flipped == 0
             && self.degenerate == 0
@@ -74,7 +75,7 @@ impl Certificate {
             && self.nonorientable_charts == 0
     }
 
-    /// Whether, beyond that, no two faces are proven to overlap: the map is bijective.
+    /// Returns whether the map is proven bijective: locally injective, and no two faces overlap.
     pub fn is_bijective(&self) -> bool {
         self.is_valid() && self.overlapping_pairs == Some(0) && !self.overlap_truncated
     }
@@ -82,9 +83,10 @@ impl Certificate {
 
 /// Judges the UVs of every face's corners.
 ///
-/// `uvs[f][c]` belongs to `positions[triangles[f][c]]` and is what the file says, converted to f64 without rounding (f32 or
-/// normalized integers). Faces are judged relative to their chart (see the [module](super)), so it does not matter for their
-/// orientation whether v points up or down. Costs a sort of the vertices and, with [`Overlap::Test`], searches over trees of boxes.
+/// `uvs[f][c]` belongs to `positions[triangles[f][c]]` and is the number in the file, converted to f64 without rounding
+/// (f32 or normalized integers). Faces are judged relative to their chart (see the [module](super)), so their
+/// orientation does not depend on the direction of v. Costs a sort of the vertices and, with [`Overlap::Test`],
+/// searches over trees of boxes.
 pub fn certify(
     positions: &[[f64; 3]],
     triangles: &[[u32; 3]],
@@ -112,6 +114,7 @@ fn judge_faces(topology: &UvTopology) -> Certificate {
     let is_exempt = |f: usize| topology.repeats_position(f);
     let is_judged = |f: usize| topology.is_judged(f);
     let positive = topology.chart_orientations(is_judged);
+    // Charts that have faces to judge.
     let mut has_judged = vec![false; n_charts];
     for face in (0..n_faces).filter(|&f| is_judged(f)) {
         has_judged[topology.charts.of_face[face] as usize] = true;
@@ -124,6 +127,7 @@ fn judge_faces(topology: &UvTopology) -> Certificate {
     for face in 0..n_faces {
         let chart = topology.charts.of_face[face] as usize;
         let sign = topology.orientation_in_chart(face);
+        // Each face has at most one fault, the first of these.
         let offence = if topology.unusable[face] {
             &mut certificate.nonfinite_faces
         } else if sign == 0 && !is_exempt(face) {
@@ -138,6 +142,7 @@ fn judge_faces(topology: &UvTopology) -> Certificate {
             certificate.offending_faces.push(face as u32);
         }
     }
+    // Counts of charts, and the rounding that every orientation survives.
     let charts = || (0..n_charts).filter(|&chart| has_judged[chart]);
     certificate.charts = charts().count();
     certificate.nonorientable_charts = charts()
@@ -164,7 +169,7 @@ fn judge_pairs(topology: &UvTopology, certificate: &mut Certificate) {
     certificate.overlap_truncated = visit == Visit::Truncated;
 }
 
-/// Judges edges of charts against each other.
+/// Judges boundary edges of charts against each other.
 fn judge_distances(topology: &UvTopology, claims: &Claims, certificate: &mut Certificate) {
     let boundary = ChartBoundary::new(topology, |face| topology.is_judged(face as usize));
     if certificate.is_bijective()

@@ -1,9 +1,10 @@
-//! Whether triangles cover every point once at most, seen from what is around them.
+//! A fast test that triangles cover every point at most once, from their boundary alone.
 //!
-//! Counter-clockwise triangles cover a point as often as the boundary of all of them winds around it. Where edges that run in opposite
-//! directions have cancelled, and what is left are closed lines that do not meet, the winding changes along these lines only: if
-//! some point is covered twice, then a line has triangles on its right side, too. That is asked at one point of each line. A fan around
-//! one vertex, whose triangles' boxes all meet each other, has but one line.
+//! Counter-clockwise triangles cover a point as often as the boundary of all of them winds around it. Suppose that
+//! edges in opposite directions have been canceled and the remaining edges form closed lines that do not meet. Then the
+//! winding changes only along these lines: if some point is covered twice, then some line has triangles on its right
+//! side, too. That is tested at one point of each line. A fan around one vertex, whose triangles' boxes all meet each
+//! other, has only one line.
 
 use super::bounds_of;
 use super::box_tree::{BoxTree, enlarged};
@@ -12,16 +13,16 @@ use crate::mesh::CornerUvs;
 use std::collections::HashMap;
 use unwrapd_method::numerics::predicates::orient2d_sign;
 
-/// Fewer triangles are compared with each other as fast.
+/// Number of triangles below which comparing them with each other is as fast.
 const FEW: usize = 64;
-/// Triangles looked at for each there is, at most, before the question is left open.
+/// Most triangles looked at per triangle before the question is left open.
 const MOST_LOOKS: usize = 64;
 
 type Point = [u64; 2];
 type Edge = [[f64; 2]; 2];
 
-/// Whether no two of these counter-clockwise triangles have interior points in common; false also where that is not known.
-/// `tree` holds their boxes.
+/// Returns whether no two of these counter-clockwise triangles have interior points in common; `false` also if that is
+/// not known. `tree` holds their boxes.
 pub(super) fn covers_once(triangles: &[CornerUvs], tree: &BoxTree) -> bool {
     if triangles.len() < FEW {
         return false;
@@ -40,12 +41,12 @@ pub(super) fn covers_once(triangles: &[CornerUvs], tree: &BoxTree) -> bool {
     }
 }
 
-/// The same for equal points, −0 = 0.
+/// Returns a key that is equal for equal points, with −0 = 0.
 fn key(point: [f64; 2]) -> Point {
     point.map(|x| (x + 0.0).to_bits())
 }
 
-/// The edges that no edge in the opposite direction takes away, in a fixed order.
+/// Returns the edges that no edge in the opposite direction cancels, in a fixed order.
 fn uncancelled(triangles: &[CornerUvs]) -> Vec<Edge> {
     // By their ends, the smaller first, and whether they run from it.
     let mut edges: Vec<([Point; 2], bool, Edge)> = (triangles.iter())
@@ -70,7 +71,7 @@ fn uncancelled(triangles: &[CornerUvs]) -> Vec<Edge> {
     left
 }
 
-/// Edges one after the other; none where more than one begins at a point.
+/// Chains edges to closed lines; returns `None` if several edges begin at one point.
 fn closed_lines(edges: &[Edge]) -> Option<Vec<Vec<Edge>>> {
     let mut from: HashMap<Point, usize> = HashMap::with_capacity(edges.len());
     for (index, edge) in edges.iter().enumerate() {
@@ -94,8 +95,8 @@ fn closed_lines(edges: &[Edge]) -> Option<Vec<Vec<Edge>>> {
     Some(lines)
 }
 
-/// Whether a line's right side is covered by nothing where it was looked at: in the middle of an edge, so that floating point can
-/// express it, only the edge's own triangle is.
+/// Returns whether the right side of a line is found uncovered: at a midpoint of an edge that floating point can
+/// represent, only the edge's own triangle may be.
 fn is_free_outside(
     line: &[Edge],
     triangles: &[CornerUvs],
@@ -114,13 +115,13 @@ fn is_free_outside(
     is_free
 }
 
-/// The middle of an edge if it is a floating-point number in both coordinates.
+/// Returns the midpoint of an edge if it is exact in both coordinates.
 fn middle([a, b]: &Edge) -> Option<[f64; 2]> {
     let is_exact = (0..2).all(|k| is_sum(a[k], b[k]));
     is_exact.then(|| [0, 1].map(|k| f64::midpoint(a[k], b[k])))
 }
 
-/// Whether the sum of two numbers is a floating-point number.
+/// Returns whether the sum of two numbers is exact.
 fn is_sum(a: f64, b: f64) -> bool {
     let sum = a + b;
     let b_there = sum - a;

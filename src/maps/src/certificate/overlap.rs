@@ -1,4 +1,4 @@
-//! OverlappingPair of faces whose interiors intersect in UV space.
+//! Pairs of faces whose interiors intersect in UV space.
 
 use super::box_tree::{Bounds, BoxTree, Visit, bounds_of, search_budget};
 use super::once::covers_once;
@@ -6,7 +6,7 @@ use super::topology::UvTopology;
 use crate::mesh::CornerUvs;
 use unwrapd_method::numerics::predicates::orient2d_sign;
 
-/// The faces of non-zero orientation, all made counter-clockwise.
+/// Faces of nonzero orientation, all made counter-clockwise.
 pub(crate) struct OrientedFaces {
     faces: Vec<u32>,
     corners: Vec<CornerUvs>,
@@ -24,7 +24,7 @@ impl OrientedFaces {
         Self::of(&topology.uvs, &topology.orientation)
     }
 
-    /// The faces with these corners, whose exact orientations are given.
+    /// Collects the faces with these corners, whose exact orientations are given.
     pub fn of(corners: &[CornerUvs], orientation: &[i8]) -> OrientedFaces {
         let oriented = || (0..corners.len()).filter(|&f| orientation[f] != 0);
         let counter_clockwise = |f: usize| {
@@ -41,8 +41,8 @@ impl OrientedFaces {
         }
     }
 
-    /// Visits every pair of faces whose interiors intersect, decided exactly by separating axes; where there is none, that is mostly
-    /// seen from the boundary alone.
+    /// Visits every pair of faces whose interiors intersect, decided exactly by separating axes; if there is none, that
+    /// is usually decided from the boundary alone.
     pub fn overlaps(&self, mut visit: impl FnMut(OverlappingPair)) -> Visit {
         let boxes: Vec<Bounds> = self.corners.iter().map(|c| bounds_of(c)).collect();
         let tree = BoxTree::new(&boxes);
@@ -59,12 +59,13 @@ impl OrientedFaces {
     }
 }
 
-/// Whether two counter-clockwise triangles share interior points: no edge line of either has the other on its outer side.
+/// Returns whether two counter-clockwise triangles share interior points: no edge line of either has the other on its
+/// outer side.
 pub(crate) fn interiors_intersect(a: &CornerUvs, b: &CornerUvs) -> bool {
     !separates(a, b) && !separates(b, a)
 }
 
-/// Whether an edge line of `a` has all of `b` on its outer side or on itself.
+/// Returns whether an edge line of `a` has all of `b` on its outer side or on itself.
 fn separates(a: &CornerUvs, b: &CornerUvs) -> bool {
     (0..3).any(|e| {
         let (p, q) = (a[e], a[(e + 1) % 3]);

@@ -1,4 +1,4 @@
-//! Whether charts keep a distance, exactly.
+//! Exact judgment of the distances between charts.
 
 use std::collections::BTreeSet;
 
@@ -86,8 +86,8 @@ struct Bound {
 }
 
 impl Bound {
-    /// Coordinates that had to be cut move by less than a unit each, two points by less than three against each other: the
-    /// bound is enlarged by that, so that a doubt is never resolved in favor of the map.
+    /// Creates the bound. Truncation moves each coordinate by less than a unit, and two points by less than three
+    /// relative to each other: the bound is enlarged by that, so that a doubt is never resolved in favor of the map.
     fn new(texels: u32, resolution: u32, is_exact: bool) -> Self {
         let resolution = u128::from(resolution);
         let doubt = if is_exact { 0 } else { 3 * resolution };
@@ -97,7 +97,7 @@ impl Bound {
         }
     }
 
-    /// Whether two segments are nearer than the bound, or meet.
+    /// Returns whether two segments are nearer than the bound, or meet.
     fn exceeds(&self, a: [Fixed; 2], b: [Fixed; 2]) -> bool {
         meet(a, b)
             || a.iter().any(|&p| self.exceeds_point(p, b))
@@ -122,7 +122,8 @@ impl Bound {
     }
 }
 
-/// Whether two segments have a common point; those on one line, whose ends would be near, are left to the distances of ends.
+/// Returns whether two segments have a common point; collinear ones, whose ends would be near, are left to the
+/// distances of ends.
 fn meet([a, b]: [Fixed; 2], [c, d]: [Fixed; 2]) -> bool {
     let side = |p: Fixed, q: Fixed, r: Fixed| cross(difference(q, p), difference(r, p)).signum();
     let (of_c, of_d) = (side(a, b, c), side(a, b, d));

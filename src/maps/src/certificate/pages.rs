@@ -1,4 +1,4 @@
-//! Whether each chart lies on one page.
+//! Placement of each chart on one page.
 
 use super::alignment::chart_bounds;
 use super::topology::UvTopology;

@@ -25,21 +25,22 @@ pub struct PlanarCertificate {
 }
 
 impl PlanarCertificate {
-    /// Whether every triangle has positive area: the map from a rest shape of positive triangles is locally injective.
+    /// Returns whether every triangle has positive area: the map from a rest shape of positive triangles is locally
+    /// injective.
     pub fn is_valid(&self) -> bool {
         self.inverted == 0 && self.degenerate == 0 && self.nonfinite == 0
     }
 
-    /// Whether, beyond that, no two triangles overlap: the map is bijective, whether its boundary was fixed or free.
+    /// Returns whether the map is bijective: also no two triangles overlap, whether its boundary was fixed or free.
     pub fn is_bijective(&self) -> bool {
         self.is_valid() && self.overlapping_pairs == 0 && !self.overlap_truncated
     }
 }
 
-/// Judges triangles that should be counter-clockwise and disjoint but for their edges and corners.
+/// Judges triangles that should be counter-clockwise and disjoint except for their edges and corners.
 ///
-/// Unlike [`certify`](super::certify) a mirrored mesh is not valid. All triangles are tested against each other by a tree of
-/// boxes, so that slits and boundaries that touch need no special case: touching is no overlap.
+/// Unlike in [`certify`](super::certify), a mirrored mesh is not valid. All triangles are tested against each other by
+/// a tree of boxes, so that slits and boundaries that touch need no special case: touching is no overlap.
 pub fn certify_planar(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> PlanarCertificate {
     let corners_of = |triangle: &[u32; 3]| -> Option<CornerUvs> {
         let corner = |k: usize| {

@@ -1,4 +1,4 @@
-//! Whether edges stay apart however their ends move.
+//! Pairs of edges that stay apart however their ends move.
 
 use super::boundary::{BoundaryEdge, ChartBoundary};
 use super::box_tree::Visit;
@@ -7,8 +7,8 @@ use super::rounding::{allowance, largest_move};
 
 /// Visits the pairs of boundary edges that may meet when each coordinate moves by up to the move of `bits`.
 ///
-/// As long as all faces stay positive, faces of an injective map can only come to overlap through a touch of edges of charts, so
-/// that a map without such a pair stays injective. Ends that are one vertex with one UV move together.
+/// As long as all faces stay positive, faces of an injective map can come to overlap only after boundary edges of
+/// charts touch. So a map without such a pair stays injective. Ends that are one vertex with one UV move together.
 pub(super) fn doubtful_pairs(
     boundary: &ChartBoundary,
     bits: u32,
@@ -39,11 +39,11 @@ fn stay_apart(a: &BoundaryEdge, b: &BoundaryEdge, delta: i128) -> bool {
     }
 }
 
-/// Whether two segments have no common point however each coordinate of their ends moves by up to `delta`.
+/// Returns whether two segments have no common point however each coordinate of their ends moves by up to `delta`.
 ///
-/// They could have one if and only if one, moved as a whole by up to 2δ along each axis, met the other: then a point of the one
-/// and a point of the other move to the middle, with all ends. The shifts at which they meet form a polygon whose sides
-/// run along the segments and the axes; zero lies outside if and only if it does so beyond one of these sides.
+/// They can have one if and only if one segment, moved as a whole by up to 2δ along each axis, can meet the other: then
+/// a point of each can move to the middle, with all ends. The shifts at which they meet form a polygon whose sides run
+/// along the segments and the axes; zero lies outside if and only if it does so beyond one of these sides.
 fn keep_their_distance(a: [Fixed; 2], b: [Fixed; 2], delta: i128) -> bool {
     let normal = |[p, q]: [Fixed; 2]| [p[1] - q[1], q[0] - p[0]];
     [[1, 0], [0, 1], normal(a), normal(b)].into_iter().any(|n| {

@@ -1,4 +1,4 @@
-//! Whether polygons meet themselves or each other, exactly.
+//! Exact intersection tests for polygons.
 
 use super::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
 use crate::mesh::boundary_edges;
@@ -6,7 +6,7 @@ use unwrapd_method::numerics::predicates::orient2d_sign;
 
 type Segment = [[f64; 2]; 2];
 
-/// A vertex near which closed polygons cross or touch themselves or each other.
+/// Returns a vertex near which closed polygons cross or touch themselves or each other; `None` if they do not.
 pub(super) fn meeting_point(loops: &[Vec<[f64; 2]>]) -> Option<[f64; 2]> {
     let (mut segments, mut next) = (Vec::new(), Vec::new());
     for vertices in loops {
@@ -33,8 +33,8 @@ pub(super) fn meeting_point(loops: &[Vec<[f64; 2]>]) -> Option<[f64; 2]> {
     found.or_else(|| (visit == Visit::Truncated).then(|| segments[0][0]))
 }
 
-/// How many pairs of a planar mesh's boundary edges have a common point other than a vertex that both end at, exactly; at least so
-/// many where they lie in such heaps that the search ends early.
+/// Counts the pairs of a planar mesh's boundary edges that have a common point other than a shared vertex, exactly; a
+/// lower bound if the search was truncated.
 ///
 /// A mesh without inverted triangles whose boundary crossed nothing as it moved has none, and is bijective.
 pub fn boundary_crossings(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> u64 {
@@ -58,13 +58,13 @@ pub fn boundary_crossings(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> u64 
     n_crossings
 }
 
-/// Whether a segment runs back over the one that ends where it begins.
+/// Returns whether a segment runs back over the one that ends where it begins.
 fn turns_back(a: Segment, b: Segment) -> bool {
     let along = |k: usize| (a[1][k] - a[0][k]) * (b[1][k] - b[0][k]);
     orient2d_sign(a[0], a[1], b[1]) == 0 && along(0) + along(1) < 0.0
 }
 
-/// Whether two segments have a common point.
+/// Returns whether two segments have a common point.
 fn intersect(a: Segment, b: Segment) -> bool {
     let sides = |s: Segment, t: Segment| t.map(|p| orient2d_sign(s[0], s[1], p));
     let (of_b, of_a) = (sides(a, b), sides(b, a));

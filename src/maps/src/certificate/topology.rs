@@ -1,4 +1,4 @@
-//! A mesh with UVs as the judge sees it: welded, charted, with exact orientations.
+//! A mesh with UVs as the judge uses it: welded, with charts and exact orientations.
 
 use super::charts::{Charts, Link};
 use super::edges::{Halfedge, Start, UvEdges, halfedge};
@@ -6,13 +6,13 @@ use super::weld::weld;
 use crate::mesh::{CornerUvs, VAxis};
 use unwrapd_method::numerics::predicates::orient2d_sign;
 
-/// UVs of an edge's ends agree within this part of the UV extent.
+/// Tolerance for equal UVs at an edge's ends, as a share of the UV extent.
 const UV_TOLERANCE: f64 = 1e-7;
 
 /// The topology of a mesh in UV space.
 ///
-/// Faces that cannot be judged (a UV or position that is not finite, an index out of range, no UVs) are marked `unusable`; their
-/// UVs are taken as zero, as `uvmetrics` does, so that all arrays stay complete.
+/// Faces that cannot be judged (a UV or position that is not finite, an index out of range, no UVs) are marked
+/// `unusable`; their UVs are taken as zero, as in `uvmetrics`, so that all arrays are complete.
 pub(crate) struct UvTopology {
     /// Positions of the welded vertices.
     pub points: Vec<[f64; 3]>,
@@ -30,6 +30,7 @@ pub(crate) struct UvTopology {
 
 impl UvTopology {
     pub fn new(positions: &[[f64; 3]], triangles: &[[u32; 3]], uvs: &[CornerUvs]) -> UvTopology {
+        // Replace what cannot be judged, so that all arrays are complete.
         let usable: Vec<bool> = (0..triangles.len())
             .map(|f| is_usable(positions, &triangles[f], uvs.get(f)))
             .collect();
@@ -53,6 +54,7 @@ impl UvTopology {
         let uvs: Vec<CornerUvs> = (0..triangles.len())
             .map(|f| if usable[f] { uvs[f] } else { [[0.0; 2]; 3] })
             .collect();
+        // Charts from edges with equal UVs, and exact orientations.
         let bounds = bounds(&uvs);
         let tolerance = UV_TOLERANCE * extent(bounds);
         let edges = UvEdges::new(&faces, &uvs, weld.points.len(), tolerance);
@@ -73,39 +75,39 @@ impl UvTopology {
         }
     }
 
-    /// The longer side of the UV bounding box, never zero.
+    /// Returns the longer side of the UV bounding box, never zero.
     pub fn extent(&self) -> f64 {
         extent(self.bounds)
     }
 
-    /// The halfedge at a corner.
+    /// Returns the halfedge at a corner.
     pub fn halfedge(&self, corner: u32) -> Halfedge {
         halfedge(corner, &self.faces, &self.uvs)
     }
 
-    /// Whether a face names one position twice: it can have no area, whatever its UVs.
+    /// Returns whether a face names one position twice: it can have no area, whatever its UVs.
     pub fn repeats_position(&self, face: usize) -> bool {
         let [a, b, c] = self.faces[face];
         a == b || b == c || c == a
     }
 
-    /// Whether a face must have positive area: it can be judged, and has three distinct positions.
+    /// Returns whether a face must have positive area: it can be judged, and has three distinct positions.
     pub fn is_judged(&self, face: usize) -> bool {
         !self.unusable[face] && !self.repeats_position(face)
     }
 
-    /// Orientation of a face after winding has been made consistent in its chart.
+    /// Returns the orientation of a face after winding has been made consistent in its chart.
     pub fn orientation_in_chart(&self, face: usize) -> i8 {
         self.orientation[face] * self.charts.winding[face]
     }
 
-    /// UV area of a face, unsigned and rounded.
+    /// Returns the unsigned UV area of a face, rounded.
     pub fn area(&self, face: usize) -> f64 {
         let [a, b, c] = self.uvs[face];
         0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
     }
 
-    /// Charts of which most UV area is, as the file winds it, that of a back.
+    /// Returns the charts with most of their UV area seen from behind, in the winding of the file.
     pub fn mirrored_charts(&self, v_axis: VAxis) -> Vec<u32> {
         let mut signed_area = vec![0.0; self.charts.nonorientable.len()];
         for (face, &chart) in self.charts.of_face.iter().enumerate() {
@@ -120,8 +122,8 @@ impl UvTopology {
         mirrored.map(|(chart, _)| chart).collect()
     }
 
-    /// For each chart the orientation that carries most UV area among the faces of which `counts` holds (on a tie, the one
-    /// of more faces; 0 when that is a tie too).
+    /// Returns for each chart the orientation that carries most UV area among the faces for which `counts` holds (on a
+    /// tie, that of more faces; 0 if that is a tie too).
     pub fn chart_orientations(&self, counts: impl Fn(usize) -> bool) -> Vec<i8> {
         let mut balance = vec![(0.0_f64, 0_i64); self.charts.nonorientable.len()];
         for face in (0..self.faces.len()).filter(|&f| counts(f)) {
@@ -167,7 +169,7 @@ fn extent([low, high]: [[f64; 2]; 2]) -> f64 {
     (high[0] - low[0]).max(high[1] - low[1]).max(1e-100)
 }
 
-/// The pairs of faces that follow each other on one edge with the same UVs.
+/// Iterates over the pairs of faces that follow each other on one edge with the same UVs.
 fn links<'a>(
     edges: &'a UvEdges,
     faces: &'a [[u32; 3]],

@@ -1,10 +1,10 @@
-//! Positions that are equal are one vertex.
+//! Welding of equal positions.
 
-/// The welded vertices: equal positions (−0 = 0) share one, numbered in lexicographic order of the coordinates.
+/// Welded vertices: equal positions (−0 = 0) share one, numbered in lexicographic order of the coordinates.
 pub(crate) struct Weld {
-    /// The welded vertex of every position.
+    /// Welded vertex of every position.
     pub vertex: Vec<u32>,
-    /// The position of every welded vertex.
+    /// Position of every welded vertex.
     pub points: Vec<[f64; 3]>,
 }
 

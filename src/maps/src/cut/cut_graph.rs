@@ -4,20 +4,20 @@ use super::Sheet;
 use super::distances::{Distances, Neighbors, distances};
 use crate::mesh::{CUT, UnionFind};
 
-/// Roots tried for the first loop of a closed sheet, the fewer the larger the sheet.
+/// Most roots tried for the first loop of a closed sheet; large sheets get fewer.
 const MOST_ROOTS: usize = 12;
 
-/// The work on roots: halfedges times roots.
+/// Budget for trying roots: halfedges times roots.
 const ROOT_BUDGET: usize = 2_000_000;
 
-/// The edges of a cut graph: undoing them makes a sheet a disk that has the holes the sheet has (merged where the graph runs
-/// through one).
+/// Returns the edges of a cut graph: cutting them makes a sheet a disk that has the holes of the sheet (merged where
+/// the graph passes through one).
 ///
-/// Holes are closed by a virtual face each; their edges, being cut already, are free to walk along. Grow a shortest-path
-/// tree T from what is cut so far, then a spanning tree of the faces that crosses no edge of T and prefers the edges whose
-/// ways back to the root are longest. The edges in neither tree number 2 g (or the crosscaps); each, with its two ways
-/// back, is a loop that does not separate, and these are the shortest such loops. Half of them are cut and the rest are
-/// found again from there, since a longer cut is a nearer root. O(n log n) per round.
+/// Each hole is closed by a virtual face; its edges are cut already, so paths along them cost nothing. Each round grows
+/// a shortest-path tree T from the edges cut so far, then a spanning tree of the faces that crosses no edge of T and
+/// prefers the edges whose paths back to the root are longest. The edges in neither tree number 2 g (or the crosscaps);
+/// each closes, with its two paths back, a loop that does not separate, and these are the shortest such loops. Half of
+/// them are cut and the others are found again from there, since a longer cut is a nearer root. O(n log n) per round.
 pub fn cut_graph(sheet: &Sheet, neighbors: &Neighbors) -> Vec<u32> {
     let holes = Holes::new(sheet);
     let mut cut = vec![false; sheet.twin.len()];
@@ -59,7 +59,7 @@ pub fn cut_graph(sheet: &Sheet, neighbors: &Neighbors) -> Vec<u32> {
         .collect()
 }
 
-/// The boundary loops of a sheet, as virtual faces.
+/// Boundary loops of a sheet, as virtual faces.
 struct Holes {
     /// For each halfedge on the boundary its loop.
     loop_of: Vec<u32>,
@@ -98,7 +98,7 @@ impl Holes {
         }
     }
 
-    /// The node across an edge in the graph of faces and holes.
+    /// Returns the node across an edge in the graph of faces and holes.
     fn across(&self, sheet: &Sheet, h: u32) -> u32 {
         match sheet.twin[h as usize] {
             CUT => sheet.triangles.len() as u32 + self.loop_of[h as usize],
@@ -107,7 +107,8 @@ impl Holes {
     }
 }
 
-/// The edges that close the shortest loops through what is cut, shortest first, and the distances they were found by.
+/// Returns the edges that close the shortest loops through the edges cut so far, shortest first, and the distances from
+/// these.
 fn shortest_loops(
     sheet: &Sheet,
     neighbors: &Neighbors,
@@ -142,7 +143,7 @@ fn shortest_loops(
     (from_cut, loops)
 }
 
-/// Of a few vertices spread over a closed sheet the one with the shortest loop.
+/// Returns the vertex with the shortest loop among a few vertices spread over a closed sheet.
 fn best_root(sheet: &Sheet, neighbors: &Neighbors, holes: &Holes) -> u32 {
     let n_roots = (ROOT_BUDGET / sheet.twin.len()).clamp(2, MOST_ROOTS);
     let mut on_cut = vec![false; sheet.positions.len()];
@@ -170,7 +171,7 @@ fn best_root(sheet: &Sheet, neighbors: &Neighbors, holes: &Holes) -> u32 {
     best.1
 }
 
-/// Takes back edges that end blindly: neither at the boundary nor at another cut edge.
+/// Uncuts dead ends: edges that end neither at the boundary nor at another cut edge.
 fn prune(sheet: &Sheet, neighbors: &Neighbors, cut: &mut [bool]) {
     let on_boundary = sheet.on_boundary();
     let mut degree = vec![0u32; sheet.positions.len()];

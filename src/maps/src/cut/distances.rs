@@ -5,22 +5,22 @@ use crate::mesh::{CUT, next};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// Distances along edges from a set of vertices, and the way back.
+/// Distances along edges from a set of vertices, and the paths back.
 pub struct Distances {
-    /// For each vertex its distance; infinite where there is no way.
+    /// Distance of each vertex; infinite if there is no path.
     pub distance: Vec<f64>,
     /// For each vertex the halfedge by which the shortest path arrives, [`CUT`] at the sources.
     pub arrival: Vec<u32>,
 }
 
-/// The halfedges that touch each vertex, for walks from vertex to vertex.
+/// Halfedges that touch each vertex, for walks from vertex to vertex.
 pub struct Neighbors {
     starts: Vec<u32>,
     halfedges: Vec<u32>,
 }
 
 impl Neighbors {
-    /// Both ends of every edge of a sheet.
+    /// Collects both ends of every edge of a sheet.
     pub fn new(sheet: &Sheet) -> Self {
         let mut starts = vec![0u32; sheet.positions.len() + 1];
         for h in sheet.edges() {
@@ -42,14 +42,15 @@ impl Neighbors {
         Self { starts, halfedges }
     }
 
-    /// One halfedge of each edge at a vertex.
+    /// Returns one halfedge of each edge at a vertex.
     pub fn of(&self, vertex: u32) -> &[u32] {
         let range = self.starts[vertex as usize]..self.starts[vertex as usize + 1];
         &self.halfedges[range.start as usize..range.end as usize]
     }
 }
 
-/// Dijkstra's algorithm from all sources at once; `length` of an edge must not be negative. Ties go to the lower vertex.
+/// Runs Dijkstra's algorithm from all sources at once; `length` of an edge must not be negative. Ties go to the lower
+/// vertex.
 pub fn distances(
     sheet: &Sheet,
     neighbors: &Neighbors,
@@ -59,7 +60,7 @@ pub fn distances(
     distances_until(sheet, neighbors, sources, length, |_| false).0
 }
 
-/// The distances that are known when the nearest vertex with `is_goal` is reached, and that vertex.
+/// Computes distances until the nearest vertex with `is_goal` is reached; returns them and that vertex, if any.
 pub fn distances_until(
     sheet: &Sheet,
     neighbors: &Neighbors,
@@ -96,7 +97,7 @@ pub fn distances_until(
 }
 
 impl Distances {
-    /// The edges of the shortest path from a vertex back to the nearest source.
+    /// Iterates over the edges of the shortest path from a vertex back to the nearest source.
     pub fn path<'a>(&'a self, sheet: &'a Sheet, from: u32) -> impl Iterator<Item = u32> + 'a {
         let mut vertex = from;
         std::iter::from_fn(move || {
@@ -109,7 +110,7 @@ impl Distances {
         })
     }
 
-    /// The reachable vertex farthest from the sources, the first of equals.
+    /// Returns the reachable vertex farthest from the sources, the first of equals, and its distance.
     pub fn farthest(&self) -> (u32, f64) {
         let mut best = (0, 0.0);
         for (v, &d) in (0u32..).zip(&self.distance) {
@@ -121,7 +122,7 @@ impl Distances {
     }
 }
 
-/// The end of an edge that is not `vertex`.
+/// Returns the end of an edge that is not `vertex`.
 pub fn opposite_end(sheet: &Sheet, h: u32, vertex: u32) -> u32 {
     let start = sheet.vertex[h as usize];
     if start == vertex {
@@ -131,7 +132,7 @@ pub fn opposite_end(sheet: &Sheet, h: u32, vertex: u32) -> u32 {
     }
 }
 
-/// A vertex in the queue: the nearest comes out first, of equals the lowest.
+/// A vertex in the queue, ordered by distance, then by index.
 struct Entry {
     key: f64,
     vertex: u32,

@@ -1,13 +1,13 @@
-//! Two edges between one pair of vertices.
+//! Double edges between one pair of vertices.
 
 use super::sheet::surface_fans;
 use crate::mesh::{CUT, Surface, next};
 
-/// Cuts faces out of a glued surface until no two edges join the same two vertices, and says whether any was cut.
+/// Cuts faces out of a glued surface until no two edges join the same two vertices; returns whether any was cut.
 ///
-/// Only a non-manifold input can have such edges: the copies of an edge with several faces may have both their ends in
-/// common. All copies but one are taken out together with the faces at them. What remains has the genus it had and a longer
-/// boundary, so disks fall into disks.
+/// Only a non-manifold input can have such edges: the copies of an edge with several faces may have both ends in
+/// common. All copies but one are taken out together with the faces at them. The remainder has the same genus and a
+/// longer boundary, so disks fall into disks.
 pub fn isolate_doubled_edges(surface: &Surface, twin: &mut [u32]) -> bool {
     if surface.defects.nonmanifold_edges == 0 {
         return false;
@@ -40,7 +40,7 @@ fn cut_face_out(twin: &mut [u32], h: u32) {
     }
 }
 
-/// One halfedge of each edge that has an earlier copy between the same two vertices.
+/// Returns one halfedge of each edge that has an earlier copy between the same two vertices.
 fn doubled_edges(surface: &Surface, twin: &[u32]) -> Vec<u32> {
     let (vertex, _) = surface_fans(surface, twin);
     let mut edges: Vec<(u32, u32, u32)> = (0u32..)

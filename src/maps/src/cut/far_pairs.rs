@@ -1,16 +1,16 @@
-//! Vertices far apart.
+//! Pairs of vertices that are far apart.
 
 use super::Sheet;
 use super::distances::{Neighbors, distances};
 
-/// Vertices whose farthest ones are looked for, at most.
+/// Most vertices whose farthest vertices are searched.
 const MOST_ENDS: usize = 5;
 
-/// Pairs of vertices of which the second is the farthest from the first, at most so many, all different; both `is_end`.
+/// Returns at most `most` different pairs of vertices, the second the farthest from the first; `is_end` holds for both.
 ///
-/// The first vertices lie as far from each other as can be, and the first pair is about the farthest of all. Which they are does not
-/// depend on the numbers of the vertices, but for ties.
-/// From: Gonzalez 1985, Clustering to Minimize the Maximum Intercluster Distance.
+/// The first vertices lie as far from each other as possible, and the first pair is approximately the farthest of all.
+/// The result does not depend on the numbers of the vertices, except for ties. From: Gonzalez 1985, Clustering to
+/// Minimize the Maximum Intercluster Distance.
 pub fn far_pairs(
     sheet: &Sheet,
     neighbors: &Neighbors,

@@ -5,15 +5,16 @@ use super::distances::{Distances, Neighbors, distances};
 use crate::mesh::{CUT, Edges, Surface, UnionFind, next, origin, same_direction};
 use unwrapd_method::numerics::vec3::distance;
 
-/// Pairs of faces at one edge that are compared at most.
+/// Most pairs of faces at one edge that are compared.
 const MOST_PAIRS: usize = 4096;
 
-/// Joins the disks of each component of a surface to one, where an edge can be found that both have and neither has used.
+/// Joins the disks of each component of a surface to one, at edges that both disks have and neither has used.
 ///
-/// Two disks glued along one edge, and only one, are again a disk, holes or not. They are glued only where they are wound alike. So the
-/// parts into which non-manifold edges cut a component hang together again at one edge each, the longest that lies on both
-/// boundaries. Where two disks share only edges that lie inside, slits are cut from their boundaries to the nearest such edge.
-/// What cannot be joined are faces that share no edge but one that two others are glued along already.
+/// Two disks glued along one edge, and only one, are again a disk, with or without holes. They are glued only if they
+/// are wound alike. So the parts into which non-manifold edges cut a component become connected again at one edge each,
+/// the longest that lies on both boundaries. If two disks share only interior edges, slits are cut from their
+/// boundaries to the nearest such edge. Faces cannot be joined if the only edges that they share are those along which
+/// two others are glued already.
 pub fn join_disks(surface: &Surface, twin: &mut [u32]) {
     let mut disks = UnionFind::new(surface.triangles.len());
     for (h, &t) in (0u32..).zip(&*twin).filter(|(_, t)| **t != CUT) {
@@ -33,14 +34,14 @@ fn glue(twin: &mut [u32], a: u32, b: u32) {
     twin[b as usize] = a;
 }
 
-/// The halfedges of an edge by the direction in which they run: two that run in opposite directions are wound alike.
+/// Splits the halfedges of an edge by direction: two that run in opposite directions are wound alike.
 fn by_direction(surface: &Surface, edge: &[u32]) -> [Vec<u32>; 2] {
     let is_forth = |h: &u32| !edge.is_empty() && same_direction(&surface.triangles, edge[0], *h);
     let (forth, back) = edge.iter().copied().partition(is_forth);
     [forth, back]
 }
 
-/// Pairs of one and another; of many, each is in one pair or two.
+/// Returns pairs of one item from each list; if there are too many pairs, each item is in one or two of them.
 fn pairs_of<'a, T>(forth: &'a [T], back: &'a [T]) -> Vec<(&'a T, &'a T)> {
     if forth.len() * back.len() <= MOST_PAIRS {
         let with_each = |a| back.iter().map(move |b| (a, b));
@@ -76,8 +77,8 @@ fn join_at_boundaries(surface: &Surface, edges: &Edges, twin: &mut [u32], disks:
     }
 }
 
-/// One round of joins at edges that lie inside a disk: the nearest to the boundaries first, each disk at most once, since a
-/// slit changes the distances in it. False if there was none.
+/// Makes one round of joins at interior edges of disks: the nearest to the boundaries first, each disk at most once,
+/// since a slit changes the distances in it. Returns `false` if there was none.
 fn join_inside(surface: &Surface, edges: &Edges, twin: &mut [u32], disks: &mut UnionFind) -> bool {
     let n_faces = surface.triangles.len();
     let Some(whole) = Sheet::divide(
@@ -89,6 +90,7 @@ fn join_inside(surface: &Surface, edges: &Edges, twin: &mut [u32], disks: &mut U
     .pop() else {
         return false;
     };
+    // Distances from the boundaries.
     let on_boundary = whole.on_boundary();
     let boundary = (0u32..).zip(&on_boundary).filter(|(_, on)| **on);
     let from_boundary = distances(
@@ -97,6 +99,7 @@ fn join_inside(surface: &Surface, edges: &Edges, twin: &mut [u32], disks: &mut U
         boundary.map(|(v, _)| v),
         |h| whole.length(h),
     );
+    // Pairs of faces of different disks at an edge, by the total length of slits to it.
     let mut pairs = Vec::new();
     for edge in edges.iter().filter(|edge| edge.len() > 2) {
         let mut nearest_of_each_disk = |halfedges: Vec<u32>| {
@@ -118,6 +121,7 @@ fn join_inside(surface: &Surface, edges: &Edges, twin: &mut [u32], disks: &mut U
         }
     }
     pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    // Slit and join, the nearest pairs first.
     let mut touched = vec![false; n_faces];
     let mut any = false;
     for (_, a, b) in pairs {
@@ -136,8 +140,8 @@ fn join_inside(surface: &Surface, edges: &Edges, twin: &mut [u32], disks: &mut U
     any
 }
 
-/// How far the boundary is from an edge; infinite if the edge connects two of its vertices, so that cutting it would part
-/// the disk.
+/// Returns the distance of an edge from the boundary; infinite if the edge connects two boundary vertices, so that
+/// cutting it would divide the disk.
 fn slit_length(sheet: &Sheet, from_boundary: &Distances, h: u32) -> f64 {
     let [a, b] = sheet.ends(h).map(|v| from_boundary.distance[v as usize]);
     match (sheet.twin[h as usize], a.max(b) > 0.0) {
@@ -147,7 +151,7 @@ fn slit_length(sheet: &Sheet, from_boundary: &Distances, h: u32) -> f64 {
     }
 }
 
-/// Cuts the shortest way from the boundary to an edge, and the edge.
+/// Cuts the shortest path from the boundary to an edge, and the edge.
 fn slit_to(sheet: &Sheet, from_boundary: &Distances, twin: &mut [u32], h: u32) {
     if twin[h as usize] == CUT {
         return;

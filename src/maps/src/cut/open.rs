@@ -1,4 +1,4 @@
-//! What to undo so that a sheet becomes a disk.
+//! Seams that open a sheet to a disk.
 
 use super::Sheet;
 use super::cut_graph::cut_graph;
@@ -6,13 +6,13 @@ use super::distances::Neighbors;
 use super::slit::{Branches, slits};
 use crate::mesh::{CUT, UnionFind};
 
-/// The seams of a connected sheet, one halfedge of each: without these edges it is a disk, possibly with holes.
+/// Returns the seams of a connected sheet, one halfedge of each: without these edges it is a disk, possibly with holes.
 pub fn open_to_disk(sheet: &Sheet, branches: Branches) -> Vec<u32> {
     let mut ways = ways_to_open(sheet, branches, 1);
     ways.pop().unwrap_or_default()
 }
 
-/// The same in several ways, at most so many: a closed sheet of genus 0 is slit between different vertices.
+/// Like [`open_to_disk`], in at most `most` ways: a closed sheet of genus 0 is slit between different vertices.
 pub fn ways_to_open(sheet: &Sheet, branches: Branches, most: usize) -> Vec<Vec<u32>> {
     let n_edges = sheet.edges().count();
     let n_loops = boundary_loops(sheet);

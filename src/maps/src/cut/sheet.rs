@@ -1,15 +1,16 @@
-//! A part of a surface and how its faces are glued.
+//! A part of a surface with its gluing.
 
 use crate::mesh::{CUT, Disk, Surface, UnionFind, next, origin};
 use std::array::from_fn;
 use unwrapd_method::numerics::vec3::distance;
 
-/// Distances that differ by a smaller share are the same but for rounding.
+/// Ratio above which distances count as equal up to rounding.
 const SAME: f64 = 1.0 - 1e-6;
 
 /// Some faces of a surface, numbered locally, with the glued edges among them.
 ///
-/// Around a vertex the glued faces form one fan by construction, so a bow-tie vertex of the surface is several vertices here.
+/// Around a vertex the glued faces form one fan by construction, so a bow-tie vertex of the surface is several vertices
+/// here.
 #[derive(Clone, Debug)]
 pub struct Sheet {
     /// For each face of the sheet its triangle in the surface.
@@ -23,7 +24,8 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// All of a disk with vertices at some positions. Vertices are numbered in the order of the triangles' corners. O(n log n).
+    /// Creates the sheet of a whole disk with these vertex positions. Vertices are numbered in the order of the
+    /// triangles' corners. O(n log n).
     pub fn of_disk(disk: &Disk, positions: &[[f64; 3]]) -> Self {
         let mut number = vec![CUT; disk.n_vertices];
         let mut sheet = Self {
@@ -42,7 +44,7 @@ impl Sheet {
         sheet
     }
 
-    /// The sheets into which labels divide triangles over some positions, glued by `twin`; label `i` makes sheet `i`.
+    /// Divides triangles over some positions, glued by `twin`, into sheets by their labels; label `i` makes sheet `i`.
     pub fn divide(
         (surface, positions): (&[[u32; 3]], &[[f64; 3]]),
         twin: &[u32],
@@ -94,24 +96,24 @@ impl Sheet {
         }
     }
 
-    /// The two vertices of a halfedge.
+    /// Returns the two vertices of a halfedge.
     pub fn ends(&self, h: u32) -> [u32; 2] {
         [self.vertex[h as usize], self.vertex[next(h) as usize]]
     }
 
-    /// The length of a halfedge.
+    /// Returns the length of a halfedge.
     pub fn length(&self, h: u32) -> f64 {
         let [a, b] = self.ends(h).map(|v| self.positions[v as usize]);
         distance(a, b)
     }
 
-    /// The middle of a halfedge.
+    /// Returns the midpoint of a halfedge.
     pub fn middle(&self, h: u32) -> [f64; 3] {
         let [a, b] = self.ends(h).map(|v| self.positions[v as usize]);
         [0, 1, 2].map(|k| f64::midpoint(a[k], b[k]))
     }
 
-    /// One halfedge of each edge.
+    /// Iterates over one halfedge of each edge.
     pub fn edges(&self) -> impl Iterator<Item = u32> {
         (0u32..)
             .zip(&self.twin)
@@ -119,8 +121,8 @@ impl Sheet {
             .map(|(h, _)| h)
     }
 
-    /// Of some vertices the one farthest from the mean of all: where to begin, whatever their numbers, the scale and the
-    /// rotation. The first of those that are as far, as on a sphere.
+    /// Returns the vertex farthest from the mean of all among those with `is_one`: a start that does not depend on
+    /// numbers, scale and rotation. Returns the first of equally far ones, as on a sphere.
     pub fn outermost(&self, is_one: impl Fn(u32) -> bool) -> Option<u32> {
         let mut sum = [0.0; 3];
         for p in &self.positions {
@@ -133,7 +135,7 @@ impl Sheet {
         all().find(|&v| reach(v) >= SAME * farthest)
     }
 
-    /// For each vertex whether it lies on the boundary.
+    /// Returns for each vertex whether it lies on the boundary.
     pub fn on_boundary(&self) -> Vec<bool> {
         let mut on_boundary = vec![false; self.positions.len()];
         for h in (0..self.twin.len() as u32).filter(|&h| self.twin[h as usize] == CUT) {
@@ -145,8 +147,8 @@ impl Sheet {
     }
 }
 
-/// Numbers the vertices of glued faces: corners are one vertex when glued edges connect them around it. `welded` names the
-/// position of a corner, by which the ends of two glued halfedges are told apart.
+/// Numbers the vertices of glued faces: corners are one vertex if glued edges connect them around it. `welded` returns
+/// the position of a corner, which tells the ends of two glued halfedges apart.
 pub fn fans(twin: &[u32], welded: impl Fn(u32) -> u32) -> (Vec<u32>, usize) {
     let mut corners = UnionFind::new(twin.len());
     for (h, &t) in (0u32..).zip(twin).filter(|&(h, &t)| t != CUT && h < t) {
@@ -161,7 +163,8 @@ pub fn fans(twin: &[u32], welded: impl Fn(u32) -> u32) -> (Vec<u32>, usize) {
     corners.labels()
 }
 
-/// Numbers the vertices of a whole surface glued by `twin`: corners are one vertex when glued edges connect them around it.
+/// Numbers the vertices of a whole surface glued by `twin`: corners are one vertex if glued edges connect them around
+/// it.
 pub fn surface_fans(surface: &Surface, twin: &[u32]) -> (Vec<u32>, usize) {
     fans(twin, |corner| origin(&surface.triangles, corner))
 }

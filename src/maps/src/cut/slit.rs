@@ -5,26 +5,26 @@ use super::distances::{Neighbors, distances, opposite_end};
 use super::far_pairs::far_pairs;
 use unwrapd_method::numerics::vec3::{area_vector, norm};
 
-/// A vertex farther from the slit than this share of √area gets a branch. On a round sphere the slit from pole to pole
-/// leaves 0.44 √area; beyond about that, a limb would have to be squeezed through its own root.
+/// Share of √area beyond which a vertex far from the slit gets a branch. On a round sphere the slit from pole to pole
+/// leaves 0.44 √area; beyond about that, a limb would be squeezed through its own root.
 const FAR: f64 = 0.5;
 
-/// At most this many branches: each costs one pass over the sheet.
+/// Most branches: each costs one pass over the sheet.
 const MOST_BRANCHES: usize = 12;
 
-/// Whether a slit gets branches to vertices far from it.
+/// Branches of a slit to vertices far from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Branches {
-    /// None: whoever slits further decides.
+    /// No branches: the caller slits further.
     None,
-    /// So many that no limb has to be squeezed through its root.
+    /// Enough branches that no limb has to be squeezed through its root.
     ToLimbs,
 }
 
-/// At most so many slits that each open a closed sheet of genus 0 to a disk; the edges of each.
+/// Returns the edges of at most `most` slits. Each slit opens a closed sheet of genus 0 to a disk.
 ///
-/// A slit is a shortest path between two vertices far apart, with shortest branches, if asked for, to whatever
-/// remains far from it. It is a tree of at least two edges.
+/// A slit is a shortest path between two vertices far apart, with shortest branches, if asked for, to vertices far from
+/// it. It is a tree of at least two edges.
 pub fn slits(
     sheet: &Sheet,
     neighbors: &Neighbors,
@@ -74,7 +74,8 @@ fn mark_ends(sheet: &Sheet, edges: &[u32], on_slit: &mut [bool]) {
     }
 }
 
-/// An edge by which a slit of one edge goes on from its end: every closed sheet has a third vertex next to it.
+/// Returns an edge by which a slit of one edge continues from its end: every closed sheet has a third vertex next to
+/// it.
 fn continuation(sheet: &Sheet, neighbors: &Neighbors, end: u32, on_slit: &[bool]) -> Option<u32> {
     let leaves = |h: &&u32| !on_slit[opposite_end(sheet, **h, end) as usize];
     neighbors.of(end).iter().find(leaves).copied()

@@ -5,14 +5,14 @@ use unwrapd_method::numerics::vec3;
 
 /// A triangulation with one boundary loop: the disk's triangles first, then a fan around a new vertex in each hole.
 ///
-/// It is what Tutte's theorem and the hierarchy ask for. The virtual faces carry (nearly) no distortion energy.
+/// Tutte's theorem and the hierarchy require this form. The virtual faces carry (nearly) no distortion energy.
 pub(super) struct ClosedDisk {
-    /// The disk's vertices, then one apex per hole, in the middle of its loop.
+    /// Vertices of the disk, then one apex per hole, in the middle of its loop.
     pub positions: Vec<[f64; 3]>,
     pub triangles: Vec<[u32; 3]>,
-    /// The triangles from here on are virtual.
+    /// Number of real triangles; those after them are virtual.
     pub n_real: usize,
-    /// The outer loop, counter-clockwise.
+    /// Outer loop, counter-clockwise.
     pub boundary: Vec<u32>,
 }
 
@@ -41,7 +41,7 @@ impl ClosedDisk {
     }
 }
 
-/// The loop that is longest in space becomes the outer one: it has to hold the rest.
+/// Chooses the loop that is longest in space as the outer one, which must contain everything else.
 pub(super) fn outer_loop(disk: &Disk, positions: &[[f64; 3]]) -> usize {
     let lengths = disk
         .loops
@@ -57,7 +57,7 @@ pub(super) fn outer_loop(disk: &Disk, positions: &[[f64; 3]]) -> usize {
     longest.0
 }
 
-/// Length in space of the edge from each vertex of a loop to the next.
+/// Returns the length in space of the edge from each vertex of a loop to the next.
 pub(super) fn edge_lengths(boundary: &[u32], positions: &[[f64; 3]]) -> Vec<f64> {
     let at = |i: usize| positions[boundary[i % boundary.len()] as usize];
     (0..boundary.len())

@@ -1,45 +1,45 @@
-//! Which vertices to collapse, and onto which neighbor.
+//! Choice of vertices to collapse and their target neighbors.
 
 use super::triangulation::{Ring, Triangulation};
 use unwrapd_method::numerics::vec3::{add_scaled, area_vector, dot, norm, sub};
 
-/// A vertex that was moved onto a neighbor: what it takes to undo that.
+/// A vertex that was moved onto a neighbor, with the data to undo that.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Collapse {
     pub vertex: u32,
-    /// Its ring at that time, a range of [`Collapses::rings`].
+    /// Start of its ring at that time in [`Collapses::rings`].
     start: u32,
     end: u32,
     pub closed: bool,
-    /// Where in the ring the neighbor stands.
+    /// Place of the neighbor in the ring.
     pub at: u32,
 }
 
-/// Collapses in the order they were made.
+/// Collapses, in the order in which they were made.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Collapses {
     pub list: Vec<Collapse>,
     rings: Vec<u32>,
 }
 
-/// How careful a decimation is.
+/// Care of a decimation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Care {
-    /// Triangles stay of good shape, holes stay: the coarse mesh is a fair picture of the fine one.
+    /// Triangles keep a good shape and holes stay: the coarse mesh is a fair approximation of the fine one.
     Shape,
     /// Only the topology counts: any disk gets down to a few triangles.
     Topology,
 }
 
-/// The least quality of a new triangle, unless there was a worse one; 1 is equilateral.
+/// Least quality of a new triangle, unless there was a worse one; 1 is equilateral.
 const LEAST_QUALITY: f64 = 0.08;
 
-/// Neighbors that two vertices together may have before one is collapsed onto the other, which will then have four
+/// Most neighbors that two vertices may have together for one to be collapsed onto the other, which will then have four
 /// fewer: rings stay cheap and their kernels wide.
 const MOST_NEIGHBORS: usize = 20;
 
 impl Collapses {
-    /// The neighbors of a collapsed vertex, counter-clockwise.
+    /// Returns the neighbors of a collapsed vertex, counter-clockwise.
     pub fn ring(&self, collapse: &Collapse) -> &[u32] {
         &self.rings[collapse.start as usize..collapse.end as usize]
     }
@@ -61,7 +61,7 @@ impl Collapses {
 pub(super) struct Decimation<'a> {
     pub triangulation: Triangulation,
     positions: &'a [[f64; 3]],
-    /// Triangles of the original list from here on fill holes.
+    /// Number of real triangles; those after them in the original list fill holes.
     n_real: usize,
     locked: Vec<bool>,
 }
@@ -76,9 +76,10 @@ impl<'a> Decimation<'a> {
         }
     }
 
-    /// Collapses vertices until `goal` are left or none can go, flattest and smallest surroundings first.
+    /// Collapses vertices until `goal` are left or none can be collapsed; those with the flattest and smallest
+    /// surroundings go first.
     ///
-    /// In each pass no two collapses touch, so that what is removed is spread evenly.
+    /// In each pass no two collapses touch, so that removals are spread evenly.
     pub fn coarsen(&mut self, goal: usize, care: Care) -> Collapses {
         let mut collapses = Collapses::default();
         let mut left = self.triangulation.vertices();
@@ -129,8 +130,8 @@ impl<'a> Decimation<'a> {
         self.positions[v as usize]
     }
 
-    /// How much shape is lost with `v`: area times non-flatness (1 − |Σ N|/Σ|N|), and what a bent boundary cuts off.
-    /// A hundredth of the area itself decides among flat ones.
+    /// Returns the loss of shape without `v`: area times non-flatness (1 − |Σ N|/Σ|N|), plus the area cut off at a bent
+    /// boundary. A hundredth of the area itself decides among flat ones.
     fn cost(&self, v: u32, ring: &Ring) -> f64 {
         let center = self.at(v);
         let (mut sum, mut area) = ([0.0; 3], 0.0);
@@ -148,7 +149,7 @@ impl<'a> Decimation<'a> {
         area - norm(sum) + bend + 0.01 * area
     }
 
-    /// The neighbor that leaves the best worst triangle, among those that may be collapsed onto.
+    /// Returns the place of the neighbor with the best worst triangle, among those onto which `v` may be collapsed.
     fn target(&mut self, v: u32, ring: &Ring, care: Care) -> Option<usize> {
         let present = (ring.pairs())
             .map(|[a, b]| self.quality(v, a, b))
@@ -175,7 +176,8 @@ impl<'a> Decimation<'a> {
         })
     }
 
-    /// A hole's apex stays, and the vertices of its loop move along the loop only.
+    /// Returns whether a collapse keeps holes: a hole's apex stays, and the vertices of its loop move only along the
+    /// loop.
     fn keeps_holes(&self, ring: &Ring, at: usize) -> bool {
         let is_virtual = |h: &u32| *h as usize / 3 >= self.n_real;
         let n_virtual = ring.halfedges.iter().filter(|h| is_virtual(h)).count();
@@ -192,7 +194,7 @@ impl<'a> Decimation<'a> {
         side(before) != side(Some(at))
     }
 
-    /// The worst triangle when the middle of the ring has moved onto neighbor number `at`.
+    /// Returns the worst quality of a triangle after the middle of the ring has moved onto neighbor number `at`.
     fn quality_after(&self, ring: &Ring, at: usize) -> f64 {
         let target = ring.vertices[at];
         (ring.pairs())
@@ -201,7 +203,7 @@ impl<'a> Decimation<'a> {
             .fold(1.0, f64::min)
     }
 
-    /// 1 for an equilateral triangle, 0 for one without area: 4√3 · area / Σ edge².
+    /// Returns 4√3 · area / Σ edge²: 1 for an equilateral triangle, 0 for one without area.
     fn quality(&self, a: u32, b: u32, c: u32) -> f64 {
         let [a, b, c] = [a, b, c].map(|v| self.at(v));
         let squares: f64 = [(a, b), (b, c), (c, a)]

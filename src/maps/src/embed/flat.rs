@@ -5,15 +5,15 @@ use crate::mesh::Disk;
 use crate::plane::keep_apart;
 use unwrapd_method::numerics::vec3::{area_vector, cross, dot, norm, sub};
 
-/// How far vertices may be from the plane, as a part of the disk's extent: what is left of coordinates in `f32`.
+/// Largest distance of vertices from the plane, as a share of the disk's extent: the rounding of coordinates in `f32`.
 const FLAT: f64 = 1e-6;
 
-/// The least distance of the boundary from itself, as a part of the disk's extent: a few times what is left of coordinates in
-/// `f32`. A disk that comes nearer, as one that is slit does, has to be opened: rounding would close it.
+/// Least distance of the boundary from itself, as a share of the disk's extent: a few times the rounding of coordinates
+/// in `f32`. A disk that comes nearer, such as a slit one, must be opened: rounding would close it.
 const APART: f64 = 2e-7;
 
-/// The disk as it lies, in its own unit, seen from the side from which its triangles are counter-clockwise; `None` if it is not
-/// flat, a triangle is flipped or empty there, or the boundary touches itself.
+/// Returns the disk as it lies, in its own unit, seen from the side from which its triangles are counter-clockwise;
+/// `None` if it is not flat, a triangle is flipped or empty there, or the boundary touches itself.
 ///
 /// No other map has less distortion, and long arms, where Tutte's map is far from any optimum, cost nothing.
 pub(super) fn flat_map(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
@@ -39,7 +39,7 @@ pub(super) fn flat_map(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 
     Some(uv.into_iter().map(|p| p.map(|x| reach * x)).collect())
 }
 
-/// The unit normal of most of the area.
+/// Returns the unit normal of most of the area.
 fn normal(disk: &Disk, positions: &[[f64; 3]]) -> Option<[f64; 3]> {
     let mut sum = [0.0; 3];
     for triangle in &disk.triangles {
@@ -51,7 +51,7 @@ fn normal(disk: &Disk, positions: &[[f64; 3]]) -> Option<[f64; 3]> {
     length.is_normal().then(|| sum.map(|x| x / length))
 }
 
-/// Two unit vectors that make a right-handed frame with a third.
+/// Returns two unit vectors that form a right-handed frame with a third.
 fn axes(normal: [f64; 3]) -> [[f64; 3]; 2] {
     let least = (0..3).min_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()));
     let mut axis = [0.0; 3];

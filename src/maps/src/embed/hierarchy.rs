@@ -1,10 +1,10 @@
-//! Coarse to fine: a map that cannot fail, and for large disks most of the way to the optimum.
+//! Coarse to fine: a map that cannot fail, and for large disks most of the path to the optimum.
 //!
-//! Vertices are collapsed level by level until Tutte's map of what is left is safe, then put back in reverse order. Each
-//! goes into the kernel of its ring, which is never empty: the neighbor it had been collapsed onto sees the whole ring.
-//! What could still fail is floating point, when rings degenerate; so every level is optimized before the next finer one
-//! is filled in, which keeps rings wide, and is cheap because levels shrink geometrically. The finest level has then
-//! little left to do.
+//! Vertices are collapsed level by level until Tutte's map of the remaining ones is safe, then put back in reverse
+//! order. Each goes into the kernel of its ring, which is never empty: the neighbor onto which it was collapsed sees
+//! the whole ring. Only floating point could still fail, when rings degenerate; so every level is optimized before the
+//! next finer one is filled in, which keeps rings wide, and is cheap because levels shrink geometrically. The finest
+//! level then has little left to do.
 //!
 //! From: the hierarchy of progressive embeddings (Shen, Jiang, Zorin, Panozzo 2019) turned around: all vertices, not
 //! only those in bad triangles, and collapses in space rather than in the plane.
@@ -24,43 +24,44 @@ use unwrapd_method::solver::{
     Control, Iterate, Objective, Projection, Settings, best_scale, minimize,
 };
 
-/// Symmetric Dirichlet alone: it knows no flipped triangle, and it drives every ring back into shape, so that rings stay
-/// wide enough for floating point.
+/// Symmetric Dirichlet alone: it is infinite for flipped triangles and drives every ring back into shape, so that rings
+/// stay wide enough for floating point.
 const ROUNDING: MapEnergy = MapEnergy {
     energy: EnergyKind::SymmetricDirichlet,
     barrier: Barrier::NONE,
 };
 
-/// Vertices of the coarsest level, if shape allows: so few that Tutte's map of them is not far from the optimum even
-/// for a surface with long arms.
+/// Vertices of the coarsest level, if shape allows: few enough that Tutte's map of them is near the optimum even for a
+/// surface with long arms.
 const COARSEST: usize = 60;
 
-/// Vertices of the coarsest level when only topology counts: Tutte's map of a handful of vertices is exact enough.
+/// Vertices of the coarsest level if only topology counts: Tutte's map of a handful of vertices is exact enough.
 const FEWEST: usize = 8;
 
-/// A level keeps this share of its vertices.
+/// Share of vertices that a level keeps.
 const SHARE: f64 = 0.3;
 
-/// Weight of the triangles that fill holes, as share of what their area would weigh: they keep holes open, no more.
+/// Weight of the triangles that fill holes, as a share of the weight of their area: just enough to keep holes open.
 const VIRTUAL_WEIGHT: f64 = 1e-3;
 
-/// Sweeps after the vertices of a level are back. Four halve the factorizations on the finest level against one or two.
+/// Sweeps after the vertices of a level are back. Four halve the factorizations on the finest level, compared with one
+/// or two.
 const SWEEPS: usize = 4;
 
-/// Newton steps times vertices on a level, at most, but never fewer than [`LEAST_STEPS`] steps: small levels have all
-/// the steps they want, large ones the few they need when the coarser ones are good.
+/// Most Newton steps times vertices on a level, but never fewer than [`LEAST_STEPS`] steps: small levels get all the
+/// steps they want, large ones the few they need if the coarser ones are good.
 const STEP_BUDGET: usize = 200_000;
 
-/// See [`STEP_BUDGET`].
+/// Least number of steps per level; see [`STEP_BUDGET`].
 const LEAST_STEPS: usize = 5;
 
-/// A level is left when a Newton step promises less than this share of the energy. With 1e-3 levels in which a few
-/// stretched triangles make up the whole energy were left a millionfold above their optimum.
+/// Predicted gain of a Newton step, as a share of the energy, below which a level is done. With 1e-3, levels in which a
+/// few stretched triangles make up the whole energy ended a millionfold above their optimum.
 const STEP_GAIN: f64 = 1e-4;
 
-/// Energy per weight of an optimized coarsest level from which there is no way back: what Tutte squeezed to nothing, as at
-/// the end of a tube behind a boundary of three vertices, Newton's method does not widen again in floating point. Good
-/// ones have 2 to 30; the one known bad one has 1e13.
+/// Energy per weight of an optimized coarsest level beyond recovery: triangles that Tutte's map squeezed to nothing,
+/// such as at the end of a tube behind a boundary of three vertices, are not widened again by Newton's method in
+/// floating point. Good levels have 2 to 30; the one known bad one has 1e13.
 const FAR: f64 = 1e3;
 
 /// A mesh before some of its vertices were collapsed.
@@ -69,9 +70,11 @@ struct Level {
     collapses: Collapses,
 }
 
-/// A map of the closed disk, positive in every triangle, exactly, and near an optimum of the symmetric Dirichlet energy.
+/// Returns a map of the closed disk, positive in every triangle, exactly, and near an optimum of the symmetric
+/// Dirichlet energy.
 ///
-/// `positions` in the unit of the rest shapes. `None` if floating point failed even so; no mesh is known that does it.
+/// `positions` are in the unit of the rest shapes. Returns `None` if floating point failed nevertheless; no mesh is
+/// known for which it does.
 pub(super) fn coarse_to_fine(
     closed: &ClosedDisk,
     positions: &[[f64; 3]],
@@ -98,7 +101,7 @@ pub(super) fn coarse_to_fine(
     Some(uv)
 }
 
-/// Adds levels until `goal` vertices are left or no more can go.
+/// Adds levels until `goal` vertices are left or none can be collapsed.
 fn coarsen(decimation: &mut Decimation, goal: usize, care: Care, levels: &mut Vec<Level>) {
     loop {
         let n = decimation.triangulation.vertices().len();
@@ -118,13 +121,13 @@ fn coarsen(decimation: &mut Decimation, goal: usize, care: Care, levels: &mut Ve
     }
 }
 
-/// A map of the vertices that are left; positions of collapsed ones mean nothing yet.
+/// A map of the remaining vertices; positions of collapsed ones are meaningless.
 struct CoarsestMap {
     uv: Vec<[f64; 2]>,
     mean_energy: f64,
 }
 
-/// Tutte's map of what is left, optimized.
+/// Returns Tutte's map of the remaining vertices, optimized.
 fn coarsest_map(
     closed: &ClosedDisk,
     decimation: &Decimation,
@@ -152,7 +155,7 @@ fn coarsest_map(
     Some(CoarsestMap { uv, mean_energy })
 }
 
-/// The energy of one level, its vertices numbered without gaps.
+/// The energy of one level, with its vertices numbered without gaps.
 struct System {
     vertices: Vec<u32>,
     triangles: Vec<[u32; 3]>,
@@ -191,14 +194,15 @@ impl System {
         self.vertices.iter().map(|&v| uv[v as usize]).collect()
     }
 
-    /// What the exact check does not confirm is not taken, here as in [`minimize`](Self::minimize).
+    /// Improves the map by sweeps. The result is kept only if the exact check confirms it, as in
+    /// [`minimize`](Self::minimize).
     fn sweep(&self, uv: &mut [[f64; 2]]) {
         let mut x = self.gather(uv);
         sweep(&self.triangles, &self.corners, SWEEPS, &mut x);
         keep(&self.vertices, &self.triangles, x.as_flattened(), uv);
     }
 
-    /// Returns the energy per weight that it reached.
+    /// Minimizes the energy; returns the energy per weight that it reached.
     fn minimize(self, uv: &mut [[f64; 2]]) -> f64 {
         let mut x = self.gather(uv).into_flattened();
         let weight = self.term.scale();
@@ -216,7 +220,7 @@ impl System {
     }
 }
 
-/// Takes over positions if they are exactly positive.
+/// Copies positions to `uv` if all triangles are exactly positive.
 fn keep(vertices: &[u32], triangles: &[[u32; 3]], x: &[f64], uv: &mut [[f64; 2]]) {
     let points: &[[f64; 2]] = x.as_chunks().0;
     if first_bad_triangle(triangles, points).is_none() {

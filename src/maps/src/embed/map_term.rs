@@ -5,8 +5,7 @@ use unwrapd_method::barrier::{Barrier, MapEnergy, epsilon, map_energy};
 use unwrapd_method::energy::{RestShape, Term};
 use unwrapd_method::numerics::vec2::doubled_area;
 
-/// The energy of maps of triangles with these rest shapes, in their unit, with the ε that a start
-/// asks for.
+/// Creates the energy of maps of triangles with these rest shapes, in their unit, with the ε that a start requires.
 pub fn map_term(
     triangles: &[[u32; 3]],
     rest: &[RestShape],
@@ -20,7 +19,7 @@ pub fn map_term(
     map_term_with(triangles, rest, epsilon, options)
 }
 
-/// The same with a given ε.
+/// Like [`map_term`], with a given ε.
 pub(super) fn map_term_with(
     triangles: &[[u32; 3]],
     rest: &[RestShape],
@@ -39,7 +38,7 @@ pub(super) fn map_term_with(
     map_energy(triangles, rest, &parameters)
 }
 
-/// The area of a triangle in a map; negative if it is flipped.
+/// Returns the area of a triangle in a map; negative if it is flipped.
 pub(super) fn signed_area(triangle: &[u32; 3], uv: &[[f64; 2]]) -> f64 {
     let [a, b, c] = triangle.map(|v| uv[v as usize]);
     0.5 * doubled_area(a, b, c)

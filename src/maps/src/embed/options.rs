@@ -1,29 +1,29 @@
-//! How a disk is mapped, and what comes of it.
+//! Options and results of mapping a disk.
 
 use super::pins::Pins;
 use unwrapd_method::barrier::BarrierKind;
 use unwrapd_method::energy::EnergyKind;
 use unwrapd_method::solver::{Settings, Summary};
 
-/// What is minimized, and how far.
+/// Objective and stopping criteria.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// The density.
+    /// Density.
     pub energy: EnergyKind,
-    /// The barrier; without one [`EnergyKind::Arap`] and [`EnergyKind::Lscm`] may flip triangles.
+    /// Barrier; without one [`EnergyKind::Arap`] and [`EnergyKind::Lscm`] may flip triangles.
     pub barrier: BarrierKind,
-    /// β, the barrier's strength, when the mean rest area is 1.
+    /// β, the barrier's strength, for a mean rest area of 1.
     pub beta: f64,
-    /// s, the share of its rest area below which a triangle feels the barrier.
+    /// s, the share of its rest area below which the barrier of a triangle is nonzero.
     pub s: f64,
-    /// What stays where the start has it.
+    /// Vertices that keep their places of the start.
     pub pins: Pins,
-    /// When to stop.
+    /// Settings of the solver.
     pub solver: Settings,
 }
 
 impl Default for Options {
-    /// ARAP with the inverse-spline barrier, β = 0.01, s = 1.
+    /// Returns ARAP with the inverse-spline barrier, β = 0.01, s = 1.
     fn default() -> Self {
         Self {
             energy: EnergyKind::default(),
@@ -36,12 +36,12 @@ impl Default for Options {
     }
 }
 
-/// A map of a disk and how it came about.
+/// A map of a disk and the summary of its optimization.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Embedding {
     /// One position per vertex, in the mesh's unit of length, counter-clockwise; the sum of the areas in the plane is
-    /// that of the triangles in space (of their rest shapes, if none has an area).
+    /// that of the triangles in space (or of their rest shapes, if none has an area).
     pub uv: Vec<[f64; 2]>,
-    /// Energies in it are for a mean rest area of 1.
+    /// Summary of the solver; energies are for a mean rest area of 1.
     pub summary: Summary,
 }

@@ -1,4 +1,4 @@
-//! From a disk in space to its optimized map.
+//! The optimized map of a disk in space.
 
 use super::closed::outer_loop;
 use super::flat::flat_map;
@@ -13,14 +13,16 @@ use crate::mesh::Disk;
 use unwrapd_method::energy::EnergyKind;
 use unwrapd_method::solver::{Iterate, Objective, Status, Watch};
 
-/// From this many triangles on the start is found coarse to fine, which costs less than the Newton steps it saves.
+/// Number of triangles from which the start is found coarse to fine, which costs less than the Newton steps that it
+/// saves.
 const LARGE: usize = 1_000;
 
-/// Energy per triangle of a Tutte map that is too far from any optimum. Ordinary disks start at 1 to 40, those with long
-/// arms at 1e4 to 1e10: from there Newton's method takes hundreds of steps, or ends a millionfold above the optimum.
+/// Energy per triangle of a Tutte map that is too far from any optimum. Ordinary disks start at 1 to 40, those with
+/// long arms at 1e4 to 1e10: from there Newton's method takes hundreds of steps, or ends a millionfold above the
+/// optimum.
 const FAR: f64 = 100.0;
 
-/// A triangle of the start is flipped or empty, so there is no way from it that never flips.
+/// A triangle of the start is flipped or empty, so no path from it is free of flips.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidStart {
     /// The number of positions is not the number of vertices.
@@ -31,7 +33,8 @@ pub enum InvalidStart {
     NotPositive(usize),
 }
 
-/// Maps a disk into the plane: a valid start, then the minimum of the energy that Newton's method finds from it.
+/// Maps a disk into the plane: finds a valid start, then the minimum of the energy to which Newton's method leads from
+/// it.
 ///
 /// `positions` holds one finite position per vertex of the disk.
 pub fn parameterize(
@@ -57,7 +60,7 @@ pub fn parameterize(
     }
 }
 
-/// The first map, and what is minimized from it.
+/// Returns the first map and the objective to minimize from it.
 fn first_map_and_objective(
     problem: &Problem,
     positions: &[[f64; 3]],
@@ -70,8 +73,8 @@ fn first_map_and_objective(
     (start, objective)
 }
 
-/// The disk as it lies where it is flat, or unrolled where it can be; else, at its best size, Tutte's map where that is near enough, or the one found coarse to
-/// fine.
+/// Returns the disk as it lies if it is flat, or unrolled if possible; otherwise, at its best size, Tutte's map if that
+/// is near enough to an optimum, or the one found coarse to fine.
 fn first_map(problem: &Problem, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
     let isometric =
         flat_map(problem.disk, positions).or_else(|| unfolded_map(problem.disk, positions));
@@ -100,8 +103,8 @@ fn first_map(problem: &Problem, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
         .unwrap_or(uv)
 }
 
-/// Tutte's map and its two pins, at the size at which they are as far apart as in a nearly isometric map; that map itself where
-/// Tutte's is too far from any optimum, or the watcher wants to end.
+/// Returns Tutte's map and its two pins, at the size at which they are as far apart as in a nearly isometric map; that
+/// map itself if Tutte's is too far from any optimum, or the watcher wants to stop.
 fn pinned_map(
     problem: &Problem,
     positions: &[[f64; 3]],
@@ -123,8 +126,8 @@ fn pinned_map(
     }
 }
 
-/// The optimum without pins of an energy that knows sizes, so that pins taken from it cost nothing; for one that does not, the map
-/// found coarse to fine. And whether the watcher wants to end.
+/// Returns the optimum without pins of an energy that depends on size, so that pins taken from it cost nothing; for
+/// another energy, the map found coarse to fine. Also returns whether the watcher wants to stop.
 fn nearly_isometric(
     problem: &Problem,
     positions: &[[f64; 3]],
@@ -140,7 +143,7 @@ fn nearly_isometric(
     Some((near, summary.status == Status::Stopped))
 }
 
-/// Minimizes from a given map, in any unit: it is scaled to the best size first. [`Options::pins`] are left out of account.
+/// Minimizes from a given map, in any unit: it is first scaled to the best size. [`Options::pins`] are ignored.
 ///
 /// # Errors
 /// If the start is not positive in every triangle; checked exactly.

@@ -9,14 +9,14 @@ use unwrapd_method::barrier::BarrierKind;
 use unwrapd_method::energy::Term;
 use unwrapd_method::solver::{Objective, Settings, Summary, Watch, best_scale, minimize};
 
-/// Newton steps times triangles, at most: 14 steps for 357,000 triangles, where one takes 1.5 s. Six of them came within
-/// 0.3 % of the energy that was reached in the end: coarse to fine, the finest level has little left to do.
+/// Most Newton steps times triangles: 14 steps for 357,000 triangles, where one takes 1.5 s. Six of them came within
+/// 0.3 % of the final energy: coarse to fine, the finest level has little left to do.
 const STEP_BUDGET: usize = 5_000_000;
 
-/// Steps that even the largest disk may take.
+/// Least number of steps that even the largest disk may take.
 const LEAST_STEPS: usize = 8;
 
-/// What is to be minimized.
+/// A disk, its rest shapes and options.
 pub(super) struct Problem<'a> {
     pub disk: &'a Disk,
     pub rest: RestShapes,
@@ -24,7 +24,7 @@ pub(super) struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// The energy with the ε that this start asks for.
+    /// Returns the energy with the ε that this start requires.
     fn term(&self, start: &[[f64; 2]]) -> Box<dyn Term> {
         map_term(&self.disk.triangles, &self.rest.shapes, start, self.options)
     }
@@ -38,7 +38,7 @@ impl Problem<'_> {
         )
     }
 
-    /// The map at the size of lowest energy.
+    /// Scales the map to the size of lowest energy.
     pub fn at_best_size(&self, uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
         // To a mean area of 1: the search then starts near its end, whatever unit the map was in.
         let area = total_area(&self.disk.triangles, uv).abs();
@@ -50,7 +50,7 @@ impl Problem<'_> {
         self.scaled(&uv, best)
     }
 
-    /// The map at the size at which its area is that of the rest shapes.
+    /// Scales the map so that its area is that of the rest shapes.
     pub fn at_rest_size(&self, uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
         self.with_area(uv, self.rest.shapes.len() as f64)
     }
@@ -60,7 +60,7 @@ impl Problem<'_> {
         self.scaled(uv, (wanted / area.max(f64::MIN_POSITIVE)).sqrt())
     }
 
-    /// The map times a factor, or times the power of 2 next to it where that would empty a triangle.
+    /// Multiplies the map by a factor, or by the nearest power of 2 if that would empty a triangle.
     pub fn scaled(&self, uv: &[[f64; 2]], factor: f64) -> Vec<[f64; 2]> {
         let exact = scaled(uv, factor);
         if first_bad_triangle(&self.disk.triangles, &exact).is_none() {
@@ -70,18 +70,18 @@ impl Problem<'_> {
         }
     }
 
-    /// The energy per triangle of a map.
+    /// Returns the energy per triangle of a map.
     pub fn mean_energy(&self, uv: &[[f64; 2]]) -> f64 {
         self.term(uv).value(uv.as_flattened()) / self.rest.shapes.len() as f64
     }
 
-    /// What is minimized from this start.
+    /// Returns the objective to minimize from this start.
     pub fn objective(&self, start: &[[f64; 2]]) -> Objective {
         Objective::new(self.disk.n_vertices, self.term(start))
     }
 
-    /// The same, analyzed while the start is found: the analysis takes about as long where that is found coarse to fine. Who wants
-    /// nothing but the start waits for the longer of the two.
+    /// Like [`objective`](Self::objective), analyzed while the start is found: the analysis takes about as long as
+    /// finding it coarse to fine. A caller that wants only the start waits for the longer of the two.
     pub fn objective_beside(
         &self,
         start: impl FnOnce() -> Vec<[f64; 2]> + Send,
@@ -96,7 +96,7 @@ impl Problem<'_> {
         (start, objective)
     }
 
-    /// The map that minimizing from this start leads to, in the mesh's unit.
+    /// Minimizes from this start and returns the map in the mesh's unit.
     pub fn minimized(
         &self,
         objective: Objective,
@@ -111,7 +111,7 @@ impl Problem<'_> {
         }
     }
 
-    /// The same in the unit of the rest shapes: pinned vertices stay where they are.
+    /// Minimizes from this start in the unit of the rest shapes; pinned vertices stay in place.
     pub fn minimum(
         &self,
         mut objective: Objective,
@@ -136,7 +136,7 @@ impl Problem<'_> {
         (uv, summary)
     }
 
-    /// The map at the size at which its area is that of the surface.
+    /// Scales the map so that its area is that of the surface.
     fn in_mesh_unit(&self, uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let wanted = if self.rest.true_area > 0.0 {
             self.rest.true_area

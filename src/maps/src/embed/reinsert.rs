@@ -1,4 +1,4 @@
-//! Collapsed vertices put back into a map without flipping a triangle.
+//! Reinsertion of collapsed vertices into a map without flipping a triangle.
 
 use super::decimate::{Collapse, Collapses};
 use super::rest::{Least, rest_shape};
@@ -8,21 +8,22 @@ use unwrapd_method::numerics::predicates::orient2d_sign;
 use unwrapd_method::numerics::vec2::{cross, dot, sub};
 use unwrapd_method::numerics::vec3;
 
-/// Steps of the walk toward the neighbor, each 0.6 of the one before: the last is 1e-33 of the first.
+/// Steps of the walk toward the neighbor, each 0.6 times the one before: the last is 1e-33 of the first.
 const WALK: usize = 150;
 
-/// A ring left no room that floating point can express.
+/// A ring left no room that floating point can represent.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NoRoom;
 
-/// Surfaces in space: positions in the unit of the rest shapes, and what shapes are enlarged to.
+/// Surfaces in space: positions in the unit of the rest shapes, and the least size of shapes.
 #[derive(Clone, Copy)]
 pub(super) struct Shape<'a> {
     pub positions: &'a [[f64; 3]],
     pub least: Least,
 }
 
-/// Undoes the collapses, last first; `uv` must be positive on the coarse triangles and then is on the fine ones, exactly.
+/// Undoes the collapses, last first; `uv` must be positive on the coarse triangles and is then positive on the fine
+/// ones, exactly.
 pub(super) fn reinsert(
     collapses: &Collapses,
     shape: &Shape,
@@ -44,7 +45,8 @@ pub(super) fn reinsert(
     Ok(())
 }
 
-/// The mean of the places at which the vertex would form, with each edge of its ring, a triangle similar to that in space.
+/// Returns the mean of the places at which the vertex would form, with each edge of its ring, a triangle similar to
+/// that in space.
 fn similar_place(collapse: &Collapse, ring: &[u32], shape: &Shape, uv: &[[f64; 2]]) -> [f64; 2] {
     let at = |v: u32| shape.positions[v as usize];
     let (mut sum, mut n) = ([0.0; 2], 0.0);
@@ -65,10 +67,11 @@ fn similar_place(collapse: &Collapse, ring: &[u32], shape: &Shape, uv: &[[f64; 2
     sum.map(|x| x / n)
 }
 
-/// Points ever nearer to the neighbor that the vertex had been collapsed onto.
+/// Iterates over points ever nearer to the neighbor onto which the vertex was collapsed.
 ///
-/// That neighbor sees the whole ring, because its triangles are positive; so does every point close to it in a direction
-/// inside its angle. For a vertex of the boundary the direction is square to its one edge that stays.
+/// That neighbor sees the whole ring, because its triangles are positive; so does every point close to it in a
+/// direction inside its angle. For a boundary vertex the direction is perpendicular to the neighbor's boundary edge
+/// that stays.
 fn walk(
     collapse: &Collapse,
     ring: &[u32],
@@ -102,7 +105,7 @@ fn length(a: [f64; 2]) -> f64 {
     a[0].hypot(a[1])
 }
 
-/// The direction halfway from `a` counter-clockwise to `b`.
+/// Returns the direction halfway from `a` counter-clockwise to `b`.
 fn bisector(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     let angle = cross(a, b).atan2(dot(a, b));
     let half = 0.5
@@ -115,7 +118,7 @@ fn bisector(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [cos * a[0] - sin * a[1], sin * a[0] + cos * a[1]]
 }
 
-/// The place after local Newton steps; every step is checked exactly.
+/// Improves the place by local Newton steps; every step is checked exactly.
 fn improved_place(
     collapse: &Collapse,
     ring: &[u32],

@@ -1,35 +1,34 @@
-//! What each triangle should look like in the plane.
+//! Rest shapes of triangles in the plane.
 
 use unwrapd_method::energy::RestShape;
 use unwrapd_method::numerics::vec2;
 use unwrapd_method::numerics::vec3::{area_vector, distance, dot, norm, sub};
 
-/// A triangle whose altitude is a smaller part of its longest edge is given this altitude: below it, a map that keeps
-/// the shape would have to hold coordinates to ten digits to stay unflipped.
+/// Least altitude of a rest shape, as a share of its longest edge: below it, a map that keeps the shape would need
+/// coordinates of ten digits to stay free of flips.
 const SMALLEST_ASPECT: f64 = 1e-4;
 
-/// The same where most of the area is thinner than that but not than this, as in a fan of a hundred thousand around one vertex: there
-/// substitutes would fit together no better than they would around it.
+/// Least altitude if most of the area is thinner than the first limit but not than this one, as in a fan of a hundred
+/// thousand triangles around one vertex: substitutes would fit together there no better.
 const THINNEST_ASPECT: f64 = 1e-5;
 
-/// Shapes below this part of the chart's size are enlarged to it. An atlas stores coordinates to 2⁻²³ of its width, so
-/// smaller triangles could not be told from points there, and nobody can see them.
+/// Share of the chart's size to which smaller shapes are enlarged. An atlas stores coordinates to 2⁻²³ of its width, so
+/// smaller triangles would be indistinguishable from points, and are invisible.
 const SMALLEST_SIZE: f64 = 1.0 / (1_u64 << 20) as f64;
 
-/// What a substitute shape weighs beyond the triangle's true area, as part of the substitute's area: enough to keep the
-/// substitute in shape, too little to pull on its neighbors.
+/// Weight of a substitute shape beyond the triangle's true area, as a share of the substitute's area: enough to keep
+/// the substitute in shape, too little to pull on its neighbors.
 const SUBSTITUTE_WEIGHT: f64 = 1e-3;
 
-/// The rest shape of every triangle of a chart: what the map would keep if it could.
+/// Rest shapes of all triangles of a chart: the shapes that the map keeps if possible.
 ///
 /// Each triangle is flattened isometrically. One of zero or nearly zero area (it still needs a positive area in the
-/// plane) gets a substitute of bounded aspect: its longest edge and the foot on it kept, its altitude raised. Its weight
-/// is its true area and a small part of the substitute's.
-/// All lengths are divided by `scale`, so that the mean area is 1: barrier strength and tolerances then mean the same
-/// for a ring and a city.
+/// plane) gets a substitute of bounded aspect: its longest edge and the foot on it are kept, its altitude is raised.
+/// Its weight is its true area plus a small share of the substitute's. All lengths are divided by `scale`, so that the
+/// mean area is 1: barrier strength and tolerances then mean the same for a ring and a city.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RestShapes {
-    /// The shapes, one per triangle.
+    /// One shape per triangle.
     pub shapes: Vec<RestShape>,
     /// Length in the mesh's unit of a length 1 here.
     pub scale: f64,
@@ -37,11 +36,11 @@ pub struct RestShapes {
     pub area: f64,
     /// Sum of the triangles' true areas, in the mesh's unit.
     pub true_area: f64,
-    /// What shapes were enlarged to, in the unit of the shapes.
+    /// Least size of shapes, in the unit of the shapes.
     pub(super) least: Least,
 }
 
-/// The least that shapes are enlarged to.
+/// Least size to which shapes are enlarged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Least {
     /// Length of the longest edge.
@@ -50,9 +49,9 @@ pub(super) struct Least {
     pub aspect: f64,
 }
 
-/// The rest shapes of triangles with three distinct corners each.
+/// Returns the rest shapes of triangles with three distinct corners each.
 ///
-/// Any finite coordinates are welcome, from 1e-40 to 1e40 in the same mesh.
+/// Accepts any finite coordinates, from 1e-40 to 1e40 in the same mesh.
 pub fn rest_shapes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RestShapes {
     let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize]);
     let longest_edges: Vec<(usize, f64)> =
@@ -100,7 +99,7 @@ pub fn rest_shapes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RestShapes
     }
 }
 
-/// The aspect below which shapes get a substitute.
+/// Returns the aspect below which shapes get a substitute.
 fn least_aspect(triangles: &[Measure]) -> f64 {
     let (mut all, mut thin) = (0.0, 0.0);
     for triangle in triangles {
@@ -116,19 +115,20 @@ fn least_aspect(triangles: &[Measure]) -> f64 {
     }
 }
 
-/// The rest shape of one triangle.
+/// Returns the rest shape of one triangle.
 pub(super) fn rest_shape(p: [[f64; 3]; 3], least: Least) -> RestShape {
     Measure::of(p).rest_shape(p, least)
 }
 
-/// Whether a triangle is so thin that it gets a substitute wherever it is: no map that is made here keeps its shape.
+/// Returns whether a triangle is so thin that it gets a substitute in any chart: no map that is made here keeps its
+/// shape.
 pub fn is_needle(p: [[f64; 3]; 3]) -> bool {
     Measure::of(p).is_thinner(THINNEST_ASPECT)
 }
 
 /// A triangle's longest edge and its area.
 struct Measure {
-    /// The corner that the edge starts from.
+    /// Corner at which the edge starts.
     first: usize,
     length: f64,
     area: f64,
@@ -140,8 +140,8 @@ impl Measure {
         Self::along(p, first, length)
     }
 
-    /// Of a triangle of which the longest edge is known. The area is measured from the corner opposite to it: there the rounding is
-    /// least.
+    /// Measures a triangle with a known longest edge. The area is measured from the opposite corner, where the rounding
+    /// is least.
     fn along(p: [[f64; 3]; 3], first: usize, length: f64) -> Self {
         let [a, b, apex] = [first, (first + 1) % 3, (first + 2) % 3];
         Self {
@@ -151,12 +151,12 @@ impl Measure {
         }
     }
 
-    /// Whether the altitude on the longest edge is a smaller part of it.
+    /// Returns whether the altitude on the longest edge is less than this share of it.
     fn is_thinner(&self, aspect: f64) -> bool {
         2.0 * self.area < aspect * self.length * self.length
     }
 
-    /// The triangle laid on its longest edge, no shorter than the least and with a bounded aspect.
+    /// Lays the triangle on its longest edge, no shorter than the least and with a bounded aspect.
     fn rest_shape(&self, p: [[f64; 3]; 3], least: Least) -> RestShape {
         let (smallest, length) = (least.size, self.length);
         let [a, b, c] = [self.first, (self.first + 1) % 3, (self.first + 2) % 3];
@@ -188,7 +188,7 @@ impl Measure {
     }
 }
 
-/// The corner the longest edge starts from, and its length.
+/// Returns the corner at which the longest edge starts, and its length.
 fn longest_edge(p: [[f64; 3]; 3]) -> (usize, f64) {
     (0..3)
         .map(|k| (k, distance(p[k], p[(k + 1) % 3])))

@@ -1,23 +1,24 @@
-//! A disk with fewer vertices, and the way back.
+//! A simplified disk, and the transfer of seams back to the original.
 
 use super::closed::ClosedDisk;
 use super::decimate::{Care, Collapse, Collapses, Decimation};
 use crate::mesh::{Disk, UsedVertices};
 use std::collections::HashSet;
 
-/// A disk with fewer vertices than the one it is made of.
+/// A disk with fewer vertices than the one it was made from.
 pub struct Simplification {
-    /// The disk, with as many holes.
+    /// The simplified disk, with the same number of holes.
     pub disk: Disk,
     /// For each of its vertices the one of the finer disk.
     pub vertices: Vec<u32>,
     collapses: Collapses,
-    /// For each vertex of the finer disk.
+    /// For each vertex of the finer disk whether it is on the boundary.
     is_on_boundary: Vec<bool>,
 }
 
 impl Simplification {
-    /// A disk of about so many of a disk's vertices, or more where its shape would suffer. None if nothing simpler is a disk.
+    /// Simplifies a disk to about `n_vertices` vertices, or more where its shape would suffer. Returns `None` if the
+    /// result is not a disk.
     pub fn new(disk: &Disk, positions: &[[f64; 3]], n_vertices: usize) -> Option<Self> {
         let closed = ClosedDisk::new(disk, positions);
         let mut decimation = Decimation::new(&closed.positions, &closed.triangles, closed.n_real);
@@ -39,10 +40,11 @@ impl Simplification {
         })
     }
 
-    /// The edges inside the finer disk that part it as these edges inside the disk part that, each as its two vertices in ascending
-    /// order.
+    /// Transfers seams to the finer disk: returns the interior edges that divide it as these interior edges divide the
+    /// simplified disk, each as its two vertices in increasing order.
     ///
-    /// The collapsed vertices are put back one by one: what went to the neighbor across such a vertex then ends at the vertex.
+    /// The collapsed vertices are put back one by one: edges of the neighbor that lie across such a vertex then end at
+    /// the vertex.
     pub fn carried_back(&self, seams: &[[u32; 2]]) -> HashSet<[u32; 2]> {
         let mut carried = Carried {
             edges: HashSet::new(),
@@ -63,7 +65,7 @@ impl Simplification {
 /// Seams while vertices are put back.
 struct Carried<'a> {
     edges: HashSet<[u32; 2]>,
-    /// For each vertex how many of them it has.
+    /// For each vertex the number of seam edges at it.
     n_at: Vec<u32>,
     is_on_boundary: &'a [bool],
 }
@@ -85,7 +87,7 @@ impl Carried<'_> {
         is_there
     }
 
-    /// Puts a vertex back between the neighbor it had been collapsed onto and the others of its ring.
+    /// Puts a vertex back between the neighbor onto which it was collapsed and the others of its ring.
     fn put_back(&mut self, collapse: &Collapse, ring: &[u32]) {
         let (vertex, at) = (collapse.vertex, collapse.at as usize);
         let onto = ring[at];

@@ -1,28 +1,28 @@
-//! The symmetric Dirichlet energy around one vertex, as a function of where that vertex is.
+//! The symmetric Dirichlet energy around one vertex, as a function of its position.
 //!
-//! In the plane ‖J⁻¹‖² = ‖J‖²/det²J, ‖J‖² is a sum over squared edges, and det J is linear in one vertex: two dozen operations
-//! per triangle for the value and as many for its derivatives.
+//! In the plane ‖J⁻¹‖² = ‖J‖²/det²J, ‖J‖² is a sum over squared edges, and det J is linear in one vertex: two dozen
+//! operations per triangle for the value, and again for its derivatives.
 
 use unwrapd_method::energy::RestShape;
 use unwrapd_method::numerics::vec2::{cross, dot, sub};
 
-/// Newton steps on a vertex in one visit, at most. A step widens a squeezed triangle by a third, as Newton's method does with
-/// 1/x², so that this widens one by a factor of 5,000.
+/// Most Newton steps on a vertex in one visit. A step widens a squeezed triangle by a third, as Newton's method does
+/// with 1/x², so that this many widen one by a factor of 5,000.
 const MOST_STEPS: usize = 30;
 
-/// Share of the energy around a vertex that the last step must have taken off for another to follow. Most vertices are left
-/// after one; the few that are not would otherwise carry what is left of the whole energy, and cost global steps: eleven
-/// factorizations on the finest level instead of six (camelhead), fifteen instead of two (bimba_89k).
+/// Share of the energy around a vertex that a step must remove for another to follow. Most vertices need one; the few
+/// others would keep most of the remaining energy and cost global steps: eleven factorizations on the finest level
+/// instead of six (camelhead), fifteen instead of two (bimba_89k).
 const WORTH_ANOTHER: f64 = 0.02;
 
-/// Halvings before a vertex stays where it is.
+/// Most halvings before a vertex stays in place.
 const MAX_HALVINGS: usize = 8;
 
-/// Curvature below this share of the greatest counts as this much.
+/// Least curvature, as a share of the greatest.
 const FLATTEST: f64 = 1e-9;
 
-/// What a triangle's energy needs of its rest shape: ½·weight·‖J‖² = Σ edgesᵢ |edge opposite to corner i|², and det J in doubled
-/// areas.
+/// Rest shape of a triangle in the form that its energy needs: ½·weight·‖J‖² = Σ edgesᵢ |edge opposite to corner i|²,
+/// and the factor of the doubled area in det J.
 #[derive(Clone, Copy, Debug)]
 pub struct Corners {
     edges: [f64; 3],
@@ -30,7 +30,8 @@ pub struct Corners {
 }
 
 impl Corners {
-    /// ‖J‖² = −Σ over edges of |edge|² gᵢ·gⱼ, with the gradients g of the barycentric coordinates of its ends.
+    /// Computes the factors from ‖J‖² = −Σ over edges of |edge|² gᵢ·gⱼ, with the gradients g of the barycentric
+    /// coordinates of its ends.
     pub fn new(rest: &RestShape) -> Self {
         let [g1, g2] = rest.inverse;
         let g0 = [-g1[0] - g2[0], -g1[1] - g2[1]];
@@ -42,11 +43,11 @@ impl Corners {
     }
 }
 
-/// A triangle with one free corner: the corners after it, counter-clockwise.
+/// A triangle with one free corner, given by the corners after it, counter-clockwise.
 #[derive(Clone, Copy, Debug)]
 struct Face {
     ends: [[f64; 2]; 2],
-    /// Of the edge between the ends, the edge to the second and that to the first.
+    /// Factors of the edge between the ends, of the edge to the second and of that to the first.
     edges: [f64; 3],
     per_doubled_area: f64,
 }
@@ -58,7 +59,7 @@ pub struct Star {
 }
 
 impl Star {
-    /// Takes all triangles out.
+    /// Removes all triangles.
     pub fn clear(&mut self) {
         self.faces.clear();
     }
@@ -73,7 +74,8 @@ impl Star {
         });
     }
 
-    /// Where Newton steps take the vertex from `start`, each accepted, while they are worth it; the energy falls.
+    /// Returns the position after Newton steps from `start`, each accepted, as long as they gain enough; the energy
+    /// falls.
     ///
     /// A triangle's area is linear in one vertex, so no inversion can hide between the end points of a step.
     pub fn settle(&self, start: [f64; 2], is_accepted: impl Fn([f64; 2]) -> bool) -> [f64; 2] {
@@ -95,7 +97,7 @@ impl Star {
         at
     }
 
-    /// One Newton step, halved until the energy falls.
+    /// Takes one Newton step, halved until the energy falls; returns the position and its energy.
     fn step(&self, at: [f64; 2], energy: f64) -> Option<([f64; 2], f64)> {
         let mut direction = self.newton_direction(at);
         for _ in 0..MAX_HALVINGS {
@@ -109,14 +111,14 @@ impl Star {
         None
     }
 
-    /// The energy with the vertex at `x`, +∞ if a triangle is not positive.
+    /// Returns the energy with the vertex at `x`, +∞ if a triangle is not positive.
     ///
     /// Σ over the triangles of ½·weight·‖J‖²(1 + 1/det²J). Test: `embed::taylor_star`.
     pub fn value(&self, x: [f64; 2]) -> f64 {
         self.faces.iter().map(|face| face.value(x)).sum()
     }
 
-    /// The gradient and the entries xx, xy, yy of the Hessian with the vertex at `x`.
+    /// Returns the gradient and the entries xx, xy, yy of the Hessian with the vertex at `x`.
     pub fn derivatives(&self, x: [f64; 2]) -> ([f64; 2], [f64; 3]) {
         let (mut gradient, mut hessian) = ([0.0; 2], [0.0; 3]);
         for face in &self.faces {
@@ -125,7 +127,7 @@ impl Star {
         (gradient, hessian)
     }
 
-    /// −|H|⁻¹g, each eigenvalue of the Hessian by its absolute value.
+    /// Returns −|H|⁻¹g, where |H| has the absolute eigenvalues of the Hessian.
     fn newton_direction(&self, x: [f64; 2]) -> [f64; 2] {
         let (g, [a, b, c]) = self.derivatives(x);
         let (mean, half) = (0.5 * (a + c), 0.5 * (a - c));
@@ -149,7 +151,7 @@ impl Star {
 }
 
 impl Face {
-    /// ½·weight·‖J‖² and det J.
+    /// Returns ½·weight·‖J‖² and det J.
     fn parts(&self, x: [f64; 2]) -> (f64, f64) {
         let [b, c] = self.ends;
         let (edge, to_b, to_c) = (sub(c, b), sub(b, x), sub(c, x));

@@ -1,4 +1,4 @@
-//! A map without flips to start from.
+//! A start without flips.
 
 use super::closed::ClosedDisk;
 use super::hierarchy::coarse_to_fine;
@@ -6,11 +6,12 @@ use super::rest::{RestShapes, rest_shapes};
 use super::tutte::{Boundary, tutte, tutte_embedding};
 use crate::mesh::Disk;
 
-/// A locally injective map of the disk: counter-clockwise and positive in every triangle, exactly.
+/// Returns a locally injective map of the disk: counter-clockwise and positive in every triangle, exactly.
 ///
-/// Tutte's map if floating point allows, else by way of the hierarchy. Holes are closed first. Size and distortion are
-/// arbitrary. Should both fail, as for a few disks with hundreds of empty triangles, Tutte's map as floating point left it:
-/// whoever promises more than a map checks it again ([`is_positive`](super::is_positive)) and cuts the disk.
+/// Returns Tutte's map if floating point allows, otherwise that of the hierarchy. Holes are closed first. Size and
+/// distortion are arbitrary. If both fail, as for a few disks with hundreds of empty triangles, returns Tutte's map as
+/// floating point left it: a caller that needs a valid map checks it again ([`is_positive`](super::is_positive)) and
+/// cuts the disk.
 pub fn start(disk: &Disk, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
     tutte_start(disk, positions)
         .or_else(|| hierarchical_start(disk, positions))
@@ -22,20 +23,20 @@ pub fn start(disk: &Disk, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
         })
 }
 
-/// Tutte's map, if floating point left every triangle positive, those that close the holes included.
+/// Returns Tutte's map, if floating point left every triangle positive, including those that close the holes.
 pub fn tutte_start(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
     let mut uv = tutte(&ClosedDisk::new(disk, positions))?;
     uv.truncate(disk.n_vertices);
     Some(uv)
 }
 
-/// A map found coarse to fine. It takes longer than Tutte's but ends near an optimum, in the unit of [`rest_shapes`], and
-/// hardly ever fails.
+/// Returns a map found coarse to fine. It takes longer than Tutte's but ends near an optimum, in the unit of
+/// [`rest_shapes`], and hardly ever fails.
 pub fn hierarchical_start(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
     hierarchical_start_at(disk, positions, &rest_shapes(positions, &disk.triangles))
 }
 
-/// The same, the rest shapes being known.
+/// Like [`hierarchical_start`], with known rest shapes.
 pub(super) fn hierarchical_start_at(
     disk: &Disk,
     positions: &[[f64; 3]],

@@ -1,7 +1,7 @@
-//! Gauss–Seidel: one vertex at a time to where its triangles like it.
+//! Gauss–Seidel sweeps: moves one vertex at a time to the minimum of its triangles' energy.
 //!
-//! It removes in linear time the short-waved error that putting vertices back leaves, for which Newton's method would
-//! need a factorization of the whole system.
+//! They remove in linear time the short-wave error that reinsertion leaves, for which Newton's method would need a
+//! factorization of the whole system.
 
 use super::star::{Corners, Star};
 use crate::mesh::VertexFaces;

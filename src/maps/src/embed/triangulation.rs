@@ -1,22 +1,23 @@
 //! A triangulated disk that can be coarsened.
 
-/// Marks a halfedge at the boundary.
+/// Opposite of a halfedge at the boundary.
 const NONE: u32 = u32::MAX;
 
-/// Triangles glued along opposite halfedges; halfedge `3t + k` leaves corner k of triangle t for corner k + 1.
+/// Triangles glued along opposite halfedges; halfedge `3t + k` goes from corner k of triangle t to corner k + 1.
 ///
 /// Invariant: a connected disk with one boundary loop and at least one triangle. Vertices keep their numbers; a
-/// collapsed vertex has no triangle any more.
+/// collapsed vertex has no triangles.
 pub(super) struct Triangulation {
     corners: Vec<u32>,
     opposite: Vec<u32>,
-    /// For each vertex a halfedge that leaves it, at the boundary the one that has no opposite; NONE once collapsed.
+    /// For each vertex a halfedge that leaves it, at the boundary the one without an opposite; NONE once collapsed.
     leaving: Vec<u32>,
     alive: Vec<bool>,
-    /// A vertex at the boundary stays there: it moves along the boundary only, and what is inside never comes there.
+    /// For each vertex whether it is at the boundary. Such a vertex moves only along the boundary, and inner vertices
+    /// never get there.
     at_boundary: Vec<bool>,
     n_triangles: usize,
-    /// Scratch for the link condition: the last stamp of each vertex.
+    /// Workspace for the link condition: the last stamp of each vertex.
     stamps: Vec<u32>,
     stamp: u32,
 }
@@ -25,27 +26,27 @@ pub(super) struct Triangulation {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Ring {
     pub vertices: Vec<u32>,
-    /// The halfedges from the vertex that start its triangles, in the same order.
+    /// Halfedges from the vertex that start its triangles, in the same order.
     pub halfedges: Vec<u32>,
-    /// All around, or from boundary edge to boundary edge.
+    /// `true` if the ring goes all around, `false` if it goes from boundary edge to boundary edge.
     pub closed: bool,
 }
 
 impl Ring {
-    /// Neighbors that follow each other: with the vertex in front, its triangles.
+    /// Iterates over neighbors that follow each other: together with the vertex they form its triangles.
     pub fn pairs(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
         pairs(&self.vertices, self.closed)
     }
 }
 
-/// Successive vertices of a ring.
+/// Iterates over successive vertices of a ring.
 pub(super) fn pairs(ring: &[u32], closed: bool) -> impl Iterator<Item = [u32; 2]> + '_ {
     let n = ring.len();
     (0..n - usize::from(!closed)).map(move |i| [ring[i], ring[(i + 1) % n]])
 }
 
 impl Triangulation {
-    /// From triangles that form a disk with one boundary loop.
+    /// Creates the triangulation from triangles that form a disk with one boundary loop.
     pub fn new(n_vertices: usize, triangles: &[[u32; 3]]) -> Self {
         let corners: Vec<u32> = triangles.iter().flatten().copied().collect();
         let mut triangulation = Self {
@@ -80,7 +81,7 @@ impl Triangulation {
         triangulation
     }
 
-    /// The vertices that are left, in increasing order.
+    /// Returns the remaining vertices, in increasing order.
     pub fn vertices(&self) -> Vec<u32> {
         let left = self.leaving.iter().enumerate();
         left.filter(|(_, h)| **h != NONE)
@@ -88,7 +89,7 @@ impl Triangulation {
             .collect()
     }
 
-    /// The triangles that are left, with their numbers in the original list.
+    /// Iterates over the remaining triangles, with their numbers in the original list.
     pub fn triangles(&self) -> impl Iterator<Item = (usize, [u32; 3])> + '_ {
         let all = self.corners.chunks_exact(3).enumerate();
         all.filter(|(t, _)| self.alive[*t])
@@ -99,7 +100,7 @@ impl Triangulation {
         self.corners[halfedge as usize]
     }
 
-    /// Makes two halfedges opposite; what is glued to NONE is boundary.
+    /// Makes two halfedges opposite; a halfedge glued to NONE is at the boundary.
     fn glue(&mut self, g: u32, h: u32) {
         if g != NONE {
             self.opposite[g as usize] = h;
@@ -109,7 +110,7 @@ impl Triangulation {
         }
     }
 
-    /// The neighbors of `v`, starting where the boundary starts.
+    /// Collects the neighbors of `v`, starting at the boundary if it has one.
     pub fn ring(&self, v: u32, ring: &mut Ring) {
         ring.vertices.clear();
         ring.halfedges.clear();
@@ -124,9 +125,9 @@ impl Triangulation {
         }
     }
 
-    /// May the vertex with this ring be moved onto its neighbor number `at`? Yes if the result is a disk again: the two
-    /// have no common neighbors but those of the triangles at their edge, a boundary vertex moves along the boundary,
-    /// and a triangle remains.
+    /// Returns whether the vertex with this ring may be moved onto its neighbor number `at`. The result must be a disk
+    /// again: the two have no common neighbors except those of the triangles at their edge, a boundary vertex moves
+    /// along the boundary, and a triangle remains.
     pub fn can_collapse(&mut self, ring: &Ring, at: usize) -> bool {
         let last = ring.vertices.len() - 1;
         if !ring.closed && (at != 0 && at != last || self.n_triangles == 1) {
@@ -142,12 +143,12 @@ impl Triangulation {
         !self.has_stamped_neighbor(ring.vertices[at])
     }
 
-    /// Whether more than so many triangles are at `v`; looks at no more.
+    /// Returns whether more than `n` triangles are at `v`, without counting further.
     pub fn has_more_triangles(&self, v: u32, n: usize) -> bool {
         self.halfedges_around(v).nth(n).is_some()
     }
 
-    /// The halfedges that leave `v`, counter-clockwise.
+    /// Iterates over the halfedges that leave `v`, counter-clockwise.
     fn halfedges_around(&self, v: u32) -> impl Iterator<Item = u32> + '_ {
         let first = self.leaving[v as usize];
         std::iter::successors(Some(first), move |&h| {
@@ -162,9 +163,10 @@ impl Triangulation {
             .any(|h| stamped(next(h)) || stamped(next(next(h))))
     }
 
-    /// Moves `v`, whose ring is given, onto its neighbor number `at`, where [`can_collapse`](Self::can_collapse) allows.
+    /// Moves `v`, whose ring is given, onto its neighbor number `at`, where [`can_collapse`](Self::can_collapse)
+    /// allows.
     ///
-    /// The triangles on both sides of their edge go; of each, the two other sides become one edge.
+    /// The triangles on both sides of their edge are removed; the two other sides of each become one edge.
     pub fn collapse(&mut self, v: u32, ring: &Ring, at: usize) {
         for &h in &ring.halfedges {
             self.corners[h as usize] = ring.vertices[at];
@@ -188,7 +190,7 @@ impl Triangulation {
         }
     }
 
-    /// Takes out the triangle of two sides that fall onto each other.
+    /// Removes the triangle between two sides that become one.
     fn remove(&mut self, side: u32, other: u32) {
         let (g, h) = (self.opposite[side as usize], self.opposite[other as usize]);
         self.glue(g, h);
@@ -205,7 +207,7 @@ impl Triangulation {
         self.n_triangles -= 1;
     }
 
-    /// Makes the halfedge by which `v` is entered the one that has no opposite, if there is one.
+    /// Makes `v` leave by the halfedge without an opposite, if it is at the boundary.
     fn turn_to_boundary(&mut self, v: u32) {
         if !self.at_boundary[v as usize] {
             return;

@@ -1,29 +1,29 @@
 //! Tutte's embedding on a circle.
 //!
-//! Every inner vertex is the mean of its neighbors, the boundary stands on a circle: in exact arithmetic no triangle of
-//! such a map is flipped or empty (Tutte 1963; Floater 2003 for triangulations whose boundary vertices are joined
-//! inside). In floating point that is only hoped for, so the result is checked by whoever uses it.
+//! Every inner vertex is the mean of its neighbors, and the boundary lies on a circle: in exact arithmetic no triangle
+//! of such a map is flipped or empty (Tutte 1963; Floater 2003 for triangulations whose boundary vertices are joined
+//! inside). In floating point this is not guaranteed, so callers check the result.
 
 use super::closed::{ClosedDisk, edge_lengths};
 use super::positive::first_bad_triangle;
 use unwrapd_method::numerics::cholesky::{Cholesky, SymmetricPattern};
 
-/// How the boundary is spread over the circle.
+/// Spacing of the boundary on the circle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Boundary {
-    /// By its length in space; edges shorter than a part of the mean count as that part, so that corners stay apart.
+    /// By its length in space; edges shorter than a share of the mean count as that share, so that corners stay apart.
     ArcLength,
-    /// Every edge the same angle.
+    /// Equal angles for all edges.
     EqualAngles,
 }
 
-/// The shortest boundary edge on the circle, as part of the mean one.
+/// Shortest boundary edge on the circle, as a share of the mean one.
 const SHORTEST_ARC: f64 = 0.1;
 
-/// Marks a vertex on the circle among the unknowns.
+/// Number of a vertex on the circle among the unknowns.
 const FIXED: u32 = u32::MAX;
 
-/// One position per vertex of the closed disk. One sparse factorization.
+/// Returns one position per vertex of the closed disk. Costs one sparse factorization.
 pub(super) fn tutte_embedding(closed: &ClosedDisk, boundary: Boundary) -> Vec<[f64; 2]> {
     let mut uv = vec![[0.0; 2]; closed.positions.len()];
     let mut unknown = vec![0; closed.positions.len()];
@@ -68,9 +68,9 @@ fn circle(closed: &ClosedDisk, boundary: Boundary) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// The uniform Laplacian of the inner vertices (lower triangle) and its two right-hand sides.
+/// Returns the uniform Laplacian of the inner vertices (lower triangle) and its two right-hand sides.
 ///
-/// An edge that lies inside is met as two halfedges, one from each end; the boundary's edges join fixed vertices.
+/// An interior edge occurs as two halfedges, one from each end; boundary edges join fixed vertices.
 fn system(
     closed: &ClosedDisk,
     unknown: &[u32],
@@ -101,9 +101,9 @@ fn system(
     (pattern, values, rhs)
 }
 
-/// Tutte's map of the closed disk, if floating point left every triangle positive.
+/// Returns Tutte's map of the closed disk, if floating point left every triangle positive.
 ///
-/// Equal angles are tried second: they spare what short boundary edges squeeze.
+/// Equal angles are tried second: they avoid squeezing at short boundary edges.
 pub(super) fn tutte(closed: &ClosedDisk) -> Option<Vec<[f64; 2]>> {
     [Boundary::ArcLength, Boundary::EqualAngles]
         .into_iter()

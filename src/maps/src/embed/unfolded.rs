@@ -1,4 +1,4 @@
-//! The map of a disk that can be unrolled.
+//! The map of a developable disk.
 
 use super::positive::is_positive;
 use crate::mesh::{CUT, Disk, next, origin};
@@ -7,18 +7,18 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use unwrapd_method::numerics::vec3::{area_vector, distance, dot, norm, sub};
 
-/// How far lengths may change, as a part of the disk's extent: what is left of coordinates in `f32`
-/// along a way of a hundred triangles.
+/// Largest change of lengths, as a share of the disk's extent: the rounding of coordinates in `f32` along a path of a
+/// hundred triangles.
 const SAME: f64 = 1e-5;
 
-/// The least distance of the boundary from itself, as a part of the disk's extent.
+/// Least distance of the boundary from itself, as a share of the disk's extent.
 const APART: f64 = 1e-6;
 
-/// The disk unrolled into the plane, in its own unit; `None` if that changes the length of an edge,
-/// or the boundary meets itself.
+/// Unrolls the disk into the plane, in its own unit; returns `None` if that changes the length of an edge, or the
+/// boundary meets itself.
 ///
-/// Triangles are laid down one after the other, each beside one that lies already, across long
-/// edges first. A cylinder, a cone or a bent sheet comes out without distortion. O(n log n).
+/// Triangles are laid down one after the other, each next to one that lies already, across long edges first. A
+/// cylinder, a cone or a bent sheet comes out without distortion. O(n log n).
 pub(super) fn unfolded_map(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
     let uv = laid_down(disk, positions)?;
     let at = |v: u32| positions[v as usize];
@@ -46,7 +46,7 @@ struct Crossing {
     halfedge: u32,
 }
 
-/// The places of all vertices; of one with several, that in which it was laid first.
+/// Returns the places of all vertices; a vertex with several keeps the one where it was laid first.
 fn laid_down(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
     let twin = disk.twins();
     let mut uv: Vec<Option<[f64; 2]>> = vec![None; disk.n_vertices];

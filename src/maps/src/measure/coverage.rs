@@ -1,4 +1,4 @@
-//! How often texel centers are covered by faces.
+//! Coverage of texel centers by faces.
 
 use crate::mesh::CornerUvs;
 
@@ -8,7 +8,7 @@ const HALF: i64 = ONE / 2;
 
 /// Rows rasterized at a time: their counters stay in the cache.
 const BAND: usize = 32;
-/// Texels between which mostly nothing changes, so that they are counted at once.
+/// Texels over which mostly nothing changes, so that they are counted at once.
 const STEADY: usize = 16;
 
 /// Totals over a raster.
@@ -21,8 +21,8 @@ pub(super) struct Coverage {
 
 /// Counts covered texel centers of a `texels`² raster over the square at `origin` with the given side.
 ///
-/// Half-open scan conversion in fixed point, exact once corners are rounded to 2⁻¹⁶ texel: in a triangulation without overlaps
-/// every center is counted exactly once, also on edges and vertices.
+/// Half-open scan conversion in fixed point, exact once corners are rounded to 2⁻¹⁶ texel: in a triangulation without
+/// overlaps every center is counted exactly once, also on edges and vertices.
 pub(super) fn coverage(uvs: &[CornerUvs], texels: u32, origin: [f64; 2], side: f64) -> Coverage {
     let scale = f64::from(texels) * ONE as f64;
     let fixed = |uv: [f64; 2]| {
@@ -70,7 +70,7 @@ impl Coverage {
     }
 }
 
-/// For each band of rows the faces that have texel centers' rows in it.
+/// Returns for each band of rows the faces that have rows of texel centers in it.
 fn faces_by_band(faces: &[[[i64; 2]; 3]], texels: usize) -> Vec<Vec<u32>> {
     let mut bands = vec![Vec::new(); texels.div_ceil(BAND)];
     for (face, corners) in (0..).zip(faces) {
@@ -84,7 +84,7 @@ fn faces_by_band(faces: &[[[i64; 2]; 3]], texels: usize) -> Vec<Vec<u32>> {
     bands
 }
 
-/// Rows whose center lies at or above the lowest corner and below the highest.
+/// Returns the rows whose center lies at or above the lowest corner and below the highest.
 fn rows([a, b, c]: &[[i64; 2]; 3], texels: usize) -> std::ops::Range<usize> {
     let low = a[1].min(b[1]).min(c[1]);
     let high = a[1].max(b[1]).max(c[1]);
@@ -92,7 +92,7 @@ fn rows([a, b, c]: &[[i64; 2]; 3], texels: usize) -> std::ops::Range<usize> {
         ..first_center(high).clamp(0, texels as i64) as usize
 }
 
-/// The first texel whose center is at or beyond a coordinate.
+/// Returns the first texel whose center is at or beyond a coordinate.
 fn first_center(x: i64) -> i64 {
     (x - HALF + ONE - 1).div_euclid(ONE)
 }
@@ -122,7 +122,8 @@ fn add_spans(
     }
 }
 
-/// The first column whose center is at or right of where an edge crosses the line at `y`; an edge holds its lower end only.
+/// Returns the first column whose center is at or to the right of the point where an edge crosses the line at `y`; an
+/// edge contains only its lower end.
 fn crossing(p: [i64; 2], q: [i64; 2], y: i64) -> Option<i64> {
     let ([x0, y0], [x1, y1]) = if p[1] <= q[1] { (p, q) } else { (q, p) };
     (y0 <= y && y < y1).then(|| {

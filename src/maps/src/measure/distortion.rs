@@ -1,4 +1,4 @@
-//! How far the map is from an isometry.
+//! Distortion: deviation of the map from an isometry.
 
 use super::faces::{FaceMeasures, dot, face_points, sub};
 use super::quantile::Weighted;
@@ -60,15 +60,15 @@ pub struct FaceDistortion {
     pub symmetric_dirichlet: f64,
     /// max(σ₁, 1/σ₂).
     pub stretch: f64,
-    /// Oriented against its chart.
+    /// `true` if the face is oriented against its chart.
     pub flipped: bool,
-    /// Without area in 3D or in UV.
+    /// `true` if the face has no area in 3D or in UV.
     pub degenerate: bool,
-    /// Counts for [`Distortion`]: false for needles that have a negligible area.
+    /// `true` if the face counts for [`Distortion`]: `false` for needles that have a negligible area.
     pub counts: bool,
 }
 
-/// Distortion of every face, for pictures; `weights` as in [`MeasureOptions`](super::MeasureOptions).
+/// Returns the distortion of every face, for pictures; `weights` as in [`MeasureOptions`](super::MeasureOptions).
 pub fn face_distortion(
     positions: &[[f64; 3]],
     triangles: &[[u32; 3]],
@@ -102,6 +102,7 @@ impl Distortion {
             faces.needle.iter().filter(|needle| **needle).count(),
             faces.needle_share(),
         );
+        // Stretch of the faces that count, weighted by area.
         let measured: Vec<(Stretch, f64)> = (0..topology.faces.len())
             .filter(|&face| faces.counts(face))
             .filter_map(|f| Some((Stretch::of_face(topology, faces, f)?, faces.area_3d[f])))
@@ -122,6 +123,7 @@ impl Distortion {
                     .sum::<f64>(),
             )
         };
+        // Percentiles.
         let sorted = |of: fn(&Stretch) -> f64| {
             Weighted::new(measured.iter().map(|(s, w)| (of(s), *w)).collect())
         };
@@ -152,7 +154,7 @@ impl Distortion {
     }
 }
 
-/// The singular values of a face's scaled map from the surface to UV, and what is made of them.
+/// The singular values of a face's scaled map from the surface to UV, and quantities derived from them.
 #[derive(Clone, Copy)]
 struct Stretch {
     /// σ₁ ≥ σ₂ ≥ 0.
@@ -164,7 +166,7 @@ struct Stretch {
 }
 
 impl Stretch {
-    /// `None` for a face without area in 3D or in UV.
+    /// Computes the stretch of a face; `None` for a face without area in 3D or in UV.
     fn of_face(topology: &UvTopology, faces: &FaceMeasures, face: usize) -> Option<Stretch> {
         if faces.degenerate_3d[face] || topology.orientation[face] == 0 {
             return None;
@@ -205,7 +207,7 @@ impl Stretch {
         self.squares + self.squared_inverse()
     }
 
-    /// σ₁⁻² + σ₂⁻².
+    /// Returns σ₁⁻² + σ₂⁻².
     fn squared_inverse(&self) -> f64 {
         self.squares / (self.determinant * self.determinant)
     }

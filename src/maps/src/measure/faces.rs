@@ -1,28 +1,29 @@
-//! What every figure needs of each face and chart.
+//! Measures of each face and chart that all figures need.
 
 use crate::certificate::UvTopology;
 
-/// The height of a needle over its longest side, at most: a face that is an edge for all that can be seen of it. Rounding moves its
-/// vertices by more than its height on a texture of 8192 texels.
+/// Largest height of a needle over its longest side: such a face looks like an edge. Rounding moves its vertices by
+/// more than its height on a texture of 8192 texels.
 const NEEDLE: f64 = 1e-4;
 
-/// The share of the surface area from which on needles count for distortion like all faces.
+/// Share of the surface area from which needles count for distortion like all faces.
 const MOST_NEEDLES: f64 = 1e-3;
 
 /// Areas of faces and charts.
 pub(super) struct FaceMeasures<'a> {
     pub area_3d: Vec<f64>,
     pub area_uv: Vec<f64>,
-    /// Whether the face has no area in 3D, by the tests of the [module](super).
+    /// For each face whether it has no area in 3D, by the tests of the [module](super).
     pub degenerate_3d: Vec<bool>,
-    /// Whether the face is a needle: it has area, but its height is below [`NEEDLE`] of its longest side.
+    /// For each face whether it is a needle: its height is below [`NEEDLE`] times its longest side, although it may
+    /// have area.
     pub needle: Vec<bool>,
     pub total_3d: f64,
     pub total_uv: f64,
     /// Diagonal of the bounding box of all positions.
     pub diagonal: f64,
     pub charts: Vec<ChartMeasures>,
-    /// The area that the faces that count for distortion should have, and that they have in UV.
+    /// Intended area of the faces that count for distortion, and their area in UV.
     counted_intended: f64,
     counted_uv: f64,
     needles_count: bool,
@@ -34,12 +35,12 @@ pub(super) struct ChartMeasures {
     pub faces: usize,
     pub area_3d: f64,
     pub area_uv: f64,
-    /// The area that it should have.
+    /// Intended area.
     pub area_intended: f64,
 }
 
 impl ChartMeasures {
-    /// Charts without UV area are not counted as charts.
+    /// Returns whether the chart counts as one: it has UV area.
     pub fn is_real(&self) -> bool {
         self.area_uv > 0.0
     }
@@ -52,6 +53,7 @@ impl<'a> FaceMeasures<'a> {
         let mut area_3d = Vec::with_capacity(n_faces);
         let mut degenerate_3d = Vec::with_capacity(n_faces);
         let mut needle = Vec::with_capacity(n_faces);
+        // Areas in 3D, degenerate faces and needles.
         for face in 0..n_faces {
             let [a, b, c] = face_points(topology, face);
             let (e1, e2, e3) = (sub(b, a), sub(c, a), sub(c, b));
@@ -64,6 +66,7 @@ impl<'a> FaceMeasures<'a> {
             needle.push(2.0 * area < NEEDLE * longest);
         }
         let area_uv: Vec<f64> = (0..n_faces).map(|f| topology.area(f)).collect();
+        // Sums over charts.
         let mut charts = vec![ChartMeasures::default(); topology.charts.nonorientable.len()];
         for (face, &chart) in topology.charts.of_face.iter().enumerate() {
             let chart = &mut charts[chart as usize];
@@ -86,6 +89,7 @@ impl<'a> FaceMeasures<'a> {
             diagonal,
             charts,
         };
+        // Totals of the faces that count for distortion.
         faces.needles_count = faces.needle_share() > MOST_NEEDLES;
         let counted = (0..n_faces).filter(|&face| faces.counts(face));
         let areas = counted.map(|face| {
@@ -97,25 +101,25 @@ impl<'a> FaceMeasures<'a> {
         faces
     }
 
-    /// The needles' share of the surface area.
+    /// Returns the needles' share of the surface area.
     pub fn needle_share(&self) -> f64 {
         let needles = self.area_3d.iter().zip(&self.needle);
         let area: f64 = needles.filter(|(_, needle)| **needle).map(|(a, _)| a).sum();
         area / self.total_3d.max(f64::MIN_POSITIVE)
     }
 
-    /// Whether a face counts for distortion: needles do only where they are a visible part of the surface.
+    /// Returns whether a face counts for distortion: needles do only if they are a visible part of the surface.
     pub fn counts(&self, face: usize) -> bool {
         !self.needle[face] || self.needles_count
     }
 
-    /// A₃d / A_uv of the faces that count: squared lengths in UV times this compare with those on the surface, enlarged by the
-    /// weights.
+    /// Returns A₃d / A_uv of the faces that count: squared lengths in UV times this compare with those on the surface,
+    /// enlarged by the weights.
     pub fn area_scale(&self) -> f64 {
         self.counted_intended / self.counted_uv.max(1e-300)
     }
 
-    /// The density intended for a face.
+    /// Returns the intended density of a face.
     pub fn weight(&self, face: usize) -> f64 {
         weight(self.weights, face)
     }

@@ -65,7 +65,7 @@ impl Gaps {
     }
 }
 
-/// For each chart the distance to the nearest other, infinite when that is more than `reach`.
+/// Returns for each chart the distance to the nearest other, infinite if that is more than `reach`.
 fn nearest_charts(boundary: &ChartBoundary, n_charts: usize, reach: f64) -> (Vec<f64>, Visit) {
     let margin = 0.5 * reach * (1.0 + 1e-9); // a pair at just this distance is found
     let mut nearest = vec![f64::INFINITY; n_charts];

@@ -1,18 +1,24 @@
-//! What a UV map is worth: size, seams, validity, distortion, texel density, packing, overlap, gaps between charts.
+//! Quality figures of a UV map: size, seams, validity, distortion, texel density, packing, overlap, gaps between
+//! charts.
 //!
-//! [`measure`] judges positions, triangles and corner UVs, wherever they come from; it is what the reports are made of. Keys and
-//! definitions are those of an independent script in NumPy (`uvmetrics`), so that the figures can be checked against it:
+//! [`measure`] judges positions, triangles and corner UVs of any origin; reports consist of its figures. Keys and
+//! definitions are those of an independent script in NumPy (`uvmetrics`), so that the figures can be checked against
+//! it:
 //!
 //! - Positions are welded by equality; charts, seams and winding are those of [`certificate`](crate::certificate).
-//! - With a texture that is not square u is multiplied by its width over its height at first: lengths are those of texels.
-//! - UVs are scaled by s = √(A₃d / A_uv) before distortion is taken, so that total areas agree; σ₁ ≥ σ₂ are the singular values of
-//!   a face's scaled map from the surface to UV. Means are weighted by surface area, percentiles too.
-//! - Where faces have weights, the densities intended, the surface is so much larger for distortion and density; areas, means and
-//!   seams stay those of the surface.
-//! - A face is degenerate in 3D when its area is 0, below 10⁻⁹ of its longest edge squared, or below 10⁻¹⁴ of the bounding box
-//!   diagonal squared. Such faces and those of zero UV area take no part in distortion, but are counted beside it, so
-//!   that a collapse cannot hide.
-//! - Orientation and overlap are exact; everything else is a sum of f64. Figures that do not exist for a mesh are `None`.
+//! - With a texture that is not square u is first multiplied by its width over its height: lengths are those of texels.
+//! - UVs are scaled by s = √(A₃d / A_uv) before distortion is computed, so that total areas agree; σ₁ ≥ σ₂ are the
+//!   singular values of a
+//! face's scaled map from the surface to UV. Means and percentiles are weighted by surface area.
+//! - If faces have weights, the intended densities, the surface is enlarged by them for distortion and density; areas,
+//!   means and seams stay
+//! those of the surface.
+//! - A face is degenerate in 3D if its area is 0, below 10⁻⁹ of its longest edge squared, or below 10⁻¹⁴ of the
+//!   bounding box diagonal
+//! squared. Such faces and those of zero UV area are excluded from distortion, but counted separately, so that a
+//! collapse cannot hide.
+//! - Orientation and overlap are exact; everything else is a sum of f64. Figures that do not exist for a mesh are
+//!   `None`.
 
 mod coverage;
 mod density;
@@ -42,21 +48,23 @@ use crate::mesh::{CornerUvs, VAxis};
 use faces::FaceMeasures;
 use serde::Serialize;
 
-/// What to measure.
+/// Options of a measurement.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct MeasureOptions<'a> {
-    /// Side of the raster that packing and `overlap_frac` are counted on, in texels; at most [`MeasureOptions::MAX_RASTER`].
+    /// Side of the raster on which packing and `overlap_frac` are counted, in texels; at most
+    /// [`MeasureOptions::MAX_RASTER`].
     pub raster_texels: u32,
-    /// Whether overlapping pairs of faces are counted.
+    /// Enables the count of overlapping pairs of faces.
     pub overlap: Overlap,
-    /// Width of the texture over its height: u is multiplied by it, so that all lengths are of its texels.
+    /// Width of the texture over its height: u is multiplied by it, so that all lengths are in its texels.
     pub aspect: f64,
-    /// For each face the density intended: the surface is enlarged by it before it is compared with UVs. The same for all if absent.
+    /// Intended density of each face: the surface is enlarged by it before it is compared with UVs. Equal for all faces
+    /// if absent.
     pub weights: Option<&'a [f64]>,
 }
 
 impl MeasureOptions<'_> {
-    /// The greatest raster; beyond it a scan line's products would not fit an i64.
+    /// Largest raster; beyond it a scan line's products would not fit an i64.
     pub const MAX_RASTER: u32 = 1 << 14;
 }
 
@@ -109,8 +117,8 @@ pub struct Measures {
 
 /// Measures the UVs of a mesh: `uvs[f][c]` belongs to `positions[triangles[f][c]]`.
 ///
-/// Never fails: faces with a number that is not finite, or an index out of range, are counted in `uv_nonfinite_faces` and measured as if
-/// their UVs were 0.
+/// Never fails: faces with a number that is not finite, or an index out of range, are counted in `uv_nonfinite_faces`
+/// and measured as if their UVs were 0.
 pub fn measure(
     positions: &[[f64; 3]],
     triangles: &[[u32; 3]],
@@ -118,12 +126,14 @@ pub fn measure(
     v_axis: VAxis,
     options: &MeasureOptions,
 ) -> Measures {
+    // Lengths in texels.
     let aspect = options.aspect;
     let uvs: Vec<CornerUvs> = (uvs.iter())
         .map(|face| face.map(|[u, v]| [u * aspect, v]))
         .collect();
     let topology = UvTopology::new(positions, triangles, &uvs);
     let faces = FaceMeasures::new(&topology, options.weights);
+    // Figures that others depend on.
     let size = Size::new(triangles, &topology, &faces, aspect);
     let validity = Validity::new(&topology, &faces, v_axis);
     let overlaps = Overlaps::new(&topology, options.overlap);

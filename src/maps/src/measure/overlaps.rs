@@ -4,7 +4,7 @@ use crate::certificate::{OrientedFaces, Overlap, UvTopology, Visit};
 use crate::mesh::CornerUvs;
 use serde::Serialize;
 
-/// Overlaps no deeper than this part of the UV extent (0.0004 texel at 4096) are attributed to rounding.
+/// Largest depth of overlaps that are attributed to rounding, as a share of the UV extent (0.0004 texel at 4096).
 const TOLERANCE: f64 = 1e-7;
 
 /// Pairs of faces whose interiors intersect in UV; null when not searched.
@@ -53,8 +53,8 @@ impl Overlaps {
     }
 }
 
-/// How far two counter-clockwise triangles would have to move apart: over all edges of both the least height of the
-/// other triangle's highest corner above the edge's line.
+/// Returns the distance by which two counter-clockwise triangles would have to move apart: over all edges of both the
+/// least height of the other triangle's highest corner above the edge's line.
 fn depth([a, b]: &[CornerUvs; 2]) -> f64 {
     let above = |a: &CornerUvs, b: &CornerUvs| {
         (0..3)

@@ -1,4 +1,4 @@
-//! What the pages of an atlas hold.
+//! Contents of the pages of an atlas.
 
 use super::faces::FaceMeasures;
 use crate::certificate::UvTopology;
@@ -17,13 +17,13 @@ pub struct Page {
     pub fill: f64,
 }
 
-/// The tiles of a row, and rows at most: their numbers have four digits.
+/// Most tiles in a row, and most rows: their numbers have four digits.
 const TILES: i64 = 10;
 const ROWS: i64 = 899;
 
-/// The pages on which charts lie, in the order of their numbers; charts where there are no tiles are left out.
+/// Returns the pages on which charts lie, in the order of their numbers; charts outside all tiles are left out.
 ///
-/// `up` turns a v of the file to one that points up.
+/// `up` turns a v of the file into one that points up.
 pub(super) fn pages(
     topology: &UvTopology,
     faces: &FaceMeasures,

@@ -24,7 +24,7 @@ impl Weighted {
         }
     }
 
-    /// The smallest value at which the weight reaches the part `q` of all.
+    /// Returns the smallest value at which the cumulated weight reaches the share `q` of the total.
     pub fn quantile(&self, q: f64) -> Option<f64> {
         let wanted = q * self.cumulated.last()?;
         let index = self.cumulated.partition_point(|&c| c < wanted);

@@ -86,7 +86,7 @@ fn edges(topology: &UvTopology) -> Vec<Edge> {
     edges
 }
 
-/// How many of the largest areas hold `part` of their sum.
+/// Returns how many of the largest areas hold the share `part` of their sum.
 fn charts_for(part: f64, mut areas: Vec<f64>) -> usize {
     areas.sort_unstable_by(|a, b| b.total_cmp(a));
     let wanted = part * areas.iter().sum::<f64>();

@@ -60,7 +60,7 @@ impl Size {
     }
 }
 
-/// Whether all UVs lie in the unit square, whose width is `aspect` here, to 1e-6.
+/// Returns whether all UVs lie in the unit square, whose width is `aspect` here, to 1e-6.
 pub(super) fn in_unit_square(topology: &UvTopology, aspect: f64) -> bool {
     let [low, high] = topology.bounds;
     low.iter().all(|&x| x >= -1e-6) && high[0] <= aspect + 1e-6 && high[1] <= 1.0 + 1e-6

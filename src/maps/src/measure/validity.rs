@@ -55,7 +55,7 @@ impl Validity {
     }
 }
 
-/// Whether each face is oriented against its chart.
+/// Returns for each face whether it is oriented against its chart.
 pub(super) fn flipped(topology: &UvTopology) -> Vec<bool> {
     let positive = topology.chart_orientations(|_| true);
     let is_flipped = |face: usize| {

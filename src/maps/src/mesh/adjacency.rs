@@ -1,39 +1,39 @@
-//! Who is glued to whom.
+//! Gluing of faces along edges.
 
 use super::edges::Edges;
 use super::spread::spread;
 use super::{CUT, UnionFind, next, origin, same_direction};
 use unwrapd_method::numerics::vec3::{add_scaled, dot, sub, unit};
 
-/// Above this many faces on one edge, faces are paired in file order instead of by angle (which looks at all pairs).
+/// Most faces on one edge that are paired by angle (which compares all pairs); more are paired in file order.
 const MOST_FACES_COMPARED: usize = 64;
 
 /// Halfedges of a triangle list, glued in pairs.
 ///
-/// Halfedge `3 f + c` runs from corner `c` of face `f` to the next one. An edge with two faces is glued, however they are
-/// wound. Where more meet, they are paired greedily: those wound consistently first, then the flattest pair, then copies of
-/// equal rank (so that a wall modeled twice falls into two sheets); whoever is left over is cut open there.
+/// Halfedge `3 f + c` runs from corner `c` of face `f` to the next one. An edge with two faces is glued, however they
+/// are wound. Where more meet, they are paired greedily: those wound consistently first, then the flattest pair, then
+/// copies of equal rank (so that a wall modeled twice falls into two sheets); the faces left over are cut open there.
 #[derive(Clone, Debug)]
 pub struct Adjacency {
     /// For each halfedge the one glued to it, or [`CUT`].
     pub twin: Vec<u32>,
-    /// For each face whether it must be turned over for its piece to be consistently wound. Most of a piece's faces, by
-    /// number, keep their winding.
+    /// For each face whether it must be turned over for its piece to be consistently wound. The majority of a piece's
+    /// faces keeps its winding.
     pub turned: Vec<bool>,
     /// For each face its piece: faces connected through glued edges, numbered by their first face.
     pub piece: Vec<u32>,
-    /// How many pieces there are.
+    /// Number of pieces.
     pub n_pieces: usize,
     /// For each face its component: connected through shared edges, glued or not, numbered by their first face.
     pub component: Vec<u32>,
-    /// How many components there are.
+    /// Number of components.
     pub n_components: usize,
-    /// Edges with three or more faces.
+    /// Number of edges with three or more faces.
     pub n_nonmanifold_edges: usize,
 }
 
 impl Adjacency {
-    /// Glues the triangles, each of which has three different vertices.
+    /// Glues triangles that have three different vertices each.
     pub(super) fn new(positions: &[[f64; 3]], triangles: &[[u32; 3]], edges: &Edges) -> Self {
         let n_faces = triangles.len();
         let mut twin = vec![CUT; 3 * n_faces];
@@ -65,7 +65,7 @@ impl Adjacency {
         }
     }
 
-    /// Undoes the gluing of halfedges of which `is_seam` holds.
+    /// Cuts glued halfedges for which `is_seam` holds.
     pub(super) fn cut(&mut self, triangles: &[[u32; 3]], is_seam: impl Fn(u32, u32) -> bool) {
         for h in 0..self.twin.len() as u32 {
             let t = self.twin[h as usize];
@@ -78,7 +78,7 @@ impl Adjacency {
         self.turned = consistent_winding(triangles, &self.twin);
     }
 
-    /// The same for faces in another order.
+    /// Returns the adjacency for faces in another order.
     pub(super) fn reordered(&self, order: &[u32]) -> Self {
         let mut place = vec![0; order.len()];
         for (new, &old) in (0u32..).zip(order) {
@@ -98,8 +98,8 @@ impl Adjacency {
         }
     }
 
-    /// Whether a glued halfedge and its twin disagree even after the faces in [`turned`](Self::turned) are turned over:
-    /// only on pieces that are not orientable, such as a Möbius strip.
+    /// Returns whether a glued halfedge and its twin disagree even after the faces in [`turned`](Self::turned) are
+    /// turned over: only on pieces that are not orientable, such as a Möbius strip.
     pub fn is_twisted(&self, triangles: &[[u32; 3]], h: u32) -> bool {
         let t = self.twin[h as usize];
         let turned = self.turned[h as usize / 3] != self.turned[t as usize / 3];
@@ -107,7 +107,7 @@ impl Adjacency {
     }
 }
 
-/// The faces that glued edges connect, labeled.
+/// Labels faces by the pieces that glued edges connect.
 fn pieces(twin: &[u32]) -> (Vec<u32>, usize) {
     let mut pieces = UnionFind::new(twin.len() / 3);
     for (h, &t) in (0u32..).zip(twin).filter(|(_, t)| **t != CUT) {
@@ -116,7 +116,7 @@ fn pieces(twin: &[u32]) -> (Vec<u32>, usize) {
     pieces.labels()
 }
 
-/// The labels of faces in another order, numbered by their first face again.
+/// Returns the labels of faces in another order, renumbered by their first face.
 fn relabeled(labels: &[u32], n_labels: usize, order: &[u32]) -> Vec<u32> {
     let mut number = vec![u32::MAX; n_labels];
     let mut n = 0;
@@ -136,7 +136,7 @@ fn glue(twin: &mut [u32], a: u32, b: u32) {
     twin[b as usize] = a;
 }
 
-/// For each face how many earlier faces have the same three vertices.
+/// Returns for each face the number of earlier faces with the same three vertices.
 pub(super) fn copy_ranks(triangles: &[[u32; 3]], edges: &Edges) -> Vec<u32> {
     let mut ranks = vec![0; triangles.len()];
     let mut copies = Vec::new();
@@ -200,7 +200,7 @@ fn pair_fan(
     }
 }
 
-/// The direction in which a face leaves its edge, at a right angle; zero for a face without area.
+/// Returns the direction in which a face leaves its edge, at a right angle; zero for a face without area.
 fn away_from_edge(positions: &[[f64; 3]], triangles: &[[u32; 3]], h: u32) -> [f64; 3] {
     let at = |h| positions[origin(triangles, h) as usize];
     let along = unit(sub(at(next(h)), at(h)));
@@ -208,7 +208,8 @@ fn away_from_edge(positions: &[[f64; 3]], triangles: &[[u32; 3]], h: u32) -> [f6
     unit(add_scaled(across, -dot(across, along), along))
 }
 
-/// Which faces to turn over, from the first face of each piece outwards; the larger share of a piece is left as it is.
+/// Returns for each face whether to turn it over, propagated from the first face of each piece; the majority of a piece
+/// stays as it is.
 fn consistent_winding(triangles: &[[u32; 3]], twin: &[u32]) -> Vec<bool> {
     let mut turned: Vec<Option<bool>> = vec![None; triangles.len()];
     let mut piece = Vec::new();

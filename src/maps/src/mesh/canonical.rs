@@ -1,18 +1,19 @@
-//! The order of triangles that follows from a surface's shape.
+//! Canonical order of a surface's triangles, derived from its shape.
 
 use super::{CUT, Surface, next, origin};
 use std::collections::VecDeque;
 use unwrapd_method::numerics::principal_axes::PrincipalAxes;
 use unwrapd_method::numerics::vec3::{add_scaled, cross, dot, sub};
 
-/// Where an order begins, in coordinates along the principal axes: far out along the longest. The others decide between mirror images.
+/// Direction in which an order begins, in coordinates along the principal axes: far out along the longest. The others
+/// decide between mirror images.
 const BEGINNING: [f64; 3] = [1.0, 0.37, 0.61];
 
-/// The triangles of a surface in canonical order: the same whatever order the input has its triangles and vertices in, and
-/// wherever it is moved, rotated or scaled to, as far as rounding and symmetry leave a difference.
+/// Returns the triangles of a surface in canonical order: independent of the order of triangles and vertices in the
+/// input and of translation, rotation and scale, up to rounding and symmetry.
 ///
-/// The piece with most triangles comes first. In each piece the triangles are traversed breadth first, from a halfedge that its
-/// shape singles out.
+/// The piece with the most triangles comes first. In each piece the triangles are traversed breadth first, from a
+/// halfedge that its shape singles out.
 pub fn canonical_order(surface: &Surface) -> Vec<u32> {
     let n = surface.triangles.len();
     let twin = &surface.adjacency().twin;
@@ -34,7 +35,8 @@ pub fn canonical_order(surface: &Surface) -> Vec<u32> {
     order
 }
 
-/// For each piece the halfedge to begin at: it starts farthest along [`BEGINNING`], and of those that do ends farthest.
+/// Returns for each piece the halfedge to begin at: the one that starts farthest along [`BEGINNING`] and, among equals,
+/// ends farthest.
 fn beginnings(surface: &Surface) -> Vec<u32> {
     let height = heights(surface);
     let key = |h: u32| [h, next(h)].map(|h| height[origin(&surface.triangles, h) as usize]);
@@ -59,7 +61,7 @@ fn beginnings(surface: &Surface) -> Vec<u32> {
     pieces.into_iter().map(|(_, first)| first).collect()
 }
 
-/// How far each vertex lies along [`BEGINNING`].
+/// Returns the coordinate of each vertex along [`BEGINNING`].
 fn heights(surface: &Surface) -> Vec<f64> {
     let corners = surface.triangles.as_flattened();
     let position = |&v: &u32| surface.positions[v as usize];

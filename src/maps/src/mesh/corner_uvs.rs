@@ -1,11 +1,11 @@
-//! UVs as files have them.
+//! UVs in the form in which files store them.
 
 use serde::{Deserialize, Serialize};
 
-/// The UVs of a face's three corners.
+/// UVs of a face's three corners.
 pub type CornerUvs = [[f64; 2]; 3];
 
-/// Which way v points in the numbers given.
+/// Direction in which v points in the given numbers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum VAxis {

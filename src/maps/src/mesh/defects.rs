@@ -1,4 +1,4 @@
-//! What a triangle list suffers from, one check per defect.
+//! Defects of a triangle list, one check each.
 
 use super::adjacency::copy_ranks;
 use super::edges::Edges;
@@ -56,7 +56,7 @@ impl Defects {
         }
     }
 
-    /// Adds what only the unwelded input shows.
+    /// Adds the counts that only the unwelded input shows.
     pub(super) fn count_input(
         &mut self,
         n_vertices: usize,
@@ -74,7 +74,7 @@ impl Defects {
     }
 }
 
-/// Whether a triangle's corners lie on one line as far as single precision can tell.
+/// Returns whether a triangle's corners lie on one line as far as single precision can tell.
 pub fn has_zero_area([a, b, c]: [[f64; 3]; 3]) -> bool {
     let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));
     norm(area_vector(a, b, c)) <= 1e-9 * longest * longest
@@ -92,7 +92,8 @@ fn duplicate_faces(triangles: &[[u32; 3]], edges: &Edges) -> usize {
     ranks.iter().filter(|&&rank| rank > 0).count()
 }
 
-/// Corners at one vertex are united through every edge they share there; a second set left over is a second fan.
+/// Counts vertices with several fans: corners at one vertex are united through every edge they share there; a second
+/// set left over is a second fan.
 fn bowtie_vertices(n_vertices: usize, triangles: &[[u32; 3]], edges: &Edges) -> usize {
     let mut fans = UnionFind::new(3 * triangles.len());
     for edge in edges.iter() {
@@ -132,7 +133,7 @@ fn nonorientable_components(triangles: &[[u32; 3]], adjacency: &Adjacency) -> us
     twisted.iter().filter(|&&t| t).count()
 }
 
-/// One halfedge of each glued pair.
+/// Iterates over one halfedge of each glued pair.
 fn glued_once(adjacency: &Adjacency) -> impl Iterator<Item = u32> {
     (0u32..)
         .zip(&adjacency.twin)
@@ -140,7 +141,7 @@ fn glued_once(adjacency: &Adjacency) -> impl Iterator<Item = u32> {
         .map(|(h, _)| h)
 }
 
-/// Cut halfedges are united where they meet at a vertex of the glued surface.
+/// Counts boundary loops: cut halfedges are united where they meet at a vertex of the glued surface.
 fn boundary_loops(triangles: &[[u32; 3]], adjacency: &Adjacency) -> usize {
     let twin = &adjacency.twin;
     let mut loops = UnionFind::new(twin.len());
@@ -155,7 +156,7 @@ fn boundary_loops(triangles: &[[u32; 3]], adjacency: &Adjacency) -> usize {
     n_cut - n_joined
 }
 
-/// The cut halfedge at the other end of the fan around `vertex` that begins with the cut halfedge `h`.
+/// Returns the cut halfedge at the other end of the fan around `vertex` that begins with the cut halfedge `h`.
 fn across_fan(triangles: &[[u32; 3]], twin: &[u32], h: u32, vertex: u32) -> u32 {
     let mut side = h;
     loop {

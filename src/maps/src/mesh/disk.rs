@@ -9,15 +9,16 @@ use thiserror::Error;
 /// The fields are public to be read; a `Disk` made by [`Disk::new`] is proven, and everything that maps disks relies on the proof.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Disk {
-    /// Vertices are `0..n_vertices`; each is used by a triangle.
+    /// Number of vertices; each of `0..n_vertices` is used by a triangle.
     pub n_vertices: usize,
     /// Vertex indices of each triangle, consistently oriented.
     pub triangles: Vec<[u32; 3]>,
-    /// Boundary loops in the direction of their triangles' halfedges; the one with most edges first, at least three edges each.
+    /// Boundary loops in the direction of their triangles' halfedges; the one with most edges first, at least three
+    /// edges each.
     pub loops: Vec<Vec<u32>>,
 }
 
-/// Why triangles are not a [`Disk`].
+/// Reason why triangles are not a [`Disk`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum NotADisk {
     /// There is no triangle.
@@ -47,13 +48,13 @@ pub enum NotADisk {
     /// The surface has no boundary.
     #[error("the surface is closed: it has no boundary loop")]
     Closed,
-    /// The surface has handles; this is its genus.
+    /// The surface has handles; the value is its genus.
     #[error("the surface has genus {0}, not 0")]
     Genus(usize),
 }
 
 impl Disk {
-    /// Proves that the triangles form a disk with holes, and finds its boundary loops. O(n log n).
+    /// Proves that the triangles form a disk, possibly with holes, and finds its boundary loops. O(n log n).
     pub fn new(n_vertices: usize, triangles: Vec<[u32; 3]>) -> Result<Self, NotADisk> {
         check_indices(n_vertices, &triangles)?;
         let opposite = opposite_halfedges(n_vertices, &triangles)?;
@@ -78,7 +79,7 @@ impl Disk {
         })
     }
 
-    /// For each halfedge the one across, or [`CUT`]. O(n log n).
+    /// Returns for each halfedge the one across, or [`CUT`]. O(n log n).
     pub fn twins(&self) -> Vec<u32> {
         let mut twin = vec![CUT; 3 * self.triangles.len()];
         for edge in Edges::new(self.n_vertices, &self.triangles).iter() {
@@ -90,7 +91,7 @@ impl Disk {
         twin
     }
 
-    /// The images of the boundary loops in a map, of which `uv` has the place of each vertex.
+    /// Returns the images of the boundary loops in a map with the vertices at `uv`.
     pub fn boundary_in(&self, uv: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
         let image = |boundary: &Vec<u32>| boundary.iter().map(|&v| uv[v as usize]).collect();
         self.loops.iter().map(image).collect()
@@ -116,7 +117,7 @@ fn check_indices(n_vertices: usize, triangles: &[[u32; 3]]) -> Result<(), NotADi
     }
 }
 
-/// Halfedge `3t + k` runs from corner k to corner k+1 of triangle t.
+/// Returns the vertices of a halfedge; `3t + k` runs from corner k to corner k+1 of triangle t.
 fn ends(triangles: &[[u32; 3]], halfedge: usize) -> (u32, u32) {
     let triangle = &triangles[halfedge / 3];
     (triangle[halfedge % 3], triangle[(halfedge + 1) % 3])
@@ -159,7 +160,8 @@ fn check_connected(opposite: &[u32]) -> Result<(), NotADisk> {
     }
 }
 
-/// The end of a boundary halfedge at each vertex it starts from; the last one where a vertex has several (refused by the umbrella check).
+/// Returns the end of the boundary halfedge that starts at each vertex; of several the last (the umbrella check refuses
+/// such vertices).
 fn boundary_successors(
     n_vertices: usize,
     triangles: &[[u32; 3]],
@@ -173,7 +175,7 @@ fn boundary_successors(
     next
 }
 
-/// Each vertex must reach all its corners by turning around it.
+/// Checks that turning around each vertex reaches all its corners.
 fn check_umbrellas(
     n_vertices: usize,
     triangles: &[[u32; 3]],

@@ -1,19 +1,19 @@
-//! Halfedges, and which of them lie on one edge.
+//! Halfedges and edges.
 
-/// In place of a halfedge: there is none on the other side.
+/// Twin of a halfedge without one.
 pub const CUT: u32 = u32::MAX;
 
-/// The next halfedge of the same face.
+/// Returns the next halfedge of the same face.
 pub fn next(h: u32) -> u32 {
     if h % 3 == 2 { h - 2 } else { h + 1 }
 }
 
-/// The vertex a halfedge starts from.
+/// Returns the vertex at which a halfedge starts.
 pub fn origin(triangles: &[[u32; 3]], h: u32) -> u32 {
     triangles[h as usize / 3][h as usize % 3]
 }
 
-/// Whether two halfedges of one edge run the same way, that is, their faces are wound inconsistently.
+/// Returns whether two halfedges of one edge run in the same direction, that is, their faces are wound inconsistently.
 pub fn same_direction(triangles: &[[u32; 3]], a: u32, b: u32) -> bool {
     origin(triangles, a) == origin(triangles, b)
 }
@@ -25,7 +25,8 @@ pub struct Edges {
 }
 
 impl Edges {
-    /// Buckets by the smaller vertex, each sorted by the larger one: linear but for the degree's logarithm.
+    /// Groups halfedges by buckets of the smaller vertex, each sorted by the larger one: linear except for the
+    /// logarithm of the degree.
     pub fn new(n_vertices: usize, triangles: &[[u32; 3]]) -> Self {
         let ends = |h: u32| {
             let (a, b) = (origin(triangles, h), origin(triangles, next(h)));
@@ -63,7 +64,7 @@ impl Edges {
         }
     }
 
-    /// The halfedges of each edge, in file order.
+    /// Iterates over the halfedges of each edge, in file order.
     pub fn iter(&self) -> impl Iterator<Item = &[u32]> {
         self.starts
             .windows(2)

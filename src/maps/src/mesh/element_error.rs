@@ -1,6 +1,6 @@
-//! Why a list of elements is no rest shape.
+//! Errors of rest shapes.
 
-/// Why triangles or tetrahedra cannot be deformed.
+/// Reason why triangles or tetrahedra cannot be deformed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ElementError {
     /// There is nothing to deform.
@@ -12,23 +12,23 @@ pub enum ElementError {
     /// An element names a vertex that does not exist.
     #[error("element {element} names vertex {vertex}, but there are only {n_vertices} vertices")]
     IndexOutOfRange {
-        /// The first such element, from 0.
+        /// First such element, from 0.
         element: usize,
-        /// The vertex it names.
+        /// Vertex that it names.
         vertex: u32,
-        /// How many there are.
+        /// Number of vertices.
         n_vertices: usize,
     },
     /// A coordinate is infinite or not a number.
     #[error("vertex {vertex} has a coordinate that is not finite")]
     NonFinitePosition {
-        /// The first such vertex, from 0.
+        /// First such vertex, from 0.
         vertex: usize,
     },
     /// The area or volume is exactly zero.
     #[error("element {element} has zero area or volume")]
     ZeroSize {
-        /// The first such element, from 0.
+        /// First such element, from 0.
         element: usize,
     },
     /// Two elements lie on the same side of a common edge or face.
@@ -36,25 +36,25 @@ pub enum ElementError {
         "the mesh is folded: elements {elements:?} lie on the same side of their common face or edge"
     )]
     Folded {
-        /// The two, from 0.
+        /// Indices of the two elements, from 0.
         elements: [usize; 2],
     },
-    /// A mesh of the plane leaves it.
+    /// A mesh of the plane is not flat.
     #[error(
         "the mesh has no tetrahedra and is not planar: vertex {vertex} has z = {z}, the first one {plane}"
     )]
     NotPlanar {
-        /// The first such vertex, from 0.
+        /// First such vertex, from 0.
         vertex: usize,
-        /// Its z.
+        /// Its z coordinate.
         z: f64,
-        /// The z of the first vertex.
+        /// z coordinate of the first vertex.
         plane: f64,
     },
 }
 
 impl ElementError {
-    /// Stable name of the cause, for programs.
+    /// Returns the stable code of the error, for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::Empty(_) => "no_elements",
@@ -68,7 +68,8 @@ impl ElementError {
     }
 }
 
-/// What triangles of the plane and tetrahedra must have in common: some elements, vertices that exist and are finite.
+/// Checks the common requirements of triangles of the plane and tetrahedra: there are elements, and their vertices
+/// exist and are finite.
 pub fn validate<const D: usize, const N: usize>(
     vertices: &[[f64; D]],
     elements: &[[u32; N]],

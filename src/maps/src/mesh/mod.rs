@@ -1,13 +1,13 @@
 //! Surfaces: welding, adjacency, boundary loops, defects; planar and tetrahedral meshes.
 //!
-//! A [`Surface`] is any list of triangles made fit to be unwrapped: vertices at bit-equal positions are one vertex, faces
-//! that repeat a position are left out, and what is broken is counted ([`Defects`]), never refused. Its [`Adjacency`] says
-//! which faces are glued along which edge. Every edge is glued to at most one other, so where three or more faces meet,
-//! the surface is cut open, and a vertex shared by two fans (a bow tie) falls apart by itself: what the adjacency
-//! describes is always a 2-manifold, possibly with boundary, in several pieces, and possibly not orientable.
+//! A [`Surface`] is any list of triangles prepared for unwrapping: vertices at bit-equal positions are one vertex,
+//! faces that repeat a position are left out, and defects are counted ([`Defects`]), never refused. Its [`Adjacency`]
+//! tells which faces are glued along which edge. Every halfedge is glued to at most one other, so where three or more
+//! faces meet, the surface is cut open, and a vertex shared by two fans (a bow tie) falls apart by itself: the
+//! adjacency always describes a 2-manifold, possibly with boundary, in several pieces, and possibly not orientable.
 //!
-//! A rest shape to be deformed is stricter: a [`PlanarMesh`] or [`TetMesh`] has elements of exactly positive size on different
-//! sides of what they share, or it is refused with the element that is at fault.
+//! A rest shape to be deformed is stricter: a [`PlanarMesh`] or [`TetMesh`] has elements of exactly positive size on
+//! different sides of their common edges or faces; anything else is refused with the offending element.
 
 mod adjacency;
 mod canonical;

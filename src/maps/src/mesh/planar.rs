@@ -6,8 +6,7 @@ use unwrapd_method::numerics::predicates::orient2d_sign;
 
 /// Triangles of positive area in the plane, no two on the same side of a common edge.
 ///
-/// That they do not overlap elsewhere is not tested. Vertices that no triangle uses are kept, so that indices mean what they
-/// meant in the input.
+/// Other overlaps are not tested. Vertices that no triangle uses are kept, so that indices keep their meaning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanarMesh {
     vertices: Vec<[f64; 2]>,
@@ -16,10 +15,10 @@ pub struct PlanarMesh {
 }
 
 impl PlanarMesh {
-    /// Checks the triangles and turns the clockwise ones round (by exchanging their last two corners).
+    /// Checks the triangles and turns the clockwise ones around (by exchanging their last two corners).
     ///
-    /// Refuses indices out of range, coordinates that are not finite, areas that are exactly zero, and folds. The signs are
-    /// exact. Linear but for the logarithm of a vertex's degree.
+    /// Refuses indices out of range, coordinates that are not finite, areas that are exactly zero, and folds. The signs
+    /// are exact. Linear except for the logarithm of a vertex's degree.
     pub fn new(
         vertices: Vec<[f64; 2]>,
         mut triangles: Vec<[u32; 3]>,
@@ -47,7 +46,7 @@ impl PlanarMesh {
         })
     }
 
-    /// The mesh of vertices that all have the same z, which is dropped.
+    /// Creates the mesh from vertices that all have the same z, which is dropped.
     pub fn flat(vertices: &[[f64; 3]], triangles: Vec<[u32; 3]>) -> Result<Self, ElementError> {
         let plane = vertices.first().map_or(0.0, |p| p[2]);
         // NaN is no plane either, but has an error of its own.
@@ -63,28 +62,28 @@ impl PlanarMesh {
         Self::new(vertices, triangles)
     }
 
-    /// Vertex positions.
+    /// Returns the vertex positions.
     pub fn vertices(&self) -> &[[f64; 2]] {
         &self.vertices
     }
 
-    /// Corners of each triangle, counter-clockwise (x right, y up).
+    /// Returns the corners of each triangle, counter-clockwise (x right, y up).
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
-    /// How many triangles were clockwise in the input.
+    /// Returns the number of triangles that were clockwise in the input.
     pub fn reoriented(&self) -> usize {
         self.reoriented
     }
 
-    /// Edges of one triangle only, the triangle on their left, in the order of the triangles.
+    /// Returns the edges of one triangle only, with the triangle on their left, in the order of the triangles.
     pub fn boundary(&self) -> Vec<[u32; 2]> {
         boundary_edges(self.vertices.len(), &self.triangles)
     }
 }
 
-/// Edges of one triangle only, wound as that, in the order of the triangles.
+/// Returns the edges of one triangle only, wound like it, in the order of the triangles.
 pub fn boundary_edges(n_vertices: usize, triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let edges = Edges::new(n_vertices, triangles);
     let mut alone: Vec<u32> = edges
@@ -97,7 +96,7 @@ pub fn boundary_edges(n_vertices: usize, triangles: &[[u32; 3]]) -> Vec<[u32; 2]
     alone.into_iter().map(ends).collect()
 }
 
-/// The first two counter-clockwise triangles that run along an edge the same way.
+/// Returns the first two counter-clockwise triangles that run along an edge in the same direction.
 fn fold(n_vertices: usize, triangles: &[[u32; 3]]) -> Option<[usize; 2]> {
     let edges = Edges::new(n_vertices, triangles);
     edges.iter().find_map(|halfedges| {

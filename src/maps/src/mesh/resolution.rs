@@ -1,4 +1,4 @@
-//! How many texels a texture has.
+//! Resolution of a texture, in texels.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 /// Texels of a texture along u and along v.
 ///
-/// Written as a number for a square, else as `2048x1024`. One side is the other times a power of two up to
-/// [`Resolution::MOST_ELONGATED`], so that distances on the grid of UVs are whole numbers in texels too.
+/// Written as a number for a square, otherwise as `2048x1024`. One side is the other times a power of two up to
+/// [`Resolution::MOST_ELONGATED`], so that distances on the grid of UVs are integers in texels too.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(try_from = "Notation", into = "Notation")]
 pub struct Resolution {
@@ -19,10 +19,10 @@ pub struct Resolution {
 }
 
 impl Resolution {
-    /// The longer side over the shorter at most.
+    /// Largest ratio of the longer to the shorter side.
     pub const MOST_ELONGATED: u32 = 16;
 
-    /// A square of so many texels along each side.
+    /// Creates a square texture.
     pub const fn square(side: u32) -> Self {
         Self {
             width: side,
@@ -30,7 +30,7 @@ impl Resolution {
         }
     }
 
-    /// Whether one side is the other times a power of two that is not too large.
+    /// Returns whether one side is the other times a power of two that is not too large.
     pub fn is_regular(self) -> bool {
         let ratio = self.longer() / self.shorter().max(1);
         ratio * self.shorter() == self.longer()
@@ -38,27 +38,27 @@ impl Resolution {
             && ratio <= Self::MOST_ELONGATED
     }
 
-    /// Texels along the longer side.
+    /// Returns the texels along the longer side.
     pub fn longer(self) -> u32 {
         self.width.max(self.height)
     }
 
-    /// Texels along the shorter side.
+    /// Returns the texels along the shorter side.
     pub fn shorter(self) -> u32 {
         self.width.min(self.height)
     }
 
-    /// For u and v how often the longer side is halved to give the side along it; of a regular one.
+    /// Returns for u and v how often the longer side is halved to give the side along it, for a regular resolution.
     pub fn halvings(self) -> [u32; 2] {
         [self.width, self.height].map(|side| (self.longer() / side.max(1)).max(1).ilog2())
     }
 
-    /// Both sides over the longer one; powers of two of a regular one.
+    /// Returns both sides over the longer one; powers of two for a regular resolution.
     pub fn sides(self) -> [f64; 2] {
         [self.width, self.height].map(|side| f64::from(side) / f64::from(self.longer()))
     }
 
-    /// Width over height.
+    /// Returns width over height.
     pub fn aspect(self) -> f64 {
         f64::from(self.width) / f64::from(self.height)
     }
@@ -74,7 +74,7 @@ impl fmt::Display for Resolution {
     }
 }
 
-/// The sides of a square, or both with an `x` between.
+/// Parses the side of a square, or both sides with an `x` between.
 impl FromStr for Resolution {
     type Err = String;
 
@@ -93,7 +93,7 @@ impl FromStr for Resolution {
     }
 }
 
-/// As it stands in JSON.
+/// The form in JSON.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged)]
 enum Notation {

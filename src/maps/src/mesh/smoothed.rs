@@ -1,16 +1,17 @@
-//! Surfaces without the noise of their vertices.
+//! Smoothing of noisy vertex positions.
 
 use super::Surface;
 use super::edges::{Edges, next, origin};
 
-/// Smoothing passes. Together they take away noise a few edges wide and leave the shape.
+/// Number of smoothing passes. Together they remove noise a few edges wide and preserve the shape.
 const PASSES: usize = 10;
 /// Steps toward the mean of the neighbors and back, per pass.
 const STEPS: [f64; 2] = [0.5, -0.53];
 
 impl Surface {
-    /// The positions after ten passes of Taubin's λ|μ filter with uniform weights (*A Signal Processing Approach to
-    /// Fair Surface Design*, 1995). Vertices of `is_on_border` follow their neighbors along the border. O(n).
+    /// Returns the positions after ten passes of Taubin's λ|μ filter with uniform weights (*A Signal Processing
+    /// Approach to Fair Surface Design*, 1995). Vertices of `is_on_border` follow their neighbors along the border.
+    /// O(n).
     pub fn smoothed(&self, is_on_border: &[bool]) -> Vec<[f64; 3]> {
         let pulls = self.pulls(is_on_border);
         let mut count = vec![0.0_f64; self.positions.len()];
@@ -34,7 +35,7 @@ impl Surface {
         positions
     }
 
-    /// For each vertex whether it lies on a border: an edge of one face.
+    /// Returns for each vertex whether it lies on a border: an edge of one face.
     pub fn is_on_border(&self) -> Vec<bool> {
         let mut is_on_border = vec![false; self.positions.len()];
         for edge in Edges::new(self.positions.len(), &self.triangles).iter() {
@@ -47,7 +48,7 @@ impl Surface {
         is_on_border
     }
 
-    /// Each vertex with each neighbor that it follows.
+    /// Returns each vertex with each neighbor that it follows.
     fn pulls(&self, is_on_border: &[bool]) -> Vec<[u32; 2]> {
         let mut pulls = Vec::with_capacity(3 * self.triangles.len());
         for edge in Edges::new(self.positions.len(), &self.triangles).iter() {

@@ -2,39 +2,39 @@
 
 use super::{Adjacency, CUT, Defects, edges::Edges, same_direction, weld::weld};
 
-/// Triangles over distinct positions, with what is wrong with them counted.
+/// Triangles over distinct positions, with their defects counted.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// Distinct positions, in the order in which the input first has them. Vertices that no triangle uses are kept until the
-    /// surface is [reordered](Self::reordered).
+    /// Distinct positions, in the order of their first occurrence in the input. Vertices that no triangle uses are kept
+    /// until the surface is [reordered](Self::reordered).
     pub positions: Vec<[f64; 3]>,
     /// Three different vertices each, wound as in the input.
     pub triangles: Vec<[u32; 3]>,
     /// For each triangle its face in the input; increasing until the surface is reordered.
     pub faces: Vec<u32>,
-    /// What the input's faces suffer from.
+    /// Defects of the input's faces.
     pub defects: Defects,
     adjacency: Adjacency,
     is_cut: bool,
 }
 
-/// Why a list of triangles is no surface.
+/// Reason why a list of triangles is not a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MeshError {
     /// A face names a vertex that does not exist.
     #[error("face {face} names vertex {vertex}, but there are only {n_vertices} vertices")]
     IndexOutOfRange {
-        /// The first such face.
+        /// First such face.
         face: usize,
-        /// The vertex it names.
+        /// Vertex that it names.
         vertex: u32,
-        /// How many there are.
+        /// Number of vertices.
         n_vertices: usize,
     },
     /// A face's vertex has a coordinate that is infinite or not a number.
     #[error("vertex {vertex} has a coordinate that is not finite")]
     NonFinitePosition {
-        /// The first such vertex.
+        /// First such vertex.
         vertex: u32,
     },
     /// More faces or vertices than 32-bit corner indices can count.
@@ -43,11 +43,11 @@ pub enum MeshError {
 }
 
 impl Surface {
-    /// The surface of an indexed triangle list: vertices at equal positions (bit-equal, −0 = 0) become one, and faces that
-    /// name a position twice are left out.
+    /// Creates the surface of an indexed triangle list: vertices at equal positions (bit-equal, −0 = 0) become one, and
+    /// faces that name a position twice are left out.
     ///
-    /// Everything else is kept, however broken; [`defects`](Self::defects) counts it. Vertices that no face names may hold
-    /// anything, also NaN. Coordinates are `f32` or `f64`. Nearly linear in the size of the input.
+    /// Everything else is kept, however broken; [`defects`](Self::defects) counts it. Vertices that no face names may
+    /// hold anything, also NaN. Coordinates are `f32` or `f64`. Nearly linear in the size of the input.
     pub fn new<T: Copy + Into<f64>>(
         positions: &[[T; 3]],
         triangles: &[[u32; 3]],
@@ -80,15 +80,15 @@ impl Surface {
         })
     }
 
-    /// Cuts the surface along the edges of which `is_seam` holds, asked with the two halfedges that are glued there: nothing is
-    /// mapped across them.
+    /// Cuts the surface along the edges for which `is_seam` returns `true`, called with the two halfedges that are
+    /// glued there: no chart extends across them.
     pub fn cut_along(&mut self, is_seam: impl Fn(u32, u32) -> bool) {
         self.adjacency.cut(&self.triangles, is_seam);
         self.is_cut = true;
     }
 
-    /// Cuts the surface along the edges at which its winding changes, so that each piece has one front. A chart across such an
-    /// edge would show a texture mirrored on one side of it.
+    /// Cuts the surface along the edges at which its winding changes, so that each piece has one front. A chart across
+    /// such an edge would show a texture mirrored on one side of it.
     pub fn cut_where_winding_changes(&mut self) {
         let triangles = &self.triangles;
         let is_change = |h: u32, t: u32| same_direction(triangles, h, t);
@@ -99,12 +99,12 @@ impl Surface {
         }
     }
 
-    /// Whether it was cut along given edges.
+    /// Returns whether it was cut along given edges.
     pub fn is_cut(&self) -> bool {
         self.is_cut
     }
 
-    /// The same with its triangles in another order, of which each is named once, and its vertices in that in which these have them.
+    /// Permutes the triangles by `order`, in which each occurs once, and renumbers vertices by their first use.
     #[must_use]
     pub fn reordered(&self, order: &[u32]) -> Self {
         let mut number = vec![u32::MAX; self.positions.len()];
@@ -129,12 +129,12 @@ impl Surface {
         }
     }
 
-    /// Which triangles are glued to which.
+    /// Returns the gluing of triangles.
     pub fn adjacency(&self) -> &Adjacency {
         &self.adjacency
     }
 
-    /// The positions of a triangle's corners.
+    /// Returns the positions of a triangle's corners.
     pub fn corners(&self, triangle: usize) -> [[f64; 3]; 3] {
         self.triangles[triangle].map(|v| self.positions[v as usize])
     }

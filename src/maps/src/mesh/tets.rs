@@ -3,14 +3,13 @@
 use super::element_error::{ElementError, validate};
 use unwrapd_method::numerics::predicates::orient3d_sign;
 
-/// The faces of a positive tetrahedron by its corners, wound so that their normals point outwards; face k lies opposite of
+/// Faces of a positive tetrahedron by its corners, wound so that their normals point outwards; face k lies opposite
 /// corner k.
 const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// Tetrahedra of positive volume, no two on the same side of a common face.
 ///
-/// That they do not overlap elsewhere is not tested. Vertices that no tetrahedron uses are kept, so that indices mean what
-/// they meant in the input.
+/// Other overlaps are not tested. Vertices that no tetrahedron uses are kept, so that indices keep their meaning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TetMesh {
     vertices: Vec<[f64; 3]>,
@@ -19,10 +18,10 @@ pub struct TetMesh {
 }
 
 impl TetMesh {
-    /// Checks the elements and turns those of negative volume round (by exchanging their last two corners).
+    /// Checks the elements and turns those of negative volume around (by exchanging their last two corners).
     ///
-    /// Refuses indices out of range, coordinates that are not finite, volumes that are exactly zero, and folds. The signs are
-    /// exact. Costs a sort of the faces.
+    /// Refuses indices out of range, coordinates that are not finite, volumes that are exactly zero, and folds. The
+    /// signs are exact. Costs a sort of the faces.
     pub fn new(vertices: Vec<[f64; 3]>, mut tets: Vec<[u32; 4]>) -> Result<Self, ElementError> {
         validate(&vertices, &tets, "tetrahedra")?;
         let mut reoriented = 0;
@@ -49,29 +48,29 @@ impl TetMesh {
         })
     }
 
-    /// Vertex positions.
+    /// Returns the vertex positions.
     pub fn vertices(&self) -> &[[f64; 3]] {
         &self.vertices
     }
 
-    /// Corners a, b, c, d of each element, det[b−a, c−a, d−a] > 0.
+    /// Returns the corners a, b, c, d of each element, det[b−a, c−a, d−a] > 0.
     pub fn tets(&self) -> &[[u32; 4]] {
         &self.tets
     }
 
-    /// How many elements were inverted in the input.
+    /// Returns the number of elements that were inverted in the input.
     pub fn reoriented(&self) -> usize {
         self.reoriented
     }
 
-    /// The faces that belong to one element only, their normals outwards, in the order of the elements.
+    /// Returns the faces that belong to one element only, with outward normals, in the order of the elements.
     pub fn boundary(&self) -> Vec<[u32; 3]> {
         boundary_triangles(&self.tets)
     }
 }
 
-/// The triangles that bound tetrahedra of positive volume: faces of one element only, their normals outwards, in the order of the
-/// elements.
+/// Returns the triangles that bound tetrahedra of positive volume: faces of one element only, with outward normals, in
+/// the order of the elements.
 pub fn boundary_triangles(tets: &[[u32; 4]]) -> Vec<[u32; 3]> {
     let faces = sorted_faces(tets);
     let mut boundary: Vec<u32> = faces
@@ -85,9 +84,9 @@ pub fn boundary_triangles(tets: &[[u32; 4]]) -> Vec<[u32; 3]> {
 
 /// A face of an element: `id` / 4 is the element, `id` % 4 the corner opposite.
 struct Face {
-    /// The corners in ascending order.
+    /// Corners in increasing order.
     corners: [u32; 3],
-    /// Whether ascending order is an odd permutation of the outward winding.
+    /// `true` if increasing order is an odd permutation of the outward winding.
     odd: bool,
     id: u32,
 }
@@ -103,7 +102,7 @@ fn corners(tets: &[[u32; 4]], id: u32) -> [u32; 3] {
     FACES[id as usize % 4].map(|c| tet[c])
 }
 
-/// All faces, those of the same corners next to each other, and among them those of the same winding.
+/// Returns all faces, those with the same corners next to each other, and among them those of the same winding.
 fn sorted_faces(tets: &[[u32; 4]]) -> Vec<Face> {
     let mut faces: Vec<Face> = (0..4 * tets.len() as u32)
         .map(|id| {

@@ -1,13 +1,13 @@
 //! The vertices of a part of a mesh, numbered without gaps.
 
-/// The vertices that some elements use, ascending; a vertex's place here is its number in the part.
+/// Vertices that some elements use, in increasing order; the index of a vertex here is its number in the part.
 #[derive(Clone, Debug, Default)]
 pub struct UsedVertices {
     vertices: Vec<u32>,
 }
 
 impl UsedVertices {
-    /// The vertices of these corners. O(n log n).
+    /// Collects the vertices of these corners. O(n log n).
     pub fn new(corners: impl IntoIterator<Item = u32>) -> Self {
         let mut vertices: Vec<u32> = corners.into_iter().collect();
         vertices.sort_unstable();
@@ -15,28 +15,28 @@ impl UsedVertices {
         Self { vertices }
     }
 
-    /// How many there are.
+    /// Returns the number of used vertices.
     pub fn count(&self) -> usize {
         self.vertices.len()
     }
 
-    /// The vertices by their numbers in the whole mesh.
+    /// Returns the vertices by their numbers in the whole mesh.
     pub fn as_slice(&self) -> &[u32] {
         &self.vertices
     }
 
-    /// The same, given away.
+    /// Converts into the vertices by their numbers in the whole mesh.
     pub fn into_vec(self) -> Vec<u32> {
         self.vertices
     }
 
-    /// The number of a vertex in the part, if it is used. O(log n).
+    /// Returns the number of a vertex in the part, if it is used. O(log n).
     pub fn number(&self, vertex: u32) -> Option<u32> {
         let place = self.vertices.binary_search(&vertex);
         place.ok().map(|place| place as u32)
     }
 
-    /// Gives corners the numbers of the part. All of them must be used. O(n).
+    /// Renumbers corners to the numbers of the part. All of them must be used. O(n).
     pub fn renumber(&self, corners: &mut [u32]) {
         let n_vertices = self.vertices.last().map_or(0, |&last| last as usize + 1);
         let mut number = vec![0; n_vertices];

@@ -1,9 +1,9 @@
-//! Which faces a vertex has.
+//! Faces around each vertex.
 
 /// The faces at each vertex, in increasing order.
 #[derive(Clone, Debug, Default)]
 pub struct VertexFaces {
-    /// Those of vertex v are `faces[starts[v]..starts[v + 1]]`.
+    /// Start of each vertex in `faces`: those of vertex v are `faces[starts[v]..starts[v + 1]]`.
     starts: Vec<u32>,
     faces: Vec<u32>,
 }
@@ -29,7 +29,7 @@ impl VertexFaces {
         Self { starts, faces }
     }
 
-    /// The faces at one vertex.
+    /// Returns the faces at one vertex.
     pub fn of(&self, vertex: u32) -> &[u32] {
         let v = vertex as usize;
         &self.faces[self.starts[v] as usize..self.starts[v + 1] as usize]

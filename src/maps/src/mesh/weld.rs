@@ -1,11 +1,12 @@
-//! One vertex per position.
+//! Welding of equal positions.
 
 use std::collections::HashMap;
 
-/// Distinct positions in the order in which they first appear, and for each input vertex the index of its position.
+/// Returns distinct positions in the order of their first occurrence, and for each input vertex the index of its
+/// position.
 ///
-/// Two positions are one when all three coordinates are bit-equal, −0 counting as 0. No tolerance: what is welded here is
-/// exactly what is one point in the written file.
+/// Two positions are one if all three coordinates are bit-equal, with −0 counting as 0. There is no tolerance:
+/// positions are welded exactly if they are one point in the written file.
 pub fn weld(positions: impl ExactSizeIterator<Item = [f64; 3]>) -> (Vec<[f64; 3]>, Vec<u32>) {
     let mut index = HashMap::with_capacity(positions.len());
     let mut distinct = Vec::new();

@@ -5,12 +5,12 @@ use super::segments::{Segment, segment_distance};
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of, widened};
 use unwrapd_method::numerics::vec2::{dot, sub};
 
-/// Edges are compared only if the way between them on their polygon is so many times the distance
-/// wanted: that others are near each other says only that edges are short.
+/// Least path between two edges along their polygon, as a multiple of the distance, for them to be compared: nearer
+/// ones are close only because edges are short.
 const BETWEEN: f64 = 4.0;
 
-/// Whether no two edges of closed polygons come nearer to each other than `part` of the extent of
-/// all, but for edges that follow each other. O(n log n) unless the edges lie in heaps.
+/// Returns whether no two edges of closed polygons, except consecutive ones, come nearer to each other than the share
+/// `part` of the extent of all. O(n log n) unless the edges lie in heaps.
 pub fn keep_apart(polygons: &[Vec<[f64; 2]>], part: f64) -> bool {
     let edges: Vec<Edge> = (polygons.iter().enumerate())
         .flat_map(|(polygon, vertices)| edges(polygon, vertices))
@@ -34,13 +34,13 @@ pub fn keep_apart(polygons: &[Vec<[f64; 2]>], part: f64) -> bool {
 struct Edge {
     ends: Segment,
     polygon: usize,
-    /// How long the polygon is up to each end, and in all.
+    /// Arc length of the polygon at each end.
     at: [f64; 2],
     length: f64,
 }
 
 impl Edge {
-    /// The shorter way on the polygon to an edge that comes later; infinite to another polygon.
+    /// Returns the length of the shorter path along the polygon to a later edge; infinite to another polygon.
     fn way_to(&self, later: &Self) -> f64 {
         if self.polygon != later.polygon {
             return f64::INFINITY;
@@ -50,7 +50,7 @@ impl Edge {
     }
 }
 
-/// The edges of a closed polygon.
+/// Returns the edges of a closed polygon.
 fn edges(polygon: usize, vertices: &[[f64; 2]]) -> Vec<Edge> {
     let after = vertices.iter().cycle().skip(1);
     let ends: Vec<Segment> = vertices.iter().zip(after).map(|(&p, &q)| [p, q]).collect();

@@ -1,4 +1,4 @@
-//! Which of many boxes meet.
+//! An index of boxes for finding those that meet.
 
 use std::ops::Range;
 
@@ -6,28 +6,28 @@ use static_aabb2d_index::{AABB, StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 
 use unwrapd_method::numerics::bounds::Bounds;
 
-/// Whether a search saw everything.
+/// Completeness of a search.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Visit {
-    /// All that was asked for has been visited.
+    /// All matches have been visited.
     Complete,
-    /// The budget was used up before.
+    /// The budget was used up first.
     Truncated,
 }
 
-/// Comparisons of boxes that a search over `n` of them may take: a second's worth or so, which only
-/// boxes that lie in heaps come near.
+/// Returns the budget of box comparisons for a search over `n` boxes: about a second's worth, which only heaps of boxes
+/// come near.
 pub fn search_budget(n: usize) -> u64 {
     50_000_000 + 200 * n as u64
 }
 
-/// Boxes of a node: more are compared in vain, fewer make the tree higher.
+/// Boxes per node: more are compared in vain, fewer make the tree higher.
 const NODE: usize = 8;
 
-/// A packed Hilbert R-tree over boxes, which are known by their places in the list that was given.
-/// All boxes are closed: those that touch meet.
+/// A packed Hilbert R-tree over boxes, which are identified by their indices in the given list. All boxes are closed:
+/// those that touch meet.
 ///
-/// What is visited comes in an order that depends on the boxes only.
+/// The order of visits depends only on the boxes.
 pub struct BoxIndex {
     tree: StaticAABB2DIndex,
 }
@@ -36,12 +36,12 @@ pub struct BoxIndex {
 #[derive(Clone, Copy)]
 struct NodePair {
     nodes: [usize; 2],
-    /// The level of their children; that of the items is 0.
+    /// Level of their children; that of the items is 0.
     below: usize,
 }
 
 impl BoxIndex {
-    /// An index of boxes; one that encloses nothing meets nothing. O(n log n).
+    /// Creates an index of boxes; an empty box meets nothing. O(n log n).
     pub fn new(boxes: &[Bounds]) -> Self {
         let mut builder = StaticAABB2DIndexBuilder::new_with_node_size(boxes.len(), NODE);
         for [low, high] in boxes {
@@ -99,11 +99,9 @@ impl BoxIndex {
         Visit::Complete
     }
 
-    /// The smallest distance of two items of different groups, infinite where there is one group
-    /// only.
+    /// Returns the smallest distance of two items of different groups, infinite if there is only one group.
     ///
-    /// `distance` of two items is never less than that of their boxes. Works through at most
-    /// `budget` comparisons of boxes.
+    /// `distance` of two items is never less than that of their boxes. Makes at most `budget` comparisons of boxes.
     pub fn closest(
         &self,
         groups: &[u32],
@@ -114,6 +112,7 @@ impl BoxIndex {
         let group_of = self.groups(groups);
         let are_apart = |a: usize, b: usize| group_of[a].is_none() || group_of[a] != group_of[b];
         let (mut best, mut left) = (f64::INFINITY, budget);
+        // Best first, nearly: of each pair of nodes the nearest children are visited first.
         let mut open: Vec<(f64, NodePair)> =
             self.root().map(|root| (0.0, root)).into_iter().collect();
         while let Some((bound, pair @ NodePair { nodes, below })) = open.pop() {
@@ -133,6 +132,7 @@ impl BoxIndex {
                     if bound >= best {
                         continue;
                     }
+                    // Items on the lowest level, nodes above it.
                     if below == 0 {
                         best = best.min(distance(items[a] as u32, items[b] as u32));
                     } else {
@@ -146,7 +146,7 @@ impl BoxIndex {
         (best, Visit::Complete)
     }
 
-    /// The root with itself; none where there are no boxes.
+    /// Returns the root paired with itself; `None` without boxes.
     fn root(&self) -> Option<NodePair> {
         let root = self.tree.all_boxes().len().checked_sub(1)?;
         Some(NodePair {
@@ -155,18 +155,18 @@ impl BoxIndex {
         })
     }
 
-    /// The positions of the children of both nodes.
+    /// Returns the positions of the children of both nodes.
     fn children(&self, NodePair { nodes, below }: NodePair) -> [Range<usize>; 2] {
         nodes.map(|node| self.children_of(node, self.tree.level_bounds()[below]))
     }
 
-    /// The positions of a node's children on a level that ends at `end`.
+    /// Returns the positions of a node's children on a level that ends at `end`.
     fn children_of(&self, node: usize, end: usize) -> Range<usize> {
         let first = self.tree.all_box_indices()[node];
         first..(first + NODE).min(end)
     }
 
-    /// For each position in the tree the group that all below it belong to, if it is one.
+    /// Returns for each position in the tree the group of all items below it, if it is only one.
     fn groups(&self, groups: &[u32]) -> Vec<Option<u32>> {
         let (items, ends) = (self.tree.all_box_indices(), self.tree.level_bounds());
         let mut of: Vec<Option<u32>> = (items[..groups.len()].iter())
@@ -183,7 +183,7 @@ impl BoxIndex {
     }
 }
 
-/// The distance of two boxes.
+/// Returns the distance of two boxes.
 fn box_distance(a: &AABB, b: &AABB) -> f64 {
     let gap = |low: f64, high: f64| low.max(high).max(0.0);
     let along_x = gap(b.min_x - a.max_x, a.min_x - b.max_x);

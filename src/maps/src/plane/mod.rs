@@ -1,13 +1,11 @@
-//! Plane geometry of many pieces, for the makers of maps.
+//! Plane geometry of many pieces, for the code that makes maps.
 //!
-//! Which faces of a map overlap, whether its boundary is simple, how near charts come to each
-//! other: code that makes UVs asks this in every round and steers by the answers. Candidates come from a
-//! [`BoxIndex`], a packed Hilbert R-tree; the answers are exact, but for distances, which are
-//! rounded.
+//! Code that makes UVs asks in every round which faces of a map overlap, whether its boundary is simple and how near
+//! charts come to each other, and steers by the answers. Candidates come from a [`BoxIndex`], a packed Hilbert R-tree;
+//! the answers are exact, except for distances, which are rounded.
 //!
-//! Nothing here is proof. What is written is judged by [`certificate`](crate::certificate), which
-//! has its own boxes, trees and tests and imports none of this, so that a fault here is found
-//! there.
+//! Nothing here is proof. Written maps are judged by [`certificate`](crate::certificate), which has its own boxes,
+//! trees and tests and imports none from here, so that a fault here is found there.
 
 mod apart;
 mod box_index;

@@ -5,15 +5,15 @@ use super::segments::{Segment, meet, turns_back};
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of};
 use unwrapd_method::numerics::vec2::doubled_area;
 
-/// Twice the signed area of a closed polygon, rounded.
+/// Returns twice the signed area of a closed polygon, rounded.
 pub fn doubled_polygon_area(polygon: &[[f64; 2]]) -> f64 {
     let after = polygon.iter().skip(1);
     let edges = polygon.iter().zip(after);
     edges.map(|(&p, &q)| doubled_area(polygon[0], p, q)).sum()
 }
 
-/// A vertex near which closed polygons cross or touch themselves or each other, exactly; the first
-/// of the first edge that does.
+/// Returns a vertex near which closed polygons cross or touch themselves or each other, exactly; the first vertex of
+/// the first such edge.
 pub fn meeting_point(polygons: &[Vec<[f64; 2]>]) -> Option<[f64; 2]> {
     let (mut edges, mut next): (Vec<Segment>, Vec<u32>) = (Vec::new(), Vec::new());
     for polygon in polygons {

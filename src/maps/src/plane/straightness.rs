@@ -1,26 +1,26 @@
-//! The axes of outlines that have some.
+//! Axes of outlines.
 
-/// Widths of the classes into which directions are sorted, over a quarter turn.
+/// Number of classes into which directions are sorted, over a quarter turn.
 const CLASSES: usize = 180;
 
-/// The share of an outline that runs along two perpendicular directions, where a chart has to be upright, and where it is if that
-/// leaves the atlas as full, about.
+/// Shares of an outline along two perpendicular directions: from the first on a chart must be upright, from the second
+/// on it is if the atlas stays about as full.
 const UPRIGHT: f64 = 0.5;
 const LEANING: f64 = 0.25;
 
-/// The axes of an outline.
+/// Axes of an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Straightness {
-    /// Most of its outline runs along this unit vector or at a right angle to it: a rectangle's does.
+    /// Most of the outline runs along this unit vector or at a right angle to it, as for a rectangle.
     Upright([f64; 2]),
-    /// A good part of it does: of a hexagon's a third.
+    /// A good part of the outline does: a third for a hexagon.
     Leaning([f64; 2]),
-    /// A disc has no axes.
+    /// The outline has no axes, like a disc.
     Round,
 }
 
 impl Straightness {
-    /// Of an outline that consists of these edges.
+    /// Finds the axes of an outline that consists of these edges.
     pub fn of(edges: &[[[f64; 2]; 2]]) -> Self {
         match main_axis(edges) {
             Some((axis, share)) if share >= UPRIGHT => Self::Upright(axis),
@@ -30,7 +30,7 @@ impl Straightness {
     }
 }
 
-/// The unit vector along which most of an outline runs, itself or at a right angle, and the share that does.
+/// Returns the unit vector along which, or at a right angle to which, most of an outline runs, and that share.
 fn main_axis(edges: &[[[f64; 2]; 2]]) -> Option<([f64; 2], f64)> {
     let mut classes = vec![[0.0; 3]; CLASSES];
     let mut perimeter = 0.0;
@@ -62,7 +62,7 @@ fn main_axis(edges: &[[[f64; 2]; 2]]) -> Option<([f64; 2], f64)> {
     (length > 0.0).then_some(([cos, sin], length / perimeter))
 }
 
-/// The unit vector at twice the angle.
+/// Returns the unit vector at twice the angle.
 fn squared([c, s]: [f64; 2]) -> [f64; 2] {
     [c * c - s * s, 2.0 * c * s]
 }

@@ -1,4 +1,4 @@
-//! Triangles that overlap.
+//! Overlapping triangles.
 
 use super::box_index::{BoxIndex, Visit, search_budget};
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of};
@@ -6,9 +6,8 @@ use unwrapd_method::numerics::predicates::orient2d_sign;
 
 type Triangle = [[f64; 2]; 3];
 
-/// Visits every pair of counter-clockwise triangles that is asked for and whose interiors have a
-/// common point, the smaller number first; where they lie in heaps, as many as [`search_budget`]
-/// allows.
+/// Visits every pair of counter-clockwise triangles with `is_asked` whose interiors have a common point, the smaller
+/// number first; the search is truncated after [`search_budget`] comparisons.
 pub fn overlapping_pairs(
     triangles: &[Triangle],
     is_asked: impl Fn([u32; 2]) -> bool,
@@ -23,8 +22,8 @@ pub fn overlapping_pairs(
     })
 }
 
-/// Whether all triangles are counter-clockwise and no two have an interior point in common,
-/// exactly; false also where they lie in such heaps that it is not found out.
+/// Returns whether all triangles are counter-clockwise and no two have an interior point in common, exactly; `false`
+/// also if the search was truncated.
 pub fn are_disjoint(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> bool {
     let corners = |t: &[u32; 3]| t.map(|v| vertices[v as usize]);
     let triangles: Vec<Triangle> = triangles.iter().map(corners).collect();
@@ -37,8 +36,8 @@ pub fn are_disjoint(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> bool {
     !is_any && visit == Visit::Complete
 }
 
-/// Whether two counter-clockwise triangles have interior points in common, exactly: they have none
-/// if and only if the line of an edge of one has the other on its right or on itself.
+/// Returns whether two counter-clockwise triangles have interior points in common, exactly: this fails if and only
+/// if the line of an edge of one has the other on its right or on itself.
 pub fn interiors_intersect(a: &Triangle, b: &Triangle) -> bool {
     let is_beyond = |[p, q]: [[f64; 2]; 2], t: &Triangle| {
         t.iter().all(|&corner| orient2d_sign(p, q, corner) <= 0)

@@ -11,7 +11,7 @@ pub struct PrincipalAxes {
     pub center: [f64; 3],
     /// Unit vectors by decreasing extent. Each points to the side on which the points reach farther.
     pub axes: [[f64; 3]; 3],
-    /// Sum of the third powers of the coordinates along each axis: 0 along an axis of mirror symmetry.
+    /// Sum of the third powers of the coordinates along each axis: 0 along an axis that a mirror symmetry reverses.
     pub skew: [f64; 3],
 }
 

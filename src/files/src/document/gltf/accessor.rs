@@ -1,11 +1,11 @@
-//! Accessors: typed arrays over the binary data, checked against the bytes that are really there.
+//! Accessors: typed arrays over the binary data, checked against the bytes that really exist.
 use super::body::Body;
 use super::component::Component;
 use super::json::{invalid, item, required, unsigned};
 use crate::document::DocumentError;
 use serde_json::Value;
 
-/// The largest count that is believed without bytes behind it. Such accessors carry the sparse morph targets of large
+/// Largest count that is accepted without bytes behind it. Such accessors carry the sparse morph targets of large
 /// meshes, so it is as large as a mesh.
 const MAX_UNBACKED: usize = 1 << 26;
 
@@ -14,7 +14,7 @@ pub(super) struct Accessor<'a> {
     pub component: Component,
     /// Components per element.
     pub width: usize,
-    /// Bytes per element, the padding of matrix columns included.
+    /// Bytes per element, including the padding of matrix columns.
     pub element_size: usize,
     pub count: usize,
     normalized: bool,
@@ -38,7 +38,7 @@ struct Sparse<'a> {
 }
 
 impl<'a> Accessor<'a> {
-    /// Accessor `index` of the document.
+    /// Opens accessor `index` of the document.
     pub fn open(body: &'a Body, index: usize) -> Result<Self, DocumentError> {
         let object = item(&body.json, "accessors", index)?;
         Self::parse(body, object).map_err(|error| match error {
@@ -81,32 +81,32 @@ impl<'a> Accessor<'a> {
         })
     }
 
-    /// Whether the elements are of the type `kind`, such as `VEC3`.
+    /// Returns whether the elements are of the type `kind`, such as `VEC3`.
     pub fn is(&self, kind: &str) -> bool {
         self.kind == kind
     }
 
-    /// The type of its elements, such as `VEC3`.
+    /// Returns the type of its elements, such as `VEC3`.
     pub fn kind(&self) -> &'a str {
         self.kind
     }
 
-    /// Whether its integers stand for numbers in [−1, 1].
+    /// Returns whether its integers represent numbers in [−1, 1].
     pub fn is_normalized(&self) -> bool {
         self.normalized
     }
 
-    /// Whether the count is backed by bytes: an accessor without a view is all zeros, however many it claims.
+    /// Returns whether the count is backed by bytes: an accessor without a view is all zeros, however many it claims.
     pub fn is_backed(&self) -> bool {
         self.base.is_some()
     }
 
-    /// Whether there is any data; without, all elements are zero.
+    /// Returns whether there is any data; without it all elements are zero.
     pub fn has_data(&self) -> bool {
         self.base.is_some() || self.sparse.is_some()
     }
 
-    /// The raw bytes of all elements without gaps, sparse replacements applied.
+    /// Returns the raw bytes of all elements without gaps, with sparse replacements applied.
     pub fn packed(&self) -> Result<Vec<u8>, DocumentError> {
         if self.base.is_none() && self.count > MAX_UNBACKED {
             return Err(DocumentError::LimitExceeded(format!(
@@ -137,7 +137,7 @@ impl<'a> Accessor<'a> {
         Ok(packed)
     }
 
-    /// All components as numbers; normalized integers lie in [−1, 1].
+    /// Returns all components as numbers; normalized integers lie in [−1, 1].
     pub fn values(&self) -> Result<Vec<f64>, DocumentError> {
         let packed = self.packed()?;
         let raw = packed
@@ -151,7 +151,7 @@ impl<'a> Accessor<'a> {
         }
     }
 
-    /// All components as f32 in groups of `N`.
+    /// Returns all components as f32 in groups of `N`.
     pub fn vectors<const N: usize>(&self) -> Result<Vec<[f32; N]>, DocumentError> {
         let values = self.values()?;
         let vectors = values.chunks_exact(N);
@@ -167,13 +167,13 @@ impl<'a> Strided<'a> {
     }
 }
 
-/// `componentType` of an accessor or of sparse indices.
+/// Reads the `componentType` of an accessor or of sparse indices.
 fn component_type(object: &Value) -> Result<Component, DocumentError> {
     Component::from_code(required(object, "componentType")?)
         .ok_or_else(|| invalid("unknown `componentType`"))
 }
 
-/// Columns and rows of an element.
+/// Returns the columns and rows of an element.
 fn shape(kind: &str) -> Option<(usize, usize)> {
     Some(match kind {
         "SCALAR" => (1, 1),
@@ -187,7 +187,7 @@ fn shape(kind: &str) -> Option<(usize, usize)> {
     })
 }
 
-/// The elements that `bufferView` and `byteOffset` of `object` name, all of them within the view.
+/// Returns the elements at the `bufferView` and `byteOffset` of `object`, all of them within the view.
 fn strided<'a>(
     body: &'a Body,
     object: &Value,

@@ -1,4 +1,4 @@
-//! The document with new UVs as an OBJ file, with its materials and pictures beside it.
+//! Output of a glTF document with new UVs as an OBJ file, with its materials and pictures as separate files.
 use super::GltfDocument;
 use super::accessor::Accessor;
 use super::baked;
@@ -30,6 +30,7 @@ pub(super) fn write(
     new_obj::only_set(options)?;
     let mut body = document.body.clone();
     let mut notes = WriteNotes::default();
+    // New textures, materials and their pictures.
     let resources = match baked {
         Some(baked) => baked::insert(document, &mut body, baked, (0, &options.stem), &mut notes)?,
         None => document.resources.clone(),
@@ -40,6 +41,7 @@ pub(super) fn write(
     let material_names = material_names(&body.json)?;
     let described = described(document, &body, &material_names, &mut pictures, &mut notes)?;
 
+    // Parts with their names.
     let objects = object_names(&body.json)?;
     let mut parts = Vec::with_capacity(document.primitives.len());
     for (index, primitive) in document.primitives.iter().enumerate() {
@@ -77,7 +79,7 @@ pub(super) fn write(
     Ok(Written { files, notes })
 }
 
-/// The primitive's numbers; its names are the caller's.
+/// Collects the numbers of a primitive; the caller sets its names.
 fn part<'a>(
     document: &'a GltfDocument,
     body: &Body,
@@ -103,7 +105,7 @@ fn part<'a>(
     })
 }
 
-/// `COLOR_0`, if it is one.
+/// Reads `COLOR_0`, if it is a color.
 fn colors(
     document: &GltfDocument,
     body: &Body,
@@ -136,7 +138,7 @@ fn material_of(body: &Body, mesh: usize, primitive: usize) -> Result<Option<usiz
     }
 }
 
-/// The materials in use.
+/// Converts the materials in use.
 fn described(
     document: &GltfDocument,
     body: &Body,
@@ -172,7 +174,7 @@ fn described(
     Ok(described)
 }
 
-/// The textures that were made for UVs that are gone.
+/// Returns the textures that were made for replaced UVs.
 fn textures_affected(
     document: &GltfDocument,
     uvs: &NewUvs,

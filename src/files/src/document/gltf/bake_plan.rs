@@ -1,4 +1,4 @@
-//! Which textures to make for new UVs.
+//! Choice of the textures to make for new UVs.
 use super::json::extension;
 use super::sampling::Resampled;
 use super::textures::{MaterialTextures, TextureUse, materials};
@@ -7,19 +7,19 @@ use crate::document::bake::MaterialPlanes;
 use crate::document::{BakePlan, BakePlane, DocumentError, Encoding, Group, KeptTexture};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Directions of anisotropy are those of tangents: they turn with the UVs.
+/// Extension with directions of anisotropy, which are relative to tangents: they turn with the UVs.
 const ANISOTROPY: &str = "KHR_materials_anisotropy";
 
-/// A texture of a material, and how to resample it or why not.
+/// A texture of a material, with the way to resample it or the reason why that is impossible.
 struct Slot {
     texture: TextureUse,
     resampled: Result<Resampled, String>,
 }
 
-/// Indices of primitives by the material that they have, or have in a variant.
+/// Indices of primitives by their materials, including those of variants.
 type Users = BTreeMap<usize, BTreeSet<usize>>;
 
-/// The plan for new UVs of `groups`. `unreadable` says of images why they cannot be read.
+/// Plans the textures for new UVs of `groups`. `unreadable` has the reasons why images cannot be read.
 pub(super) fn plan(
     document: &GltfDocument,
     groups: &[Group],
@@ -90,7 +90,7 @@ fn slots_of(
     textures.into_iter().map(slot).collect()
 }
 
-/// A primitive has one tangent per vertex: where a normal map stays, so do all others of the primitives that have it.
+/// Keeps all normal maps of the primitives of a kept one: a primitive has only one tangent per vertex.
 fn keep_frames_together(users: &Users, slots: &mut BTreeMap<usize, Vec<Slot>>) {
     loop {
         let keeps = |material: &usize| {
@@ -144,7 +144,7 @@ fn kept(
     Ok(kept.into_iter().collect())
 }
 
-/// Adds the textures of one group: of each slot one for all materials, as long as no surface has two of them.
+/// Adds the textures of one group: for each slot one texture for all materials, as long as no surface has two of them.
 fn plan_group(
     plan: &mut BakePlan,
     (group, name): (usize, &str),
@@ -158,6 +158,7 @@ fn plan_group(
         if primitives.is_empty() {
             continue;
         }
+        // Assign each texture of the material that can be resampled to a plane.
         let mut planes = Vec::new();
         for slot in slots {
             let Ok(resampled) = &slot.resampled else {
@@ -192,7 +193,7 @@ fn plan_group(
     }
 }
 
-/// The plane that a texture becomes part of: one for the same slot in which its surfaces have nothing else, or a new one.
+/// Returns the plane that a texture joins: one for the same slot in which its surfaces have nothing else, or a new one.
 fn joined(planes: &mut Vec<BakePlane>, first: usize, wanted: BakePlane) -> usize {
     let takes = |plane: &BakePlane| {
         let kind = |plane: &BakePlane| (plane.encoding, plane.filters);
@@ -214,7 +215,7 @@ fn joined(planes: &mut Vec<BakePlane>, first: usize, wanted: BakePlane) -> usize
     }
 }
 
-/// `baseColor` of `pbrMetallicRoughness/baseColorTexture`.
+/// Returns `baseColor` for `pbrMetallicRoughness/baseColorTexture`.
 fn word(slot: &str) -> &str {
     let name = slot.rsplit('/').next().unwrap_or(slot);
     name.strip_suffix("Texture").unwrap_or(name)

@@ -1,4 +1,4 @@
-//! New textures in the document.
+//! Insertion of new textures into the document.
 use super::body::Body;
 use super::json::{
     array_mut, invalid, item, items, object_mut, primitive_mut, remove, remove_extension, unsigned,
@@ -12,8 +12,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 const CLAMP_TO_EDGE: usize = 33071;
 
-/// Lets the materials have the new textures, sampled by set `set`, and returns the files of all images. A material that
-/// others have too becomes two.
+/// Assigns the new textures, sampled by set `set`, to the materials, and returns the files of all images. A material
+/// that other primitives use too is copied.
 pub(super) fn insert(
     document: &GltfDocument,
     body: &mut Body,
@@ -23,6 +23,7 @@ pub(super) fn insert(
 ) -> Result<BTreeMap<String, Vec<u8>>, DocumentError> {
     let mut resources = document.resources.clone();
     let mut textures = Vec::new();
+    // An image and a texture for each plane.
     for (plane, (_, file)) in baked.plan.planes.iter().zip(&baked.files) {
         let name = free_name(
             &format!("{stem}_{}", plane.name.replace('/', "_")),
@@ -66,7 +67,7 @@ fn push(json: &mut Value, collection: &str, object: Value) -> Result<usize, Docu
     Ok(objects.len() - 1)
 }
 
-/// A file name that no other file has.
+/// Returns a file name that no other file has.
 fn free_name(stem: &str, extension: &str, taken: &BTreeMap<String, Vec<u8>>) -> String {
     let numbered = |n: usize| match n {
         0 => format!("{stem}.{extension}"),
@@ -78,7 +79,7 @@ fn free_name(stem: &str, extension: &str, taken: &BTreeMap<String, Vec<u8>>) -> 
         .unwrap_or_default()
 }
 
-/// The sampler with these filters that does not repeat.
+/// Returns the index of the sampler with these filters and without repetition.
 fn sampler(json: &mut Value, [mag, min]: [Option<usize>; 2]) -> Result<usize, DocumentError> {
     let mut wanted = json!({"wrapS": CLAMP_TO_EDGE, "wrapT": CLAMP_TO_EDGE});
     for (key, filter) in [("magFilter", mag), ("minFilter", min)] {
@@ -95,7 +96,7 @@ fn sampler(json: &mut Value, [mag, min]: [Option<usize>; 2]) -> Result<usize, Do
     }
 }
 
-/// The material itself where only these primitives have it, else a copy of it that they have from now on.
+/// Returns the material itself if only these primitives have it, else a copy, which is assigned to them.
 fn own_material(
     document: &GltfDocument,
     body: &mut Body,
@@ -126,7 +127,7 @@ fn own_material(
     Ok(new)
 }
 
-/// Mesh and index of all primitives that have a material, points and lines too.
+/// Returns mesh and index of all primitives that have a material, including points and lines.
 fn users(json: &Value, material: usize) -> Result<BTreeSet<[usize; 2]>, DocumentError> {
     let mut users = BTreeSet::new();
     for (mesh, object) in items(json, "meshes")?.iter().enumerate() {
@@ -139,7 +140,7 @@ fn users(json: &Value, material: usize) -> Result<BTreeSet<[usize; 2]>, Document
     Ok(users)
 }
 
-/// Lets a texture info name another texture, sampled by `set` as it is. Whether it had a transform.
+/// Points a texture info to another texture, sampled by `set` without a transform. Returns whether it had a transform.
 fn point(json: &mut Value, pointer: &str, texture: usize, set: u32) -> Result<bool, DocumentError> {
     let gone = || invalid(format!("{pointer} does not exist"));
     let info = json.pointer_mut(pointer).ok_or_else(gone)?;

@@ -3,7 +3,7 @@ use super::json::{array_mut, invalid, item, item_mut, required, unsigned};
 use crate::document::DocumentError;
 use serde_json::{Map, Value, json};
 
-/// What a buffer view is for, as the graphics interfaces see it.
+/// Purpose of a buffer view in graphics interfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Target {
     Vertices,
@@ -19,7 +19,7 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// The bytes of a buffer view and its stride.
+    /// Returns the bytes of a buffer view and its stride.
     pub fn view(&self, index: usize) -> Result<(&[u8], Option<usize>), DocumentError> {
         let view = item(&self.json, "bufferViews", index)?;
         let offset = unsigned(view, "byteOffset")?.unwrap_or(0);
@@ -31,7 +31,7 @@ impl Body {
         Ok((bytes, unsigned(view, "byteStride")?))
     }
 
-    /// Appends bytes, aligned to four, and returns where they start.
+    /// Appends bytes, aligned to four, and returns their start.
     pub fn push_bytes(&mut self, bytes: &[u8]) -> usize {
         self.bin.resize(self.bin.len().next_multiple_of(4), 0);
         let offset = self.bin.len();
@@ -85,7 +85,7 @@ impl Body {
         Ok(accessors.len() - 1)
     }
 
-    /// States the length of the buffer; a document that had none gets one with the first byte.
+    /// Sets the length of the buffer; a document without one gets it with the first byte.
     pub fn seal(&mut self) -> Result<(), DocumentError> {
         if self.bin.is_empty() {
             return Ok(());

@@ -2,7 +2,7 @@
 use super::component::Component;
 use serde_json::{Value, json};
 
-/// Writes the smallest and largest value of each component, as they are stored.
+/// Writes the smallest and largest value of each component, in the stored encoding.
 pub(super) fn set(accessor: &mut Value, packed: &[u8], component: Component, width: usize) {
     let mut low = vec![f64::INFINITY; width];
     let mut high = vec![f64::NEG_INFINITY; width];

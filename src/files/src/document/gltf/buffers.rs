@@ -1,4 +1,4 @@
-//! Buffers: found, checked, decompressed and joined into one, so that the rest sees a single array of bytes.
+//! Buffers: found, checked, decompressed and joined into one, so that all other code sees a single array of bytes.
 use super::body::Body;
 use super::json::{
     array_mut, invalid, items, object_mut, remove, remove_extension, required, unsigned,
@@ -8,14 +8,14 @@ use crate::document::{DocumentError, Upload};
 use serde_json::{Value, json};
 use std::borrow::Cow;
 
-/// Ceiling on the zeros that stand for buffers without content, which glTF allows.
+/// Most zeros that stand for buffers without content, which glTF allows.
 const MAX_UNDEFINED: usize = 1 << 20;
 
-/// The bytes of a buffer; `None` where the document leaves them undefined.
+/// Bytes of a buffer; `None` if the document leaves them undefined.
 type Buffer<'a> = Option<Cow<'a, [u8]>>;
 
-/// What so many compressed bytes may decode to: many times what meshes do, and for small files as much as is done without much
-/// memory, since a stream of a kilobyte may honestly describe millions of points.
+/// Returns the limit on the decoded size of this number of compressed bytes: far above real ratios, with a fixed
+/// allowance for small streams, since a kilobyte may validly describe millions of points.
 pub(super) fn most_decoded(compressed: usize) -> usize {
     const FEW: usize = 256 << 20;
     const MANY: usize = 1 << 31;
@@ -24,13 +24,14 @@ pub(super) fn most_decoded(compressed: usize) -> usize {
 }
 
 /// Joins all buffers of the document into `buffers[0]`. The first keeps its place; views move with their bytes; views
-/// compressed with meshopt get their decoded bytes; fallback buffers that nothing else needs disappear.
+/// compressed with meshopt get their decoded bytes; fallback buffers that nothing else needs are dropped.
 pub(super) fn join(
     mut json: Value,
     bin: Option<&[u8]>,
     upload: &Upload,
 ) -> Result<Body, DocumentError> {
     let buffers = load(&json, bin, upload)?;
+    // Buffers that views other than compressed ones need.
     let views = items(&json, "bufferViews")?;
     let mut needed: Vec<bool> = items(&json, "buffers")?
         .iter()
@@ -81,7 +82,7 @@ pub(super) fn join(
     Ok(body)
 }
 
-/// A top-level array that may be missing, without making it.
+/// Returns a top-level array, empty if it is missing, without creating it.
 fn array_or_empty<'a>(json: &'a mut Value, key: &str) -> Result<&'a mut [Value], DocumentError> {
     if json.get(key).is_some() {
         array_mut(json, key).map(Vec::as_mut_slice)
@@ -128,7 +129,7 @@ fn load<'a>(
     Ok(buffers)
 }
 
-/// The bytes of `buffer` that `part`, a view or a compressed view, names.
+/// Returns the bytes of a buffer to which `part`, a view or a compressed view, refers.
 fn slice<'a>(part: &Value, buffers: &'a [Buffer]) -> Result<&'a [u8], DocumentError> {
     let offset = unsigned(part, "byteOffset")?.unwrap_or(0);
     let length = required(part, "byteLength")?;
@@ -158,7 +159,7 @@ fn relocate(
     Ok(())
 }
 
-/// Makes room for all compressed views, which together may not claim more than their bytes back.
+/// Reserves space for all compressed views; refuses views that together claim too much for their compressed bytes.
 fn reserve(body: &mut Body, json: &Value, buffers: &[Buffer]) -> Result<(), DocumentError> {
     let (mut claimed, mut aligned) = (0_usize, 0);
     for view in items(json, "bufferViews")? {

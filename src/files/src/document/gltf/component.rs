@@ -12,7 +12,7 @@ pub(super) enum Component {
 }
 
 impl Component {
-    /// The type that a `componentType` stands for.
+    /// Returns the type for a `componentType`.
     pub fn from_code(code: usize) -> Option<Self> {
         Some(match code {
             5120 => Self::I8,
@@ -25,7 +25,7 @@ impl Component {
         })
     }
 
-    /// The `componentType`.
+    /// Returns the `componentType`.
     pub fn code(self) -> usize {
         match self {
             Self::I8 => 5120,
@@ -37,7 +37,7 @@ impl Component {
         }
     }
 
-    /// Size in bytes.
+    /// Returns the size in bytes.
     pub fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -46,7 +46,7 @@ impl Component {
         }
     }
 
-    /// The smallest unsigned type whose restart value is no vertex index.
+    /// Returns the smallest unsigned type whose restart value is not a vertex index.
     pub fn for_indices(n_vertices: usize) -> Self {
         match n_vertices {
             ..=255 => Self::U8,
@@ -55,7 +55,7 @@ impl Component {
         }
     }
 
-    /// The number that the first bytes of `bytes` hold; 0 where they are too few.
+    /// Returns the number in the first bytes of `bytes`; 0 if they are too few.
     pub fn read(self, bytes: &[u8]) -> f64 {
         match (self, bytes) {
             (Self::I8, &[a, ..]) => f64::from(a.cast_signed()),
@@ -68,7 +68,7 @@ impl Component {
         }
     }
 
-    /// Appends `value`, which saturates where the type is narrower.
+    /// Appends `value`, saturated if the type is narrower.
     pub fn push(self, value: f64, bytes: &mut Vec<u8>) {
         match self {
             Self::I8 => bytes.extend_from_slice(&(value as i8).to_le_bytes()),
@@ -80,7 +80,7 @@ impl Component {
         }
     }
 
-    /// What 1 is stored as in a normalized accessor.
+    /// Returns the number that stands for 1 in a normalized accessor.
     pub fn one(self) -> f64 {
         match self {
             Self::I8 => f64::from(i8::MAX),

@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 /// Name of the extension.
 pub(super) const NAME: &str = "KHR_draco_mesh_compression";
 
-/// Decodes every compressed primitive. Where the file has uncompressed data beside the compressed, that is taken.
+/// Decodes every compressed primitive. If the file also has uncompressed data, that is used instead.
 pub(super) fn decompress(body: &mut Body) -> Result<(), DocumentError> {
     let mut budget = most_decoded(body.bin.len());
     for mesh in 0..items(&body.json, "meshes")?.len() {
@@ -34,7 +34,7 @@ pub(super) fn decompress(body: &mut Body) -> Result<(), DocumentError> {
     Ok(())
 }
 
-/// Attribute names and Draco ids of a compressed primitive.
+/// Returns attribute names and Draco ids of a compressed primitive.
 fn attribute_ids(compressed: &Value) -> Result<Vec<(&str, u32)>, DocumentError> {
     let Some(Value::Object(attributes)) = compressed.get("attributes") else {
         return Err(invalid(format!("{NAME} names no attributes")));
@@ -49,7 +49,7 @@ fn attribute_ids(compressed: &Value) -> Result<Vec<(&str, u32)>, DocumentError> 
         .collect()
 }
 
-/// The accessor of a compressed attribute.
+/// Returns the accessor of a compressed attribute.
 fn accessor_of(primitive: &Value, name: &str) -> Result<usize, DocumentError> {
     primitive
         .get("attributes")
@@ -57,7 +57,7 @@ fn accessor_of(primitive: &Value, name: &str) -> Result<usize, DocumentError> {
         .and_then(|attributes| required(attributes, name))
 }
 
-/// Whether an accessor of the primitive gets its data from the compressed stream only.
+/// Returns whether an accessor of the primitive gets its data only from the compressed stream.
 fn lacks_data(body: &Body, primitive: &Value, compressed: &Value) -> Result<bool, DocumentError> {
     let mut accessors = Vec::new();
     for (name, _) in attribute_ids(compressed)? {
@@ -120,7 +120,7 @@ fn too_large() -> DocumentError {
     DocumentError::LimitExceeded("the decoded Draco data is too large".to_owned())
 }
 
-/// Points and faces as they are in the stream: no deduplication, which would change the number of vertices.
+/// Decodes points and faces as in the stream: without deduplication, which would change the number of vertices.
 fn decode_stream(bytes: &[u8], budget: usize) -> Result<Mesh, DocumentError> {
     let limits = DecodeLimits::default()
         .with_max_points(budget as u64 / 12)
@@ -142,7 +142,7 @@ fn decode_stream(bytes: &[u8], budget: usize) -> Result<Mesh, DocumentError> {
     Ok(mesh)
 }
 
-/// The values of an attribute, one element per point.
+/// Returns the values of an attribute, one element per point.
 fn packed(
     attribute: &PointAttribute,
     n_points: usize,

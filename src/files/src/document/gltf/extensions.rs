@@ -1,10 +1,10 @@
-//! What the document demands of its reader.
+//! Requirements of a document on its reader.
 use super::json::{extension, invalid, items, object_mut};
 use super::{draco, meshopt};
 use crate::document::DocumentError;
 use serde_json::Value;
 
-/// Extensions of meshes, primitives, accessors and buffers that are understood, or that say nothing about the shape.
+/// Extensions of meshes, primitives, accessors and buffers that are understood, or that do not affect the shape.
 const KNOWN: [&str; 10] = [
     "KHR_mesh_quantization",
     draco::NAME,
@@ -18,9 +18,9 @@ const KNOWN: [&str; 10] = [
     "KHR_xmp_json_ld",
 ];
 
-/// Refuses versions other than 2.x, and required extensions that are unknown and attached where they can change what
-/// the geometry is: to buffers, buffer views, accessors, meshes or primitives. Others, on nodes, materials, lights and
-/// the like, are kept as they are.
+/// Refuses versions other than 2.x, and unknown required extensions that are attached where they can change the
+/// geometry: to buffers, buffer views, accessors, meshes or primitives. Others, on nodes, materials, lights and the
+/// like, are kept unchanged.
 pub(super) fn check(json: &Value) -> Result<(), DocumentError> {
     let number = |key| json.get("asset")?.get(key)?.as_str();
     let version = number("version").ok_or_else(|| invalid("`asset.version` is missing"))?;
@@ -63,8 +63,8 @@ fn shapes_geometry(json: &Value, name: &str) -> Result<bool, DocumentError> {
     Ok(false)
 }
 
-/// Takes each of `names` that no object of the document carries any more off the lists of extensions, and returns those
-/// that were on one.
+/// Removes from the lists of extensions each of `names` that no object of the document carries any more; returns those
+/// that were listed.
 pub(super) fn prune(json: &mut Value, names: &[&str]) -> Result<Vec<String>, DocumentError> {
     let mut dropped = Vec::new();
     for name in names {
@@ -88,7 +88,7 @@ pub(super) fn prune(json: &mut Value, names: &[&str]) -> Result<Vec<String>, Doc
     Ok(dropped)
 }
 
-/// Whether any object has the extension. The depth of the document is bounded by its parser.
+/// Returns whether any object has the extension. The parser bounds the depth of the document.
 fn carries(value: &Value, name: &str) -> bool {
     match value {
         Value::Array(items) => items.iter().any(|item| carries(item, name)),

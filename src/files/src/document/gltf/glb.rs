@@ -1,4 +1,4 @@
-//! The GLB container: a header, a JSON chunk, a binary chunk, chunks nobody knows.
+//! The GLB container: a header, a JSON chunk, a binary chunk, unknown chunks.
 use super::json::invalid;
 use crate::document::DocumentError;
 
@@ -10,16 +10,16 @@ const BIN: u32 = u32::from_le_bytes(*b"BIN\0");
 pub(super) struct Container<'a> {
     pub json: &'a [u8],
     pub bin: Option<&'a [u8]>,
-    /// Chunks of other types, which the format tells us to ignore; they are written back.
+    /// Chunks of other types, which the format tells readers to ignore; they are written back.
     pub others: Vec<(u32, &'a [u8])>,
 }
 
-/// Whether the bytes claim to be GLB.
+/// Returns whether the bytes claim to be GLB.
 pub(super) fn is_glb(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
 }
 
-/// Takes a GLB file apart. Bytes beyond the length that its header states are ignored.
+/// Splits a GLB file. Bytes beyond the length in its header are ignored.
 pub(super) fn split(bytes: &[u8]) -> Result<Container<'_>, DocumentError> {
     let truncated = || invalid("the GLB file is truncated");
     let version = word(bytes, 4).ok_or_else(truncated)?;
@@ -49,7 +49,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<Container<'_>, DocumentError> {
     })
 }
 
-/// Puts a GLB file together. The binary chunk is left out where it is empty.
+/// Joins the parts of a GLB file. An empty binary chunk is left out.
 pub(super) fn join(
     json: &[u8],
     bin: &[u8],

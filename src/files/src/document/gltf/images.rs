@@ -1,4 +1,4 @@
-//! Images that lie beside the document.
+//! Images outside the document.
 use super::body::{Body, Target};
 use super::json::{item, item_mut, items, remove, required};
 use super::uri;
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// For each image the first one with the same bytes; itself if it cannot be read.
+/// Returns for each image the first one with the same bytes; itself if it cannot be read.
 pub(super) fn first_of_equals(
     body: &Body,
     resources: &BTreeMap<String, Vec<u8>>,
@@ -22,7 +22,7 @@ pub(super) fn first_of_equals(
     Ok((0..n_images).map(first).collect())
 }
 
-/// The resources that images refer to.
+/// Returns the resources to which images refer.
 pub(super) fn supplied(
     json: &Value,
     resources: &BTreeMap<String, Vec<u8>>,
@@ -34,8 +34,8 @@ pub(super) fn supplied(
         .collect())
 }
 
-/// Takes every image that was supplied into the binary buffer, so that one file holds all. Returns the URIs of those
-/// that stay outside.
+/// Embeds every supplied image into the binary buffer, so that one file holds all. Returns the URIs of those that stay
+/// outside.
 pub(super) fn embed(
     body: &mut Body,
     resources: &BTreeMap<String, Vec<u8>>,
@@ -68,7 +68,7 @@ pub(super) fn embed(
 /// Files by their names, and URIs of those that were not supplied.
 pub(super) type Beside = (Vec<(String, Vec<u8>)>, Vec<String>);
 
-/// The bytes of an image's file, wherever it lies.
+/// Returns the bytes of an image's file, wherever it is stored.
 pub(super) fn bytes<'a>(
     body: &'a Body,
     index: usize,
@@ -81,7 +81,7 @@ pub(super) fn bytes<'a>(
     }
 }
 
-/// The supplied images, to be written beside the document.
+/// Returns the supplied images, to be written as separate files.
 pub(super) fn beside(
     json: &Value,
     resources: &BTreeMap<String, Vec<u8>>,
@@ -105,13 +105,13 @@ fn external_uri(image: &Value) -> Option<String> {
     (!uri::is_data(uri)).then(|| uri.to_owned())
 }
 
-/// The extension of a file with this content.
+/// Returns the extension of a file with this content.
 pub(super) fn file_extension(bytes: &[u8]) -> &'static str {
     let format = format_of_content(bytes, bytes.len() as u64, Content::Texture);
     format.map_or("bin", Format::extension)
 }
 
-/// The media type by content, else by name; `None` where it is not known, and an embedded image must have one.
+/// Returns the media type by content, else by name; `None` if it is unknown, although an embedded image must have one.
 fn mime_type(name: &str, bytes: &[u8]) -> Option<&'static str> {
     let format = detect(name, bytes, Content::Texture)?;
     format.media_types().first().copied()

@@ -2,12 +2,12 @@
 use crate::document::DocumentError;
 use serde_json::{Map, Value};
 
-/// An error that says what rule of glTF is broken.
+/// Creates an error that names the broken rule of glTF.
 pub(super) fn invalid(message: impl Into<String>) -> DocumentError {
     DocumentError::InvalidGltf(message.into())
 }
 
-/// The elements of an array member; a missing one is empty.
+/// Returns the elements of an array member; an empty slice if it is missing.
 pub(super) fn items<'a>(parent: &'a Value, key: &str) -> Result<&'a [Value], DocumentError> {
     match parent.get(key) {
         None => Ok(&[]),
@@ -16,7 +16,7 @@ pub(super) fn items<'a>(parent: &'a Value, key: &str) -> Result<&'a [Value], Doc
     }
 }
 
-/// Object `index` of the top-level array `collection`.
+/// Returns object `index` of the top-level array `collection`.
 pub(super) fn item<'a>(
     root: &'a Value,
     collection: &str,
@@ -28,7 +28,7 @@ pub(super) fn item<'a>(
         .ok_or_else(|| invalid(format!("{collection}[{index}] does not exist")))
 }
 
-/// A member that is an index, a count or a code; `None` where it is missing.
+/// Returns a member that is an index, a count or a code; `None` if it is missing.
 pub(super) fn unsigned(parent: &Value, key: &str) -> Result<Option<usize>, DocumentError> {
     parent
         .get(key)
@@ -38,12 +38,12 @@ pub(super) fn unsigned(parent: &Value, key: &str) -> Result<Option<usize>, Docum
         .transpose()
 }
 
-/// The same, where glTF demands it.
+/// Like [`unsigned`], for a member that glTF requires.
 pub(super) fn required(parent: &Value, key: &str) -> Result<usize, DocumentError> {
     unsigned(parent, key)?.ok_or_else(|| invalid(format!("`{key}` is missing")))
 }
 
-/// A whole number, also where it is written as `1.0`.
+/// Returns a whole number, also if it is written as `1.0`.
 pub(super) fn as_unsigned(value: &Value) -> Option<usize> {
     let whole = |number: &f64| (0.0..9.0e15).contains(number) && number.fract() == 0.0;
     value
@@ -52,12 +52,12 @@ pub(super) fn as_unsigned(value: &Value) -> Option<usize> {
         .and_then(|number| usize::try_from(number).ok())
 }
 
-/// The extension `name` of an object.
+/// Returns the extension `name` of an object.
 pub(super) fn extension<'a>(parent: &'a Value, name: &str) -> Option<&'a Value> {
     parent.get("extensions")?.get(name)
 }
 
-/// Takes the extension `name` off an object, and the `extensions` member with the last of them.
+/// Removes the extension `name` of an object, and the `extensions` member with the last of them.
 pub(super) fn remove_extension(parent: &mut Value, name: &str) -> Option<Value> {
     let extensions = parent.get_mut("extensions")?.as_object_mut()?;
     let removed = extensions.shift_remove(name)?;
@@ -72,7 +72,7 @@ pub(super) fn remove(parent: &mut Value, key: &str) -> Option<Value> {
     parent.as_object_mut()?.shift_remove(key)
 }
 
-/// The array member `key`, made where it is missing.
+/// Returns the array member `key`, creating it if it is missing.
 pub(super) fn array_mut<'a>(
     parent: &'a mut Value,
     key: &str,
@@ -84,7 +84,7 @@ pub(super) fn array_mut<'a>(
         .ok_or_else(|| invalid(format!("`{key}` is not an array")))
 }
 
-/// Element `index` of the top-level array `collection`, to change it.
+/// Returns element `index` of the top-level array `collection` for modification.
 pub(super) fn item_mut<'a>(
     root: &'a mut Value,
     collection: &str,
@@ -96,14 +96,14 @@ pub(super) fn item_mut<'a>(
         .ok_or_else(|| invalid(format!("{collection}[{index}] does not exist")))
 }
 
-/// The members of an object, to change them.
+/// Returns the members of an object for modification.
 pub(super) fn object_mut(value: &mut Value) -> Result<&mut Map<String, Value>, DocumentError> {
     value
         .as_object_mut()
         .ok_or_else(|| invalid("a value that must be an object has another type"))
 }
 
-/// Primitive `primitive` of mesh `mesh`, to change it.
+/// Returns primitive `primitive` of mesh `mesh` for modification.
 pub(super) fn primitive_mut(
     root: &mut Value,
     mesh: usize,

@@ -1,8 +1,8 @@
-//! The places of a document that name accessors, buffer views, images, samplers and textures.
+//! References of a document to accessors, buffer views, images, samplers and textures.
 use super::json::as_unsigned;
 use serde_json::Value;
 
-/// What can lose its last reference. Objects of one collection name only objects of later ones.
+/// Collections of objects that can lose their last reference. Objects refer only to objects of later collections.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Collection {
     Textures,
@@ -24,7 +24,7 @@ impl Collection {
         Self::BufferViews,
     ];
 
-    /// The member of the document.
+    /// Returns the member of the document that holds the collection.
     pub fn key(self) -> &'static str {
         match self {
             Self::Textures => "textures",
@@ -42,8 +42,8 @@ impl Collection {
     }
 }
 
-/// Calls `place` with every number that names an object of a collection: who names it, what it names, and the number.
-/// References of extensions that are not understood are left out; [`Unknown`](super::unknown::Unknown) has them.
+/// Calls `place` for every reference to an object of a collection, with its owner, the object, and the number.
+/// References in unknown extensions are left out; [`Unknown`](super::unknown::Unknown) has them.
 pub(super) fn visit(json: &mut Value, place: &mut dyn FnMut(Option<Object>, Object, &mut Value)) {
     let Some(root) = json.as_object_mut() else {
         return;
@@ -92,7 +92,7 @@ impl Visitor<'_> {
         children(values).for_each(|value| self.number(collection, Some(value)));
     }
 
-    /// What an object of a collection names.
+    /// Visits the references of an object of a collection.
     fn collected(&mut self, collection: Collection, object: &mut Value) {
         match collection {
             Collection::Textures => {
@@ -111,7 +111,7 @@ impl Visitor<'_> {
         }
     }
 
-    /// What another top-level member names by the rules of glTF itself.
+    /// Visits the references of another top-level member by the rules of glTF itself.
     fn core(&mut self, key: &str, value: &mut Value) {
         for object in children(Some(value)) {
             match key {
@@ -138,7 +138,7 @@ impl Visitor<'_> {
         }
     }
 
-    /// Texture infos and extensions at any depth, which the parser of the document bounds.
+    /// Visits texture infos and extensions at any depth, which the parser of the document bounds.
     fn infos_and_extensions(&mut self, value: &mut Value) {
         match value {
             Value::Array(items) => items.iter_mut().for_each(|v| self.infos_and_extensions(v)),
@@ -151,7 +151,7 @@ impl Visitor<'_> {
         }
     }
 
-    /// A member of any object.
+    /// Visits a member of any object.
     fn member_of(&mut self, key: &str, child: &mut Value) {
         match (key, &mut *child) {
             ("extras", _) => return,
@@ -168,7 +168,7 @@ impl Visitor<'_> {
         self.infos_and_extensions(child);
     }
 
-    /// What an extension names beside textures in texture infos.
+    /// Visits the references of an extension other than texture infos.
     fn extension(&mut self, name: &str, extension: &mut Value) {
         match name {
             "KHR_draco_mesh_compression" => {
@@ -220,7 +220,7 @@ impl Visitor<'_> {
     }
 }
 
-/// The elements of an array or the values of an object.
+/// Iterates over the elements of an array or the values of an object.
 fn children(value: Option<&mut Value>) -> Box<dyn Iterator<Item = &mut Value> + '_> {
     let Some(value) = value else {
         return Box::new(std::iter::empty());
@@ -232,7 +232,7 @@ fn children(value: Option<&mut Value>) -> Box<dyn Iterator<Item = &mut Value> + 
     }
 }
 
-/// Whether a member of this name is a texture info.
+/// Returns whether a member of this name is a texture info.
 fn names_texture(key: &str) -> bool {
     key.to_ascii_lowercase().ends_with("texture")
 }

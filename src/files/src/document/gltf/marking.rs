@@ -4,15 +4,15 @@ use crate::document::mark::Mark;
 use crate::document::{DocumentError, Warning};
 use serde_json::{Map, Value};
 
-/// The member of `asset.extras`.
+/// Member of `asset.extras`.
 const NAME: &str = "unwrapd";
 
-/// What the document has in the place of a mark.
+/// Returns the value in the place of a mark.
 pub(super) fn mark(json: &Value) -> Option<&Value> {
     json.get("asset")?.get("extras")?.get(NAME)
 }
 
-/// Lets the document have this mark and no other. Extras that are no object have no place for one.
+/// Sets the mark of the document. Returns a warning if the extras are not an object and so have no place for one.
 pub(super) fn set(json: &mut Value, mark: &Mark) -> Result<Option<Warning>, DocumentError> {
     let extras = object_mut(&mut json["asset"])?.entry("extras");
     let extras = extras.or_insert_with(|| Value::Object(Map::new()));
@@ -26,7 +26,7 @@ pub(super) fn set(json: &mut Value, mark: &Mark) -> Result<Option<Warning>, Docu
     )))
 }
 
-/// Takes the mark off, and extras that had nothing else.
+/// Removes the mark, and extras that had nothing else.
 pub(super) fn clear(json: &mut Value) {
     let Some(extras) = json.pointer_mut("/asset/extras") else {
         return;

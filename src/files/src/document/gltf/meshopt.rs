@@ -1,8 +1,8 @@
 //! `EXT_meshopt_compression` and `KHR_meshopt_compression`: buffer views in the codecs of meshoptimizer.
 //!
-//! The decoders are C++ behind a foreign function interface, since the stride is known at run time only. They are
-//! documented as safe for untrusted input as long as the output has the promised size, the strides are those of the
-//! format and the pointers are valid; this file checks exactly that before each call.
+//! The decoders are C++ behind a foreign function interface, since the stride is known only at run time. They are
+//! documented as safe for untrusted input if the output has the promised size, the strides are those of the format and
+//! the pointers are valid; this file checks exactly that before each call.
 use super::json::{extension, invalid, required};
 use crate::document::DocumentError;
 use ::meshopt::ffi;
@@ -12,17 +12,17 @@ use std::ffi::c_void;
 /// Both names of the extension.
 pub(super) const NAMES: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
-/// The densest the codecs get: 256 vertices of four unchanging bytes each in one byte.
+/// Largest compression ratio of the codecs: 256 vertices of four constant bytes each in one byte.
 const MAX_RATIO: usize = 1024;
 
-/// The extension of a buffer view and its name.
+/// Returns the extension of a buffer view and its name.
 pub(super) fn of_view(view: &Value) -> Option<(&'static str, &Value)> {
     NAMES
         .into_iter()
         .find_map(|name| Some((name, extension(view, name)?)))
 }
 
-/// Whether a buffer only serves readers that do not know the extension.
+/// Returns whether a buffer serves only readers that do not know the extension.
 pub(super) fn is_fallback(buffer: &Value) -> bool {
     NAMES.into_iter().any(|name| {
         extension(buffer, name)
@@ -47,7 +47,7 @@ enum Filter {
     Color,
 }
 
-/// How many bytes a compressed view says that it stands for.
+/// Returns the number of bytes that a compressed view claims to represent.
 pub(super) fn claimed_size(extension: &Value) -> Result<usize, DocumentError> {
     let (count, stride) = (
         required(extension, "count")?,
@@ -56,9 +56,10 @@ pub(super) fn claimed_size(extension: &Value) -> Result<usize, DocumentError> {
     Ok(count.saturating_mul(stride))
 }
 
-/// The bytes that a compressed view stands for.
+/// Returns the decoded bytes of a compressed view.
 pub(super) fn decode(extension: &Value, data: &[u8]) -> Result<Vec<u8>, DocumentError> {
     let text = |key| extension.get(key).and_then(Value::as_str);
+    // Check what the decoders require: mode, filter, count and stride.
     let mode = match text("mode") {
         Some("ATTRIBUTES") => Mode::Attributes,
         Some("TRIANGLES") => Mode::Triangles,
@@ -111,7 +112,7 @@ pub(super) fn decode(extension: &Value, data: &[u8]) -> Result<Vec<u8>, Document
     Ok(bytes)
 }
 
-/// Decodes into `words`, which must hold `count` elements of `stride` bytes; false where the data is damaged.
+/// Decodes into `words`, which must hold `count` elements of `stride` bytes; returns `false` if the data is damaged.
 #[allow(unsafe_code)]
 fn decode_into(words: &mut [u64], mode: Mode, count: usize, stride: usize, data: &[u8]) -> bool {
     assert!(count * stride <= size_of_val(words));
@@ -136,7 +137,7 @@ fn decode_into(words: &mut [u64], mode: Mode, count: usize, stride: usize, data:
     status == 0
 }
 
-/// Undoes the filter in place.
+/// Reverses the filter in place.
 #[allow(unsafe_code)]
 fn apply(words: &mut [u64], filter: Filter, count: usize, stride: usize) {
     assert!(count * stride <= size_of_val(words));

@@ -1,10 +1,10 @@
 //! glTF 2.0, `.glb` and `.gltf`.
 //!
-//! The document of record is the JSON value itself, its order and numbers kept: what is not touched cannot be lost.
-//! Reading brings it into one shape: all buffers joined into one array of bytes, Draco and meshopt data decoded into
-//! plain accessors. Accessors are read by a reader that checks each against the bytes that are really there. Writing
-//! appends: new views and accessors behind the old ones, and the primitives point to them; accessors that something
-//! else may share are never changed. What nothing names any more then gives its place to what is new or goes.
+//! The document of record is the JSON value itself, with its order and numbers: untouched parts cannot be lost. Reading
+//! normalizes it: all buffers are joined into one array of bytes, Draco and meshopt data are decoded into plain
+//! accessors. Accessors are read by a reader that checks each against the bytes that really exist. Writing appends: new
+//! views and accessors follow the old ones, and the primitives refer to them; accessors that may be shared are never
+//! changed. Objects that lose their last reference are then replaced by new ones or removed.
 mod accessor;
 mod as_obj;
 mod bake_plan;
@@ -73,24 +73,25 @@ use std::collections::BTreeMap;
 #[derive(Clone)]
 pub struct GltfDocument {
     body: Body,
-    /// What it was when it was read.
+    /// State of the document when it was read.
     origin: Origin,
     /// GLB chunks that are neither JSON nor the binary buffer.
     chunks: Vec<(u32, Vec<u8>)>,
-    /// The files of the upload that images refer to.
+    /// Files of the upload to which images refer.
     resources: BTreeMap<String, Vec<u8>>,
-    /// Compression extensions that reading undid.
+    /// Compression extensions that were decoded on reading.
     decompressed: Vec<String>,
     primitives: Vec<Primitive>,
-    /// For primitives that use a part of shared accessors, the elements that are their vertices, ascending.
+    /// For primitives that use a part of shared accessors, the elements that are their vertices, in increasing order.
     used: Vec<Option<Vec<u32>>>,
-    /// What was noticed on the way here.
+    /// Warnings collected so far.
     warnings: Vec<Warning>,
 }
 
 impl GltfDocument {
-    /// Reads a `.glb` or `.gltf` file; the content tells which.
+    /// Reads a `.glb` or `.gltf` file; the content determines which.
     pub fn read(upload: &Upload) -> Result<Self, DocumentError> {
+        // The container and the JSON.
         let container = if glb::is_glb(&upload.bytes) {
             glb::split(&upload.bytes)?
         } else {
@@ -105,11 +106,13 @@ impl GltfDocument {
             return Err(invalid("the JSON is not an object"));
         }
         extensions::check(&json)?;
+        // Buffers in one piece, without compression.
         let origin = Origin::of(&mut json);
         let mut body = buffers::join(json, container.bin, upload)?;
         draco::decompress(&mut body)?;
         let compression = [draco::NAME, meshopt::NAMES[0], meshopt::NAMES[1]];
         let decompressed = extensions::prune(&mut body.json, &compression)?;
+        // Triangles.
         let Collected {
             primitives,
             used,
@@ -134,36 +137,37 @@ impl GltfDocument {
         })
     }
 
-    /// The document with more to be said of it.
+    /// Adds warnings to the document.
     #[must_use]
     pub(in crate::document) fn with_warnings(mut self, warnings: Vec<Warning>) -> Self {
         self.warnings.extend(warnings);
         self
     }
 
-    /// What was noticed on the way here.
+    /// Returns the warnings collected so far.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 
-    /// The triangle primitives in file order.
+    /// Returns the triangle primitives in file order.
     pub fn primitives(&self) -> &[Primitive] {
         &self.primitives
     }
 
-    /// What the document has in the place of a mark.
+    /// Returns the value in the place of a mark.
     pub(in crate::document) fn mark(&self) -> Option<Value> {
         marking::mark(&self.body.json).cloned()
     }
 
-    /// The index of a material with this name, or else with this number.
+    /// Returns the index of a material with this name, or else with this number.
     pub fn material(&self, name: &str) -> Option<usize> {
         let materials = self.body.json["materials"].as_array()?;
         let named = materials.iter().position(|m| m["name"] == name);
         named.or_else(|| name.parse().ok().filter(|&index| index < materials.len()))
     }
 
-    /// The UVs of `TEXCOORD_set` per face corner as stored, v down; `None` where the primitive has no such attribute.
+    /// Returns the UVs of `TEXCOORD_set` per face corner as stored, v down; `None` if the primitive has no such
+    /// attribute.
     pub fn corner_uvs(
         &self,
         primitive: usize,
@@ -181,7 +185,7 @@ impl GltfDocument {
             .map(Some)
     }
 
-    /// The normals per face corner; `None` where the primitive has none.
+    /// Returns the normals per face corner; `None` if the primitive has none.
     pub fn corner_normals(
         &self,
         primitive: usize,
@@ -196,7 +200,7 @@ impl GltfDocument {
         }
     }
 
-    /// The tangents per face corner; `None` where the primitive has none, or no normals that they would belong to.
+    /// Returns the tangents per face corner; `None` if the primitive has none, or no normals to go with them.
     pub fn corner_tangents(
         &self,
         primitive: usize,
@@ -213,12 +217,12 @@ impl GltfDocument {
         Ok(Some(single.collect()))
     }
 
-    /// The bytes of an image's file.
+    /// Returns the bytes of an image's file.
     pub fn image(&self, index: usize) -> Result<Cow<'_, [u8]>, DocumentError> {
         images::bytes(&self.body, index, &self.resources)
     }
 
-    /// Which textures to make for new UVs of `groups`; `unreadable` says of images why they cannot be read.
+    /// Plans the textures to make for new UVs of `groups`; `unreadable` has the reasons why images cannot be read.
     pub fn bake_plan(
         &self,
         groups: &[Group],
@@ -227,7 +231,7 @@ impl GltfDocument {
         bake_plan::plan(self, groups, unreadable)
     }
 
-    /// The numbers of an accessor of `N` components at each face corner.
+    /// Returns the numbers of an accessor of `N` components at each face corner.
     fn corner_values<const N: usize>(
         &self,
         primitive: usize,
@@ -249,7 +253,7 @@ impl GltfDocument {
         Ok(faces.map(|face| face.map(at)).collect())
     }
 
-    /// The JSON of a primitive.
+    /// Returns the JSON of a primitive.
     fn object(&self, primitive: &Primitive) -> Result<&Value, DocumentError> {
         items(
             item(&self.body.json, "meshes", primitive.mesh)?,
@@ -266,7 +270,7 @@ impl GltfDocument {
         Ok(())
     }
 
-    /// Whether a primitive has colors at its vertices.
+    /// Returns whether a primitive has vertex colors.
     pub fn has_vertex_colors(&self) -> bool {
         self.primitives.iter().any(|primitive| {
             let object = self.object(primitive);
@@ -274,7 +278,7 @@ impl GltfDocument {
         })
     }
 
-    /// The document with its triangles cut into pieces.
+    /// Cuts the triangles of the document into pieces.
     pub fn subdivided(mut self, cuts: &[Subdivision]) -> Result<Self, DocumentError> {
         let mut body = self.body.clone();
         for (index, cut) in cuts.iter().enumerate() {
@@ -285,14 +289,14 @@ impl GltfDocument {
         Ok(self)
     }
 
-    /// The document with a mesh for every node that shows one.
+    /// Gives every node that shows a mesh a mesh of its own.
     pub fn with_separate_meshes(mut self) -> Result<Self, DocumentError> {
         scene::separate_meshes(&mut self.body.json)?;
         self.collect()?;
         Ok(self)
     }
 
-    /// The primitives where the first node that shows them has them; mirrored ones are mirrored back.
+    /// Returns the primitives in the placement of the first node that shows them; mirrored ones are mirrored back.
     pub fn primitives_in_scene(&self) -> Result<Vec<Primitive>, DocumentError> {
         let placements = scene::placements(&self.body.json)?;
         let placed = |primitive: &Primitive| {
@@ -306,14 +310,15 @@ impl GltfDocument {
         Ok(self.primitives.iter().map(placed).collect())
     }
 
-    /// The document with its triangles where a map carries them.
+    /// Moves the triangles of the document by a map.
     pub fn moved(mut self, map: &dyn SpaceMap) -> Result<Self, DocumentError> {
         moved::move_surfaces(&mut self.body, &self.primitives, map)?;
         self.collect()?;
         Ok(self)
     }
 
-    /// The document with `uvs` as a `TEXCOORD_n`, and with textures made for them; `mark` is the one that it has, if that fits.
+    /// Writes the document with `uvs` as a `TEXCOORD_n`, and with textures made for them; `mark` is its present mark,
+    /// if that fits.
     pub(in crate::document) fn write(
         &self,
         uvs: &NewUvs,

@@ -1,9 +1,9 @@
-//! What primitives are made of.
+//! Modes of primitives.
 use super::json::{invalid, unsigned};
 use crate::document::DocumentError;
 use serde_json::Value;
 
-/// How vertices make faces.
+/// Arrangement of vertices into faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Mode {
     Triangles,
@@ -11,7 +11,7 @@ pub(super) enum Mode {
     Fan,
 }
 
-/// The mode of a primitive; `None` for points and lines.
+/// Returns the mode of a primitive; `None` for points and lines.
 pub(super) fn mode(primitive: &Value) -> Result<Option<Mode>, DocumentError> {
     Ok(match unsigned(primitive, "mode")?.unwrap_or(4) {
         4 => Some(Mode::Triangles),
@@ -22,7 +22,7 @@ pub(super) fn mode(primitive: &Value) -> Result<Option<Mode>, DocumentError> {
     })
 }
 
-/// The POSITION of a primitive with faces.
+/// Returns the POSITION accessor of a primitive with faces.
 pub(super) fn position_accessor(primitive: &Value) -> Result<Option<usize>, DocumentError> {
     if mode(primitive)?.is_none() {
         return Ok(None);

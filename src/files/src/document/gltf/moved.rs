@@ -1,4 +1,4 @@
-//! Surfaces carried along by a map of space.
+//! Surfaces moved by a map of space.
 use super::accessor::Accessor;
 use super::body::Body;
 use super::bounds;
@@ -9,14 +9,14 @@ use crate::document::{DocumentError, Primitive, SpaceMap};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 
-/// Ceiling on the bytes of the new accessors: primitives may share large accessors and use little of them.
+/// Most bytes of the new accessors: primitives may share large accessors and use little of them.
 const MAX_MOVED: usize = 1 << 31;
 
-/// What a map moves.
+/// Attributes that a map changes.
 const ATTRIBUTES: [&str; 3] = ["POSITION", "NORMAL", "TANGENT"];
 
-/// Gives the primitives positions, normals and tangents in new accessors of f32; what they shared they share again. Morph
-/// targets are differences of positions and stay as they are.
+/// Gives the primitives moved positions, normals and tangents in new accessors of f32; shared accessors stay shared.
+/// Morph targets are differences of positions and stay unchanged.
 pub(super) fn move_surfaces(
     body: &mut Body,
     primitives: &[Primitive],
@@ -39,9 +39,9 @@ struct Surfaces<'a> {
     body: &'a mut Body,
     positions: Positions,
     map: &'a dyn SpaceMap,
-    /// How many bytes may still be written.
+    /// Number of bytes that may still be written.
     budget: usize,
-    /// The new accessor for one of positions, an attribute, and one of its values.
+    /// New accessor for each combination of positions, attribute and accessor of its values.
     done: HashMap<(usize, &'static str, usize), usize>,
 }
 
@@ -70,7 +70,7 @@ impl Surfaces<'_> {
         Ok(())
     }
 
-    /// A new accessor with the values of accessor `old` after the map, and else what the old one says of itself.
+    /// Creates an accessor with the moved values of accessor `old` and its other properties.
     fn moved(
         &mut self,
         positions: usize,
@@ -104,7 +104,7 @@ impl Surfaces<'_> {
         self.body.push_accessor(object)
     }
 
-    /// Tangents keep their fourth number, the handedness.
+    /// Moves tangents; they keep their fourth number, the handedness.
     fn tangents(&self, places: &[[f32; 3]], old: usize) -> Result<Vec<f32>, DocumentError> {
         let tangents: Vec<[f32; 4]> = self.vectors("TANGENT", old, "VEC4")?;
         let directions: Vec<[f32; 3]> = tangents.iter().map(|&[x, y, z, _]| [x, y, z]).collect();

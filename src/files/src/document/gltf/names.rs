@@ -1,4 +1,4 @@
-//! What a glTF calls its meshes and materials.
+//! Names of meshes and materials of a glTF.
 
 use std::collections::BTreeSet;
 
@@ -6,17 +6,17 @@ use super::GltfDocument;
 use crate::document::group::Names;
 use crate::document::warning::listed;
 
-/// Characters of a name that are shown at most.
+/// Most characters of a name that are shown.
 const SHOWN: usize = 80;
 
-/// Some of the meshes, and how many more there are.
+/// Lists some of the meshes, and the number of further ones.
 pub(super) fn of_meshes(document: &GltfDocument, meshes: &BTreeSet<usize>) -> String {
     let named = |&mesh: &usize| quoted(Names::mesh(document, mesh), "mesh", mesh);
     let names: Vec<String> = meshes.iter().map(named).collect();
     listed(names.iter().map(String::as_str))
 }
 
-/// The name of a material, or its number.
+/// Returns the name of a material, or its number.
 pub(super) fn of_material(document: &GltfDocument, material: usize) -> String {
     quoted(Names::material(document, material), "material", material)
 }
@@ -36,7 +36,7 @@ impl Names for GltfDocument {
 }
 
 impl GltfDocument {
-    /// A name as it can be shown on a line; `None` where there is nothing to show.
+    /// Returns a name in a form that fits on a line; `None` if there is nothing to show.
     fn name_of(&self, kind: &str, index: usize) -> Option<String> {
         let name = self.body.json[kind][index]["name"].as_str()?;
         let name: String = name

@@ -1,4 +1,4 @@
-//! What of a document an OBJ file has no place for.
+//! Contents of a document that an OBJ file cannot hold.
 use super::GltfDocument;
 use super::json::{extension, items, unsigned};
 use super::scene::is_in_place;
@@ -6,7 +6,7 @@ use crate::document::{DocumentError, Warning};
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 
-/// A warning per kind, with how many of it there are.
+/// Returns a warning per kind of lost content, with its count.
 pub(super) fn losses(document: &GltfDocument) -> Result<Vec<Warning>, DocumentError> {
     let json = &document.body.json;
     let mut warnings = Vec::new();
@@ -16,6 +16,7 @@ pub(super) fn losses(document: &GltfDocument) -> Result<Vec<Warning>, DocumentEr
             warnings.push(Warning::new(code, message));
         }
     };
+    // Top-level objects.
     lose(items(json, "skins")?.len(), "skins_dropped", "skins");
     lose(
         items(json, "animations")?.len(),
@@ -29,6 +30,7 @@ pub(super) fn losses(document: &GltfDocument) -> Result<Vec<Warning>, DocumentEr
     let variants = extension(json, "KHR_materials_variants");
     let variants = variants.map_or(Ok(0), |all| items(all, "variants").map(<[_]>::len))?;
     lose(variants, "variants_dropped", "material variants");
+    // Contents of primitives.
     let counts = Counts::of(document)?;
     lose(
         counts.morphed,
@@ -50,6 +52,7 @@ pub(super) fn losses(document: &GltfDocument) -> Result<Vec<Warning>, DocumentEr
         "elements_dropped",
         "primitives without triangles",
     );
+    // Placements.
     let moved = n_moved(json)?;
     if moved > 0 {
         let message = format!(
@@ -94,7 +97,7 @@ impl Counts {
     }
 }
 
-/// Meshes that the scene shows elsewhere than where they are, or more than once.
+/// Counts the meshes that the scene shows elsewhere than in their own placement, or more than once.
 fn n_moved(json: &Value) -> Result<usize, DocumentError> {
     let in_place = is_in_place(json)?;
     let mut moved: BTreeSet<usize> = (0..in_place.len())

@@ -4,12 +4,13 @@ use crate::document::DocumentError;
 use serde_json::Value;
 use std::collections::HashMap;
 
-/// Names that are given away, whatever their case, as files may have to differ in more; each with how often it was wanted.
+/// Names in use, regardless of case, as file names may have to differ in more than that; each with the number of
+/// requests for it.
 #[derive(Default)]
 pub(super) struct Taken(HashMap<String, u32>);
 
 impl Taken {
-    /// The name without what would end it or mean something else, and with a number where another has it.
+    /// Returns the name without characters that would end it or have another meaning, and with a number if it is taken.
     pub fn name(&mut self, wanted: &str) -> String {
         let plain = |c: char| {
             if c.is_control() || "#\\/:\"".contains(c) {
@@ -31,7 +32,7 @@ impl Taken {
     }
 }
 
-/// The names of materials, each its own.
+/// Returns unique names of materials.
 pub(super) fn material_names(json: &Value) -> Result<Vec<String>, DocumentError> {
     let mut taken = Taken::default();
     let materials = items(json, "materials")?.iter().enumerate();
@@ -42,7 +43,7 @@ pub(super) fn material_names(json: &Value) -> Result<Vec<String>, DocumentError>
     Ok(names.collect())
 }
 
-/// The names of meshes, each its own: that of the mesh, or of the first node that shows it.
+/// Returns unique names of meshes: that of the mesh, or of the first node that shows it.
 pub(super) fn object_names(json: &Value) -> Result<Vec<String>, DocumentError> {
     let meshes = items(json, "meshes")?;
     let mut names: Vec<Option<&str>> = meshes.iter().map(own_name).collect();

@@ -1,4 +1,4 @@
-//! Pictures of textures as files beside an OBJ file.
+//! Pictures of textures as files besides an OBJ file.
 use super::body::Body;
 use super::json::{extension, item, unsigned};
 use super::obj_names::Taken;
@@ -9,13 +9,13 @@ use crate::document::{Warning, warning};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The pictures that materials name.
+/// Pictures to which materials refer.
 pub(super) struct ObjPictures<'a> {
     body: &'a Body,
     resources: &'a BTreeMap<String, Vec<u8>>,
     stem: &'a str,
     taken: Taken,
-    /// By image the name of its file; `None` where there is none.
+    /// For each image the name of its file; `None` if there is no file.
     names: BTreeMap<usize, Option<String>>,
     files: BTreeMap<String, Vec<u8>>,
     missing: BTreeSet<String>,
@@ -24,7 +24,7 @@ pub(super) struct ObjPictures<'a> {
 }
 
 impl<'a> ObjPictures<'a> {
-    /// None yet, of a document with these files beside it.
+    /// Starts without pictures, for a document with these resources.
     pub fn new(body: &'a Body, resources: &'a BTreeMap<String, Vec<u8>>, stem: &'a str) -> Self {
         Self {
             body,
@@ -39,7 +39,7 @@ impl<'a> ObjPictures<'a> {
         }
     }
 
-    /// The map for a texture info.
+    /// Returns the map for a texture info.
     pub fn map(&mut self, info: &Value) -> Option<Map> {
         let json = &self.body.json;
         let texture = unsigned(info, "index").ok().flatten();
@@ -65,7 +65,7 @@ impl<'a> ObjPictures<'a> {
         Some(map)
     }
 
-    /// The name of an image's file.
+    /// Returns the name of an image's file.
     fn name(&mut self, image: usize) -> Option<String> {
         if let Some(name) = self.names.get(&image) {
             return name.clone();
@@ -117,7 +117,7 @@ impl<'a> ObjPictures<'a> {
         Some(name)
     }
 
-    /// What could not be carried.
+    /// Returns warnings about content that could not be transferred.
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = Vec::new();
         if !self.missing.is_empty() {
@@ -138,7 +138,7 @@ impl<'a> ObjPictures<'a> {
         warnings
     }
 
-    /// The files by name.
+    /// Returns the files by name.
     pub fn into_files(self) -> impl Iterator<Item = (String, Vec<u8>)> {
         self.files.into_iter()
     }

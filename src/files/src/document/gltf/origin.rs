@@ -1,4 +1,4 @@
-//! What a document named when it was read, and what of that nothing names any more.
+//! References of a document when it was read, and removal of objects that have lost theirs.
 use super::body::Body;
 use super::links::{Collection, Object, visit};
 use super::repacked::repack_bytes;
@@ -7,21 +7,21 @@ use crate::document::DocumentError;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What a document was when it was read.
+/// State of a document when it was read.
 #[derive(Debug, Clone)]
 pub(super) struct Origin {
-    /// Objects that nothing named then: they stay as they were.
+    /// Objects without a reference at that time: they stay unchanged.
     unused: BTreeSet<Object>,
-    /// How many objects there were.
+    /// Number of objects per collection at that time.
     lengths: BTreeMap<Collection, usize>,
 }
 
-/// Where objects go: of each its new index, or nowhere.
+/// For each object its new index; `None` if it is removed.
 #[derive(Debug, Default)]
 pub(super) struct Places(BTreeMap<Collection, Vec<Option<usize>>>);
 
 impl Places {
-    /// The index of an object from now on; its present one where nothing was said of it.
+    /// Returns the new index of an object; its present one by default.
     pub fn of(&self, (collection, index): Object) -> usize {
         let places = self.0.get(&collection);
         let place = places.and_then(|places| *places.get(index)?);
@@ -40,9 +40,9 @@ impl Origin {
         }
     }
 
-    /// Takes what was named when the document was read, or was made since, and is not named now, out of the document, with its
-    /// bytes, and returns where the rest went. What is new takes the places of what is gone; what extensions that are not understood
-    /// may name keeps its place.
+    /// Removes objects that were referenced when the document was read, or were created since, and are not referenced
+    /// now, with their bytes. Returns the new indices of the others. New objects take the places of removed ones;
+    /// objects to which unknown extensions may refer keep their places.
     pub fn clean(&self, body: &mut Body) -> Result<Places, DocumentError> {
         let unknown = Unknown::of(&body.json);
         let pinned: BTreeSet<Object> = (Collection::ALL.into_iter())
@@ -71,7 +71,7 @@ impl Origin {
         Ok(places)
     }
 
-    /// The new indices of all objects, and those that are not live but cannot go.
+    /// Returns the new indices of all objects, and those that are not live but cannot be removed.
     fn places(
         &self,
         lengths: &BTreeMap<Collection, usize>,
@@ -118,7 +118,7 @@ fn objects(lengths: &BTreeMap<Collection, usize>) -> impl Iterator<Item = Object
     all.flat_map(|(&collection, &n)| (0..n).map(move |index| (collection, index)))
 }
 
-/// All that is named by the rest of the document, by `kept` or by what these name.
+/// Returns all objects that are referenced by the rest of the document, by `kept`, or by objects so referenced.
 fn live(json: &mut Value, kept: &BTreeSet<Object>, pinned: &BTreeSet<Object>) -> BTreeSet<Object> {
     let mut live: BTreeSet<Object> = kept.union(pinned).copied().collect();
     let mut names = Vec::new();
@@ -136,7 +136,7 @@ fn live(json: &mut Value, kept: &BTreeSet<Object>, pinned: &BTreeSet<Object>) ->
     live
 }
 
-/// Gives objects their new indices, and everything that names them too.
+/// Moves objects to their new indices, and updates all references.
 fn move_objects(json: &mut Value, places: &Places) {
     visit(json, &mut |_, object, number| {
         let place = places.of(object);

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 use unwrapd_maps::mesh::UsedVertices;
 
-/// Largest count of positions or indices that no bytes stand behind.
+/// Largest count of positions or indices without bytes behind them.
 const MAX_UNBACKED: usize = 1 << 20;
 
 /// Positions by accessor; those that several primitives share are read once.
@@ -52,7 +52,7 @@ impl Positions {
     }
 }
 
-/// Renumbers indices by the vertices they use; `None` where they use all.
+/// Renumbers indices by the vertices that they use; returns these, or `None` if all are used.
 pub(super) fn compact(indices: &mut [u32], positions: &[[f32; 3]]) -> Option<Vec<u32>> {
     let used = UsedVertices::new(indices.iter().copied());
     if used.count() == positions.len() {
@@ -62,7 +62,7 @@ pub(super) fn compact(indices: &mut [u32], positions: &[[f32; 3]]) -> Option<Vec
     Some(used.into_vec())
 }
 
-/// Refuses accessors without data that are long.
+/// Refuses long accessors without data.
 pub(super) fn check_backed(accessor: &Accessor) -> Result<(), DocumentError> {
     if accessor.is_backed() || accessor.count <= MAX_UNBACKED {
         return Ok(());

@@ -9,23 +9,24 @@ use crate::document::{DocumentError, Primitive};
 use serde_json::Value;
 use std::rc::Rc;
 
-/// Largest number of vertices, and of faces, over all primitives. Primitives may share accessors, so that the size of
-/// a file does not bound their sum.
+/// Most vertices, and most faces, over all primitives. Primitives may share accessors, so the size of a file does not
+/// bound their sum.
 const MAX_ELEMENTS: usize = 1 << 26;
 
 /// The triangles of a document.
 pub(super) struct Collected {
     pub primitives: Vec<Primitive>,
-    /// For each primitive the vertices of its accessors that it uses; `None` is all.
+    /// For each primitive the vertices of its accessors that it uses; `None` for all.
     pub used: Vec<Option<Vec<u32>>>,
-    /// Vertices that no triangle uses and that were not finite.
+    /// Number of vertices that no triangle uses and that were not finite.
     pub n_unused_not_finite: usize,
 }
 
-/// Every primitive that has triangles and positions, in file order, and what of its accessors it uses.
+/// Collects every primitive that has triangles and positions, in file order, with the part of its accessors that it
+/// uses.
 ///
-/// Where several primitives share their accessors, each has only the vertices that it uses: exporters like to put a
-/// whole scene into one array, and the vertices of others are none of its business.
+/// If several primitives share their accessors, each gets only the vertices that it uses: exporters like to put a whole
+/// scene into one array.
 pub(super) fn collect(body: &Body) -> Result<Collected, DocumentError> {
     let mut primitives = Vec::new();
     let mut used = Vec::new();
@@ -63,7 +64,7 @@ pub(super) fn collect(body: &Body) -> Result<Collected, DocumentError> {
     })
 }
 
-/// Says in which primitive an error is.
+/// Adds the place of the primitive to an error.
 pub(super) fn located(error: DocumentError, mesh: usize, primitive: usize) -> DocumentError {
     let at = |message: String| format!("mesh {mesh}, primitive {primitive}: {message}");
     match error {
@@ -114,7 +115,7 @@ fn read(
     }))
 }
 
-/// Whether all attributes and morph targets have an element for each vertex, so that vertices can be split.
+/// Checks that all attributes and morph targets have an element for each vertex, so that vertices can be split.
 fn check_attributes(
     body: &Body,
     primitive: &Value,
@@ -138,7 +139,7 @@ fn check_attributes(
     Ok(())
 }
 
-/// The vertex indices of a primitive, all in range; without indices the vertices follow one another.
+/// Returns the vertex indices of a primitive, all in range; without indices the vertices follow one another.
 pub(super) fn indices(
     body: &Body,
     primitive: &Value,
@@ -169,7 +170,7 @@ pub(super) fn indices(
     }
 }
 
-/// Faces as the specification orders their corners; incomplete ones are left out.
+/// Returns the faces with their corners in the order of the specification; incomplete ones are left out.
 fn faces(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
     let windows = indices.windows(3).enumerate();
     match mode {

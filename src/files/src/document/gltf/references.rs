@@ -1,8 +1,9 @@
-//! Which files a glTF refers to, for callers that gather them.
+//! Files to which a glTF refers, for callers that gather them.
 use super::{glb, tree, uri, without_mark};
 
-/// Relative paths of the buffers and images that a glTF file refers to, as [`Upload::resources`](crate::document::Upload)
-/// names them. Empty for any other content; data URIs, absolute paths, schemes and paths that climb out are left out.
+/// Returns the relative paths of the buffers and images to which a glTF file refers, as
+/// [`Upload::resources`](crate::document::Upload) names them. Empty for any other content; data URIs, absolute paths,
+/// schemes and paths that leave the folder are left out.
 pub fn references(bytes: &[u8]) -> Vec<String> {
     let json = if glb::is_glb(bytes) {
         glb::split(bytes).map_or(&[][..], |container| container.json)

@@ -1,4 +1,4 @@
-//! Vertices that were split at the seams of a UV set that is replaced, joined again.
+//! Joins vertices that were split at the seams of a replaced UV set.
 use super::GltfDocument;
 use super::accessor::Accessor;
 use super::json::{as_unsigned, invalid, items};
@@ -7,17 +7,17 @@ use serde_json::Value;
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// Vertices of which some are one again.
+/// Vertices after joining.
 pub(super) struct Rejoined {
-    /// The old vertices that stay, ascending.
+    /// Old vertices that stay, in increasing order.
     pub kept: Vec<u32>,
-    /// Of each old vertex the new number.
+    /// New number of each old vertex.
     pub numbers: Vec<u32>,
 }
 
-/// Joins the vertices of primitive `index` that differ in nothing but the attributes that `changed`, its JSON, lost. Vertices that
-/// were twins before the split stay so: of those that agree in everything but the old UVs, the first of each UV become one, then the
-/// second, and so on. `None` where that joins none.
+/// Joins the vertices of primitive `index` that differ only in the attributes missing from `changed`, its new JSON.
+/// Vertices that were duplicates before the split stay so: among those that agree in everything except the old UVs, the
+/// first of each UV are joined, then the second, and so on. Returns `None` if there is nothing to join.
 pub(super) fn rejoined(
     document: &GltfDocument,
     index: usize,
@@ -66,7 +66,7 @@ pub(super) fn rejoined(
     Ok((kept.len() < n).then_some(Rejoined { kept, numbers }))
 }
 
-/// Classes divided by a key, numbered in the order of their first members.
+/// Divides classes by a key, numbered in the order of their first members.
 fn refined<K: Eq + Hash>(classes: &[u32], key: impl Fn(usize) -> K) -> Vec<u32> {
     let mut numbers = HashMap::with_capacity(classes.len());
     let of = |(v, class): (usize, &u32)| {
@@ -76,13 +76,13 @@ fn refined<K: Eq + Hash>(classes: &[u32], key: impl Fn(usize) -> K) -> Vec<u32> 
     classes.iter().enumerate().map(of).collect()
 }
 
-/// The bytes of an accessor and of one element.
+/// Returns the bytes of an accessor and the size of one element.
 fn packed(document: &GltfDocument, index: usize) -> Result<(Vec<u8>, usize), DocumentError> {
     let accessor = Accessor::open(&document.body, index)?;
     Ok((accessor.packed()?, accessor.element_size))
 }
 
-/// The accessors of all attributes and morph targets.
+/// Returns the accessors of all attributes and morph targets.
 fn accessors(primitive: &Value) -> Result<Vec<usize>, DocumentError> {
     let sets = std::iter::once(&primitive["attributes"]).chain(items(primitive, "targets")?);
     let values = sets

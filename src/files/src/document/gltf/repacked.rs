@@ -1,13 +1,13 @@
-//! The binary data with the bytes of its buffer views and no others.
+//! Compaction of the binary data to the bytes of its buffer views.
 use super::body::Body;
 use super::json::{array_mut, items, required, unsigned};
 use crate::document::DocumentError;
 use serde_json::json;
 
-/// Where accessors may start: multiples of so many bytes keep what their components ask for.
+/// Alignment of accessors in bytes, sufficient for all components.
 const ALIGNMENT: usize = 4;
 
-/// Takes out the bytes that lie in no buffer view. Views that overlap still do.
+/// Removes the bytes that lie in no buffer view. Views that overlap still do so.
 pub(super) fn repack_bytes(body: &mut Body) -> Result<(), DocumentError> {
     let mut ranges = Vec::new();
     for (index, view) in items(&body.json, "bufferViews")?.iter().enumerate() {

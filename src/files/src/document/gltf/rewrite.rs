@@ -13,7 +13,7 @@ use crate::document::{
 use serde_json::{Value, json};
 use std::borrow::Cow;
 
-/// What must agree for corners to share a vertex: the bits of the UV, and of the tangent where it is new.
+/// Attributes in which corners must agree to share a vertex: the bits of the UV, and of the tangent if it is new.
 type Key = ([u32; 2], [u32; 4]);
 
 /// Writes the UVs of primitive `index`, v down, into `body`, a copy of the document's.
@@ -25,6 +25,7 @@ pub(super) fn rewrite(
     (choice, baked): (&Choice, Option<&BakedTextures>),
 ) -> Result<PrimitiveNote, DocumentError> {
     let primitive = &document.primitives[index];
+    // Remove what belonged to the replaced set, and join vertices that it had split.
     let (tangents, tangents_note) = match baked {
         Some(baked) if baked.plan.is_normal_mapped(index) => baked_tangents(baked, index),
         _ => new_tangents(document, index, uvs, choice)?,
@@ -36,6 +37,7 @@ pub(super) fn rewrite(
     } else {
         None
     };
+    // Split vertices at the seams of the new set.
     let vertices = Vertices::new(primitive, joined.as_ref());
     let split = split(
         vertices.kept.len(),
@@ -54,6 +56,7 @@ pub(super) fn rewrite(
         tangents: tangents_note,
         sources: None,
     };
+    // Write indices and attributes if vertices have changed.
     let used = document.used[index].as_deref();
     let is_split = !split.copies.is_empty() || joined.is_some();
     if is_split || used.is_some() {
@@ -95,11 +98,11 @@ pub(super) fn rewrite(
     Ok(note)
 }
 
-/// The vertices of a primitive before they are split.
+/// Vertices of a primitive before they are split.
 struct Vertices<'a> {
-    /// Those of the file that there are.
+    /// Vertices of the file that remain.
     kept: Vec<u32>,
-    /// The faces in terms of these.
+    /// Faces in terms of these.
     triangles: Cow<'a, [[u32; 3]]>,
 }
 
@@ -120,7 +123,7 @@ impl<'a> Vertices<'a> {
     }
 }
 
-/// Tangents that a normal map was made for.
+/// Returns the tangents for which a normal map was made.
 fn baked_tangents(
     baked: &BakedTextures,
     index: usize,
@@ -131,7 +134,7 @@ fn baked_tangents(
     }
 }
 
-/// Tangents where the old ones belonged to a set that is replaced.
+/// Computes new tangents if the old ones belonged to a replaced set.
 fn new_tangents(
     document: &GltfDocument,
     index: usize,
@@ -164,7 +167,7 @@ fn keys(corners: &[Corners], tangents: Option<&[CornerTangents]>) -> Vec<[Key; 3
         .collect()
 }
 
-/// Removes what belonged to the replaced set: the attribute, tangents, and their deltas in morph targets.
+/// Removes the parts that belonged to the replaced set: the attribute, tangents, and their deltas in morph targets.
 fn drop_stale(
     primitive: &mut Value,
     choice: &Choice,

@@ -1,4 +1,4 @@
-//! How a texture info covers a surface with an image.
+//! Sampling of an image by a texture info.
 use super::json::{extension, item, unsigned};
 use super::textures::{TRANSFORM, TextureUse};
 use crate::document::{Encoding, TextureSource, Wrap};
@@ -13,7 +13,7 @@ pub(super) struct Resampled {
 }
 
 impl Resampled {
-    /// Of a texture that a material names; the error says why it cannot be.
+    /// Analyzes a texture of a material; the error is the reason why it cannot be resampled.
     pub fn of(json: &Value, texture: &TextureUse) -> Result<Self, String> {
         let encoding = encoding(&texture.slot)
             .ok_or_else(|| "the meaning of its texels is unknown".to_owned())?;
@@ -41,7 +41,7 @@ impl Resampled {
     }
 }
 
-/// What the texels are of a texture at this path of a material, by the core specification and ratified extensions.
+/// Returns the encoding of a texture at this path of a material, by the core specification and ratified extensions.
 fn encoding(slot: &str) -> Option<Encoding> {
     Some(match slot.rsplit('/').next().unwrap_or(slot) {
         "baseColorTexture"
@@ -67,7 +67,7 @@ fn encoding(slot: &str) -> Option<Encoding> {
     })
 }
 
-/// Whether an animation moves a member of the texture info.
+/// Returns whether an animation changes a member of the texture info.
 fn is_animated(json: &Value, pointer: &str) -> bool {
     let channels = (json
         .get("animations")
@@ -92,7 +92,7 @@ fn wrap(code: Option<usize>) -> Wrap {
     }
 }
 
-/// Scale, then a turn counter-clockwise as seen with v down, then a shift.
+/// Returns the transform: scale, then a counter-clockwise rotation as seen with v down, then a shift.
 fn transform(extension: Option<&Value>) -> [[f64; 3]; 2] {
     let number = |value: Option<&Value>, default: f64| {
         value

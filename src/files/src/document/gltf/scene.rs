@@ -14,10 +14,11 @@ const IDENTITY: Affine = [
     [0.0, 0.0, 1.0, 0.0],
 ];
 
-/// Where a node names the instances of its mesh.
+/// JSON pointer, within a node, of the instances of its mesh.
 const INSTANCES: &str = "/extensions/EXT_mesh_gpu_instancing";
 
-/// Gives every node that shows a mesh a mesh of its own: the first keeps it, the others get copies with the same accessors.
+/// Gives every node that shows a mesh a mesh of its own: the first keeps it, the others get copies with the same
+/// accessors.
 ///
 /// # Errors
 /// If one node shows a mesh several times: its instances cannot have UVs of their own.
@@ -43,7 +44,7 @@ pub(super) fn separate_meshes(json: &mut Value) -> Result<(), DocumentError> {
     Ok(())
 }
 
-/// The document with all the copies that there will be.
+/// Returns the size of the document including all copies.
 fn size_when_separate(json: &Value) -> Result<Size, DocumentError> {
     let mut times: BTreeMap<usize, usize> = BTreeMap::new();
     for node in items(json, "nodes")? {
@@ -58,8 +59,8 @@ fn size_when_separate(json: &Value) -> Result<Size, DocumentError> {
     Ok(size)
 }
 
-/// Where in the scene each mesh lies, by the first node that shows it; where it is for meshes that no node shows, or that a skin
-/// moves. Mirrored ones are mirrored back, so that faces keep their winding.
+/// Returns the placement of each mesh in the scene, by the first node that shows it; the identity for meshes that no
+/// node shows, or that a skin moves. Mirrored ones are mirrored back, so that faces keep their winding.
 pub(super) fn placements(json: &Value) -> Result<Vec<Affine>, DocumentError> {
     let nodes = items(json, "nodes")?;
     let mut parents = vec![None; nodes.len()];
@@ -89,19 +90,19 @@ pub(super) fn placements(json: &Value) -> Result<Vec<Affine>, DocumentError> {
         .collect())
 }
 
-/// Whether each mesh lies in the scene where it is, as far as the first node shows it that shows it.
+/// Returns for each mesh whether the placement by the first node that shows it is the identity.
 pub(super) fn is_in_place(json: &Value) -> Result<Vec<bool>, DocumentError> {
     let placements = placements(json)?;
     Ok(placements.iter().map(|place| *place == IDENTITY).collect())
 }
 
-/// The place of a point.
+/// Returns the placed point.
 pub(super) fn placed(placement: &Affine, point: [f32; 3]) -> [f32; 3] {
     let [x, y, z] = point.map(f64::from);
     placement.map(|[a, b, c, d]| (a * x + b * y + c * z + d) as f32)
 }
 
-/// The transform of a node in the scene; `globals` keeps those that were found on the way to the root.
+/// Returns the transform of a node in the scene; `globals` caches those found on the path to the root.
 fn global(
     nodes: &[Value],
     parents: &[Option<usize>],
@@ -127,7 +128,7 @@ fn global(
     Ok(transform.unwrap_or(IDENTITY))
 }
 
-/// The transform of a node relative to its parent.
+/// Returns the transform of a node relative to its parent.
 fn local(node: &Value) -> Affine {
     if let Some(m) = numbers::<16>(node, "matrix") {
         return [0, 1, 2].map(|row| [0, 1, 2, 3].map(|column| m[4 * column + row]));
@@ -168,7 +169,7 @@ fn numbers<const N: usize>(node: &Value, key: &str) -> Option<[f64; N]> {
     values?.try_into().ok()
 }
 
-/// b, then a.
+/// Returns the composition: b, then a.
 fn product(a: &Affine, b: &Affine) -> Affine {
     a.map(|row| {
         [0, 1, 2, 3].map(|column| {

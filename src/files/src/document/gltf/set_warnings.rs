@@ -1,11 +1,11 @@
-//! What is to be said of the UV sets that were chosen.
+//! Warnings about the chosen UV sets.
 use super::texcoord_set::{Choice, Textures};
 use super::{GltfDocument, names};
 use crate::document::warning::listed;
 use crate::document::{Warning, WriteOptions};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Says where new UVs went that are not in set 0 and why, and which sets had to be filled.
+/// Warns about new UVs that are not in set 0, with the reason, and about sets that had to be filled.
 pub(super) fn set_warnings(
     document: &GltfDocument,
     (choices, textures): (&[Option<Choice>], &Textures),
@@ -14,6 +14,7 @@ pub(super) fn set_warnings(
 ) -> Vec<Warning> {
     let mut elsewhere: BTreeMap<u32, (BTreeSet<usize>, BTreeSet<String>)> = BTreeMap::new();
     let mut filled: BTreeMap<u32, BTreeSet<usize>> = BTreeMap::new();
+    // Meshes with UVs outside set 0, and meshes whose lower sets were filled.
     for (primitive, choice) in document.primitives.iter().zip(choices) {
         let Some(choice) = choice else {
             continue;
@@ -53,7 +54,7 @@ pub(super) fn set_warnings(
     elsewhere.chain(filled).collect()
 }
 
-/// The textures that sample set 0 of a primitive.
+/// Returns the textures that sample set 0 of a primitive.
 fn samplers_of_set_0(document: &GltfDocument, choice: &Choice, textures: &Textures) -> Vec<String> {
     let of_materials = choice
         .materials

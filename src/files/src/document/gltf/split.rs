@@ -1,18 +1,18 @@
-//! Vertices split where the corners that share them differ.
+//! Splitting of vertices whose corners differ.
 use std::collections::HashMap;
 use std::hash::Hash;
 
 /// Vertices after a split: the old ones keep their places, the copies follow.
 pub(super) struct Split<K> {
-    /// The old vertex that each copy is a copy of.
+    /// Old vertex of each copy.
     pub copies: Vec<u32>,
-    /// The faces with the new vertices.
+    /// Faces with the new vertices.
     pub triangles: Vec<[u32; 3]>,
-    /// What the corners of each vertex have in common; `None` for vertices without a face.
+    /// Common key of the corners of each vertex; `None` for vertices without a face.
     pub keys: Vec<Option<K>>,
 }
 
-/// Splits `n_vertices` vertices so that all corners of a vertex have the same key. The first key met stays with the
+/// Splits `n_vertices` vertices so that all corners of a vertex have the same key. The first key found stays with the
 /// vertex.
 pub(super) fn split<K: Copy + Eq + Hash>(
     n_vertices: usize,

@@ -9,9 +9,9 @@ use crate::document::subdivision::{AddedVertex, Subdivision};
 use crate::document::{DocumentError, Primitive};
 use serde_json::{Value, json};
 
-/// Writes the pieces of primitive `index` into `body`, a copy of the document's, as a list of triangles over new accessors of
-/// f32: what vertices had is kept, and interpolated at added ones. Deltas and joints have no value between vertices: morph targets,
-/// skins and whole numbers of unknown meaning are refused.
+/// Writes the pieces of primitive `index` into `body`, a copy of the document's, as a list of triangles over new
+/// accessors of f32. Attributes are kept, and interpolated at added vertices. Morph targets, skins and whole numbers of
+/// unknown meaning are refused, as they cannot be interpolated.
 pub(super) fn subdivide(
     document: &GltfDocument,
     body: &mut Body,
@@ -26,6 +26,7 @@ pub(super) fn subdivide(
     if changed.get("targets").is_some() {
         return Err(DocumentError::Indivisible("morph targets".to_owned()));
     }
+    // Attributes of own and added vertices.
     for (name, index_of) in object_mut(&mut changed["attributes"])? {
         let old = as_unsigned(index_of)
             .ok_or_else(|| invalid("an attribute is not an accessor index"))?;
@@ -40,6 +41,7 @@ pub(super) fn subdivide(
         };
         *index_of = json!(push(body, &accessor, name == "POSITION", &values)?);
     }
+    // Triangles as a list.
     let indices: Vec<u8> = (cut.triangles.iter().flatten())
         .flat_map(|v| v.to_le_bytes())
         .collect();
@@ -56,7 +58,7 @@ pub(super) fn subdivide(
     Ok(())
 }
 
-/// The numbers of the primitive's own vertices, one after another.
+/// Returns the numbers of the primitive's own vertices, one after another.
 fn own_values(
     primitive: &Primitive,
     used: Option<&[u32]>,
@@ -72,7 +74,8 @@ fn own_values(
     Ok(own)
 }
 
-/// The numbers of all vertices. Normals and tangents keep length 1, a tangent the handedness of its nearest corner.
+/// Returns the numbers of all vertices. Normals and tangents keep length 1; a tangent gets the handedness of its
+/// nearest corner.
 fn interpolated(
     name: &str,
     accessor: &Accessor,

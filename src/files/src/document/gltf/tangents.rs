@@ -3,7 +3,7 @@ use super::GltfDocument;
 use crate::document::{CornerTangents, DocumentError, Primitive};
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
 
-/// The tangents of every corner for UVs with v up; `None` where the primitive has no usable normals.
+/// Returns the tangents of every corner for UVs with v up; `None` if the primitive has no usable normals.
 pub(super) fn corner_tangents(
     document: &GltfDocument,
     index: usize,
@@ -24,7 +24,7 @@ pub(super) fn corner_tangents(
         .flatten())
 }
 
-/// The tangents of every corner of a primitive for normals and UVs with v up, as MikkTSpace defines them.
+/// Returns the tangents of every corner of a primitive for normals and UVs with v up, as MikkTSpace defines them.
 pub fn tangents(
     primitive: &Primitive,
     normals: &[[[f32; 3]; 3]],

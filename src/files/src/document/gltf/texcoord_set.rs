@@ -1,34 +1,34 @@
-//! Which `TEXCOORD_n` the new UVs go to.
+//! Choice of the `TEXCOORD_n` for new UVs.
 use super::GltfDocument;
 use super::textures::{MaterialTextures, SetMask, materials};
 use crate::document::{BakePlan, DocumentError, Layout, Mark, NewUvs, WriteOptions};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
-/// The largest n that may be asked for: sets have to be contiguous, so that lower ones are filled.
+/// Largest n that may be requested: sets must be contiguous, so lower ones are filled.
 const MAX_SET: u32 = 15;
 
-/// Where the UVs of one primitive go.
+/// Destination of the UVs of one primitive.
 pub(super) struct Choice {
     pub set: u32,
-    /// Lower sets that the primitive lacks and that must exist, or that it has for no other reason.
+    /// Lower sets that the primitive lacks and that must exist, or that exist only for this reason.
     pub missing: Vec<u32>,
-    /// Whether the set was written by us, as the mark of the document says.
+    /// `true` if this program wrote the set before, according to the mark of the document.
     pub is_marked: bool,
-    /// Whether the primitive had the set.
+    /// `true` if the primitive had the set.
     pub had_set: bool,
-    /// Whether a normal map sampled the set as it was.
+    /// `true` if a normal map sampled the old set.
     pub had_normal_map: bool,
-    /// The materials of the primitive.
+    /// Materials of the primitive.
     pub materials: Vec<usize>,
     /// Textures of the primitive itself.
     pub own: MaterialTextures,
 }
 
-/// The textures of all materials in use, each searched once.
+/// Textures of all materials in use, each searched once.
 pub(super) type Textures = BTreeMap<usize, MaterialTextures>;
 
-/// What matters of a primitive here.
+/// Properties of a primitive that affect the choice.
 struct Candidate {
     index: usize,
     present: SetMask,
@@ -41,7 +41,7 @@ struct Candidate {
 }
 
 impl Candidate {
-    /// Whether a set is there only because `set` is and needed it: it has the same accessor, and no texture samples it.
+    /// Returns whether a set exists only because `set` needed it: it has the same accessor, and no texture samples it.
     fn is_filled(&self, document: &GltfDocument, lower: u32, set: u32) -> bool {
         let Ok(object) = document.object(&document.primitives[self.index]) else {
             return false;
@@ -51,10 +51,10 @@ impl Candidate {
     }
 }
 
-/// One choice per primitive that gets UVs. All primitives of a mesh get the same set, so that its atlas has one name:
-/// the one asked for; else set 0 where no texture samples it; else the one that was written for the same purpose before, as `mark`
-/// says; else the first set that none of them has. Textures of `plan` will not sample what they do; they may be shared by meshes,
-/// so that all of these get the same set then.
+/// Chooses a set for each primitive that gets UVs. All primitives of a mesh get the same set, so that its atlas has one
+/// name: the requested one; else set 0 if no texture samples it; else the one that was written for the same purpose
+/// before, according to `mark`; else the first set that none has. Textures of `plan` will sample the new set; as meshes
+/// may share them, all of these then get the same set.
 pub(super) fn choose(
     document: &GltfDocument,
     (uvs, mark): (&NewUvs, Option<&Mark>),
@@ -125,7 +125,7 @@ fn candidate(
     Ok(candidate)
 }
 
-/// The set that all of some primitives got before for the same purpose, and that no texture has come to sample since.
+/// Returns the set that all of these primitives got before for the same purpose, if no texture samples it by now.
 fn reusable(candidates: &[Candidate], mark: Option<&Mark>, options: &WriteOptions) -> Option<u32> {
     let (terms, present) = (options.terms.as_ref()?, &mark?.terms);
     let set = candidates.first()?.marked?;

@@ -1,9 +1,9 @@
-//! What is to be said of textures that the new UVs do not fit.
+//! Warnings about textures that the new UVs do not fit.
 use super::{GltfDocument, names};
 use crate::document::warning::listed;
 use crate::document::{Warning, WriteNotes};
 
-/// Says which textures show the old layout, and which could not be resampled and why.
+/// Warns about textures that show the old layout, and about those that could not be resampled, with the reason.
 pub(super) fn texture_warnings(document: &GltfDocument, notes: &WriteNotes) -> Vec<Warning> {
     let named = |slot: &str, material: Option<usize>| {
         let slot = slot.rsplit('/').next().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Which textures sample which UV set.
+//! Textures and the UV sets that they sample.
 use super::json::{as_unsigned, extension, item, items, remove, remove_extension, unsigned};
 use crate::document::{AffectedTexture, DocumentError, Primitive};
 use serde_json::{Value, json};
@@ -6,26 +6,26 @@ use std::collections::BTreeSet;
 
 pub(super) const TRANSFORM: &str = "KHR_texture_transform";
 
-/// A place where a texture is named together with the UV set it is sampled by.
+/// A reference to a texture together with the UV set that it samples.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct TextureUse {
-    /// The material; `None` for textures of the primitive itself.
+    /// Material; `None` for textures of the primitive itself.
     pub material: Option<usize>,
     /// JSON pointer of the texture info.
     pub pointer: String,
     /// Path within the material or the primitive.
     pub slot: String,
     pub texture: usize,
-    /// n of the `TEXCOORD_n` in effect.
+    /// n of the effective `TEXCOORD_n`.
     pub set: u32,
-    /// Whether tangents are relative to it.
+    /// `true` if tangents are relative to it.
     pub is_normal_map: bool,
 }
 
 /// UV sets below 32, one bit each.
 pub(super) type SetMask = u32;
 
-/// What one material samples.
+/// Textures of one material, and the sets that they sample.
 #[derive(Default, Clone)]
 pub(super) struct MaterialTextures {
     pub uses: Vec<TextureUse>,
@@ -34,7 +34,7 @@ pub(super) struct MaterialTextures {
 }
 
 impl MaterialTextures {
-    /// The same without the textures named at `places`.
+    /// Returns a copy without the textures whose JSON pointers are in `places`.
     pub fn without(&self, places: &BTreeSet<String>) -> Self {
         let uses = self.uses.iter();
         let others = uses.filter(|texture| !places.contains(&texture.pointer));
@@ -54,7 +54,7 @@ impl MaterialTextures {
         }
     }
 
-    /// The textures of material `material`; none where there is no such material.
+    /// Collects the textures of material `material`; an unknown material has no textures.
     pub fn of_material(json: &Value, material: usize) -> Self {
         let mut uses = Vec::new();
         if let Ok(object) = item(json, "materials", material) {
@@ -65,7 +65,7 @@ impl MaterialTextures {
         Self::new(uses)
     }
 
-    /// The textures that a primitive names itself, such as those of feature ids.
+    /// Collects the textures to which a primitive itself refers, such as those of feature ids.
     pub fn of_primitive(primitive: &Primitive, object: &Value) -> Self {
         let mut uses = Vec::new();
         if let Some(extensions) = object.get("extensions") {
@@ -80,7 +80,7 @@ impl MaterialTextures {
     }
 }
 
-/// The material of a primitive and those of its variants; `object` is its JSON.
+/// Returns the material of a primitive and those of its variants; `object` is its JSON.
 pub(super) fn materials(
     material: Option<usize>,
     object: &Value,
@@ -96,7 +96,7 @@ pub(super) fn materials(
     Ok(materials)
 }
 
-/// Where texture infos are searched.
+/// Place at which texture infos are searched.
 struct Place {
     material: Option<usize>,
     pointer: String,
@@ -141,7 +141,7 @@ impl Place {
     }
 }
 
-/// The set that a texture info samples: its transform's, else its own, else 0.
+/// Returns the set that a texture info samples: its transform's, else its own, else 0.
 fn set_in_effect(info: &Value) -> u32 {
     let set = |object: Option<&Value>| as_unsigned(object?.get("texCoord")?);
     set(extension(info, TRANSFORM))
@@ -150,7 +150,7 @@ fn set_in_effect(info: &Value) -> u32 {
         .unwrap_or(0)
 }
 
-/// Takes the texture transform off a texture info and keeps the set it samples. Whether there was one.
+/// Removes the transform of a texture info and keeps the set that it samples. Returns whether there was one.
 pub(super) fn remove_transform(json: &mut Value, texture: &TextureUse) -> bool {
     let Some(info) = json.pointer_mut(&texture.pointer) else {
         return false;
@@ -166,7 +166,7 @@ pub(super) fn remove_transform(json: &mut Value, texture: &TextureUse) -> bool {
     true
 }
 
-/// What the reader of the report has to re-bake.
+/// Returns the note for the report that this texture must be baked again.
 pub(super) fn affected(json: &Value, texture: &TextureUse) -> AffectedTexture {
     let source = item(json, "textures", texture.texture).ok();
     AffectedTexture {

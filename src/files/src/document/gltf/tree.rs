@@ -1,7 +1,7 @@
-//! What the JSON of a document takes in memory, known before it is read.
+//! Memory of a document's JSON, computed before it is read.
 //!
-//! A value takes 72 bytes wherever it stands, an array has room for four at least, and an object a table beside its members: text that
-//! is made for it becomes a hundred times as large. So the text is gone through once without keeping anything.
+//! A value takes 72 bytes anywhere, an array allocates at least four, and an object has a table besides its members:
+//! malicious text can grow a hundredfold. So the text is first parsed once without keeping anything.
 use super::json::invalid;
 use crate::document::DocumentError;
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
@@ -9,26 +9,26 @@ use serde_json::Value;
 use std::fmt;
 use std::ops::AddAssign;
 
-/// Ceiling on the JSON as it is read and as it is written, which are there at the same time, in bytes.
+/// Most bytes of the JSON as read and as written, which exist at the same time.
 const MOST: usize = 960 << 20;
 
-/// A value, wherever it stands.
+/// Size of a value.
 const VALUE: usize = size_of::<Value>();
-/// A member of an object beside its value: its name, and its hash.
+/// Size of a member of an object without its value: its name, and its hash.
 const MEMBER: usize = size_of::<String>() + 8;
-/// The least that is allocated for a name.
+/// Least allocation for a name.
 const NAME: usize = 16;
 
 /// Bytes of values in memory.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Size {
-    /// Read from a text: arrays grow by doubling.
+    /// After parsing a text: arrays grow by doubling.
     read: usize,
-    /// Copied: arrays are as long as they are.
+    /// After copying: arrays have their exact length.
     copied: usize,
 }
 
-/// The JSON of a text; refused before it is read where it would take too much.
+/// Parses the JSON of a text; refuses it beforehand if it would take too much memory.
 pub(super) fn parse(text: &[u8]) -> Result<Value, DocumentError> {
     let not_json = |error: serde_json::Error| invalid(format!("not JSON: {error}"));
     let size: Size = serde_json::from_slice(text).map_err(not_json)?;
@@ -37,7 +37,7 @@ pub(super) fn parse(text: &[u8]) -> Result<Value, DocumentError> {
 }
 
 impl Size {
-    /// The size of a value that is there.
+    /// Returns the size of an existing value.
     pub fn of(value: &Value) -> Self {
         let mut size = Self::VALUE;
         match value {
@@ -59,7 +59,7 @@ impl Size {
         size
     }
 
-    /// The same so many times.
+    /// Returns `n` times the size.
     pub fn times(self, n: usize) -> Self {
         Self {
             read: self.read.saturating_mul(n),
@@ -67,7 +67,7 @@ impl Size {
         }
     }
 
-    /// Refuses what takes too much.
+    /// Refuses sizes beyond the limit.
     pub fn check(self) -> Result<(), DocumentError> {
         let total = self.read.saturating_add(self.copied);
         if total <= MOST {
@@ -79,20 +79,20 @@ impl Size {
         )))
     }
 
-    /// A value without anything in it. Text is as long as it stands in the file, and not counted.
+    /// A value without contents. Text is as long as in the file, and not counted.
     const VALUE: Self = Self {
         read: VALUE,
         copied: VALUE,
     };
 
-    /// Places for `n` items, of which those taken are counted.
+    /// Adds the unused capacity of an array of `n` items; the items themselves are counted elsewhere.
     fn hold_items(&mut self, n: usize) {
         if n > 0 {
             self.read += VALUE * (n.next_power_of_two().max(4) - n);
         }
     }
 
-    /// Places for `n` members, of which the values of those taken are counted, and a table of where they are.
+    /// Adds the table, keys and unused capacity of an object of `n` members; their values are counted elsewhere.
     fn hold_members(&mut self, n: usize) {
         if n > 0 {
             let slots = (n * 8 / 7 + 1).next_power_of_two().max(4);
@@ -123,7 +123,7 @@ impl<'de> Deserialize<'de> for Size {
     }
 }
 
-/// Adds up what goes by.
+/// Visitor that adds up sizes.
 struct Counter;
 
 impl<'de> Visitor<'de> for Counter {

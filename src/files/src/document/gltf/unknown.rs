@@ -1,9 +1,9 @@
-//! What extensions that are not understood may name.
+//! Possible references of unknown extensions.
 use super::json::as_unsigned;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
-/// Extensions without a reference to any of the collections but in texture infos.
+/// Extensions without references to any of the collections, except in texture infos.
 const PLAIN: [&str; 8] = [
     "KHR_texture_transform",
     "KHR_lights_punctual",
@@ -15,7 +15,7 @@ const PLAIN: [&str; 8] = [
     "MSFT_lod",
 ];
 
-/// Whether [`visit`](super::links::visit) finds all that an extension names.
+/// Returns whether [`visit`](super::links::visit) finds all references of an extension.
 fn is_understood(name: &str) -> bool {
     const NAMING: [&str; 11] = [
         "KHR_draco_mesh_compression",
@@ -36,12 +36,12 @@ fn is_understood(name: &str) -> bool {
         || NAMING.contains(&name)
 }
 
-/// What extensions that are not understood may name.
+/// Possible references of unknown extensions.
 #[derive(Default)]
 pub(super) struct Unknown {
     /// All whole numbers in them: each may be the index of anything.
     pub numbers: BTreeSet<usize>,
-    /// Whether they have a member `buffer`, and so may mean places in the binary data.
+    /// `true` if they have a member `buffer`, and so may refer to places in the binary data.
     pub buffers: bool,
 }
 

@@ -8,7 +8,7 @@ use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_perc
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Exporters leave the padding out or the last bits set.
+/// Lenient Base64: exporters leave the padding out or the last bits set.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
     &STANDARD,
     GeneralPurposeConfig::new()
@@ -16,14 +16,14 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
         .with_decode_allow_trailing_bits(true),
 );
 
-/// What a file name may keep unescaped in a URI.
+/// Characters that a file name may keep unescaped in a URI.
 const FILE_NAME: &AsciiSet = &NON_ALPHANUMERIC
     .remove(b'-')
     .remove(b'_')
     .remove(b'.')
     .remove(b'~');
 
-/// The bytes that `uri` stands for.
+/// Returns the bytes to which `uri` refers.
 pub(super) fn resolve<'a>(
     uri: &str,
     resources: &'a BTreeMap<String, Vec<u8>>,
@@ -36,7 +36,8 @@ pub(super) fn resolve<'a>(
         .ok_or_else(|| DocumentError::MissingResource(shortened(uri)))
 }
 
-/// The name and content of the resource that a relative `uri` means, escaped or, as some exporters write it, plain.
+/// Returns name and content of the resource to which a relative `uri` refers, escaped or, as some exporters write it,
+/// plain.
 pub(super) fn member<'a>(
     uri: &str,
     resources: &'a BTreeMap<String, Vec<u8>>,
@@ -46,7 +47,7 @@ pub(super) fn member<'a>(
         .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
 }
 
-/// The paths that a relative `uri` may mean: unescaped, and as it stands.
+/// Iterates over the possible paths of a relative `uri`: unescaped, and unchanged.
 pub(super) fn candidates(uri: &str) -> impl Iterator<Item = String> {
     let decoded = percent_decode_str(uri).decode_utf8().ok();
     [decoded, Some(Cow::Borrowed(uri))]
@@ -55,18 +56,19 @@ pub(super) fn candidates(uri: &str) -> impl Iterator<Item = String> {
         .filter_map(|path| normalized(&path))
 }
 
-/// Whether the URI carries its content.
+/// Returns whether the URI contains its data.
 pub(super) fn is_data(uri: &str) -> bool {
     uri.get(..5)
         .is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
 }
 
-/// A relative URI for a file name.
+/// Returns a relative URI for a file name.
 pub(in crate::document) fn encoded(name: &str) -> String {
     utf8_percent_encode(name, FILE_NAME).to_string()
 }
 
-/// A path below the main file without `.` and `..`; `None` for absolute paths, schemes and what climbs out.
+/// Returns a path below the main file without `.` and `..`; `None` for absolute paths, schemes and paths that leave the
+/// folder.
 pub(in crate::document) fn normalized(path: &str) -> Option<String> {
     if path.contains([':', '\0']) {
         return None;
@@ -104,7 +106,7 @@ fn decode_data(uri: &str) -> Result<Vec<u8>, DocumentError> {
     }
 }
 
-/// The beginning of a URI, for messages.
+/// Returns the beginning of a URI, for messages.
 fn shortened(uri: &str) -> String {
     uri.chars().filter(|c| !c.is_control()).take(120).collect()
 }

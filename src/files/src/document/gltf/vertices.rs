@@ -11,7 +11,7 @@ use crate::document::{DocumentError, PrimitiveNote};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 
-/// Lets every attribute and morph target have the vertices `gather`, in new accessors.
+/// Replaces every attribute and morph target by new accessors with the vertices `gather`.
 pub(super) fn gather_vertices(
     document: &GltfDocument,
     body: &mut Body,
@@ -42,8 +42,8 @@ pub(super) fn gather_vertices(
     Ok(())
 }
 
-/// A new accessor with the elements `gather` of accessor `index`, byte for byte. Where all of them are among these,
-/// `min` and `max` stay true; else they are computed. An accessor without data stays so.
+/// Creates an accessor with the elements `gather` of accessor `index`, byte for byte. If these include all elements,
+/// `min` and `max` stay valid; else they are computed. An accessor without data stays so.
 fn gathered(
     source: &Body,
     body: &mut Body,
@@ -74,7 +74,7 @@ fn gathered(
     body.push_accessor(object)
 }
 
-/// Whether every vertex is among `gather`.
+/// Returns whether every vertex is among `gather`.
 fn covers(gather: &[u32], n_vertices: usize) -> bool {
     let mut seen = vec![false; n_vertices];
     for &vertex in gather {
@@ -85,16 +85,16 @@ fn covers(gather: &[u32], n_vertices: usize) -> bool {
 
 /// New indices of a primitive.
 pub(super) struct NewIndices<'a> {
-    /// Whether faces got vertices of their own, so that strips and fans have to become lists.
+    /// `true` if faces got vertices of their own, so that strips and fans must become lists.
     pub is_split: bool,
     pub triangles: &'a [[u32; 3]],
-    /// The vertices of the accessors that the primitive's vertices were, where it uses some of them only.
+    /// Elements of the accessors that were the primitive's vertices, if it uses only some of them.
     pub used: Option<&'a [u32]>,
-    /// The new numbers of the primitive's vertices where some were joined.
+    /// New numbers of the primitive's vertices, if some were joined.
     pub joined: Option<&'a [u32]>,
 }
 
-/// Writes new indices, as wide as the vertices need and as the old ones were.
+/// Writes new indices, as wide as the vertices need and at least as wide as the old ones.
 pub(super) fn write_indices(
     document: &GltfDocument,
     body: &mut Body,
@@ -140,7 +140,7 @@ pub(super) fn write_indices(
     Ok(())
 }
 
-/// The indices as they are, in terms of the primitive's own vertices.
+/// Returns the old indices in terms of the primitive's own vertices.
 fn old_indices(
     document: &GltfDocument,
     primitive: &Value,
@@ -162,7 +162,7 @@ fn old_indices(
     Ok(indices)
 }
 
-/// A new accessor of f32 vectors.
+/// Creates an accessor of f32 vectors.
 pub(super) fn push_floats(
     body: &mut Body,
     values: impl Iterator<Item = f32>,

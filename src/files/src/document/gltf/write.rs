@@ -1,4 +1,4 @@
-//! The document with a new UV set, as files.
+//! Output of the document with a new UV set as files.
 use super::body::Body;
 use super::json::{item_mut, remove_extension};
 use super::links::Collection;
@@ -19,7 +19,7 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use unwrapd_maps::mesh::VAxis;
 
-/// An extension of meshes that names the indices of the primitives, which a split makes wrong.
+/// An extension of meshes that refers to the indices of the primitives, which a split invalidates.
 const MANIFOLD: &str = "EXT_mesh_manifold";
 
 /// Writes `document` with `uvs`, and with the textures made for them.
@@ -32,6 +32,7 @@ pub(super) fn write(
     if options.format == OutputFormat::Obj {
         return as_obj::write(document, uvs, options, baked);
     }
+    // Choose the set of each primitive and write its UVs.
     let plan = baked.map(|baked| &baked.plan);
     let (choices, textures) = texcoord_set::choose(document, (uvs, present), options, plan)?;
     let mut body = document.body.clone();
@@ -48,6 +49,7 @@ pub(super) fn write(
             .map_err(|error| primitives::located(error, primitive.mesh, primitive.primitive))?;
         notes.primitives.push(note);
     }
+    // Textures: warnings, transforms that no longer apply, and baked ones.
     let chosen = (choices.as_slice(), &textures);
     let warnings = set_warnings(document, chosen, options, baked.is_some());
     notes.warnings.extend(warnings);
@@ -62,6 +64,7 @@ pub(super) fn write(
         }
         None => Cow::Borrowed(&document.resources),
     };
+    // Extensions that no longer hold, and the mark.
     drop_manifold(&mut body.json, &mut notes)?;
     let gone = ["KHR_texture_transform", MANIFOLD];
     let gone: Vec<&str> = gone
@@ -77,13 +80,14 @@ pub(super) fn write(
     }
     let warnings = texture_warnings(document, &notes);
     notes.warnings.extend(warnings);
+    // Remove objects that have lost their last reference.
     let places = document.origin.clean(&mut body)?;
     renumber(&mut notes, &places);
     let files = files((body, &document.chunks), &resources, options, &mut notes)?;
     Ok(Written { files, notes })
 }
 
-/// Lets the document say which UVs were written, where it is known what they were made for.
+/// Marks the UVs that were written in the document, if their purpose is known.
 fn mark(
     json: &mut Value,
     uvs: &NewUvs,
@@ -102,7 +106,7 @@ fn mark(
     marking::set(json, &Mark::new(terms, written))
 }
 
-/// Lets notes name textures and images as the written file numbers them.
+/// Updates textures and images in notes to the numbers of the written file.
 fn renumber(notes: &mut WriteNotes, places: &Places) {
     for baked in &mut notes.textures_baked {
         baked.texture = places.of((Collection::Textures, baked.texture));
@@ -125,7 +129,7 @@ fn is_dropped(name: &str, notes: &WriteNotes) -> bool {
     }
 }
 
-/// Lists the textures that sampled a replaced set and takes off the transforms that were made for it.
+/// Lists the textures that sampled a replaced set and removes the transforms that were made for it.
 fn release_textures(
     json: &mut Value,
     choices: &[Option<Choice>],
@@ -165,7 +169,7 @@ fn release_textures(
     notes.textures_affected.sort();
 }
 
-/// Takes the manifold indices off meshes whose vertices were split.
+/// Removes the manifold indices of meshes whose vertices were split.
 fn drop_manifold(json: &mut Value, notes: &mut WriteNotes) -> Result<(), DocumentError> {
     let split = notes
         .primitives
@@ -190,6 +194,7 @@ fn files(
     notes: &mut WriteNotes,
 ) -> Result<Vec<(String, Vec<u8>)>, DocumentError> {
     let stem = &options.stem;
+    // One file, or JSON with separate files.
     let (files, outside) = match options.format {
         OutputFormat::Glb => {
             let outside = images::embed(&mut body, resources)?;
@@ -215,6 +220,7 @@ fn files(
             return Err(DocumentError::UnsupportedOutput("glTF as OBJ".to_owned()));
         }
     };
+    // Images that remain references.
     for uri in outside {
         let uri: String = uri.chars().filter(|c| !c.is_control()).take(120).collect();
         notes.warnings.push(Warning::new(

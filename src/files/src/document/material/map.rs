@@ -3,24 +3,24 @@
 /// A picture on a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::document) struct Map {
-    /// The file, as the material file names it.
+    /// Path of the file, as in the material file.
     pub path: String,
     /// Factors of u and v, v up.
     pub scale: [f64; 2],
-    /// What is added to them then.
+    /// Offsets of u and v, added after scaling.
     pub offset: [f64; 2],
-    /// Whether the outermost texels go on beyond the border, instead of the picture again.
+    /// `true` if the outermost texels continue beyond the border, `false` if the picture repeats.
     pub clamp: bool,
-    /// By how much a bump or normal map counts.
+    /// Strength of a bump or normal map.
     pub strength: f64,
-    /// The channel that a single number is taken from.
+    /// Channel that provides a single number.
     pub channel: Option<char>,
     /// Options that no glTF texture can have.
     pub lost_options: Vec<String>,
 }
 
 impl Map {
-    /// A whole picture, as it is.
+    /// Creates the map of a whole picture without options.
     pub fn of(path: impl Into<String>) -> Self {
         Self {
             path: path.into(),
@@ -33,7 +33,8 @@ impl Map {
         }
     }
 
-    /// The words after the keyword. A file name goes to the end of the line, and may have blanks; `None` where there is none.
+    /// Parses the words after the keyword. A file name extends to the end of the line, and may contain blanks; `None`
+    /// if there is none.
     pub fn parse(mut rest: &str) -> Option<Self> {
         let mut map = Self::of("");
         while let (option, after) = next_word(rest)
@@ -46,7 +47,7 @@ impl Map {
         (!map.path.is_empty()).then_some(map)
     }
 
-    /// Takes the arguments of an option and returns what follows them.
+    /// Takes the arguments of an option and returns the rest.
     fn take_option<'a>(&mut self, option: &str, rest: &'a str) -> &'a str {
         match option {
             "-s" | "-o" | "-t" => {
@@ -98,21 +99,21 @@ impl Map {
         }
     }
 
-    /// The same picture in the same place.
+    /// Returns whether both show the same picture in the same place.
     pub fn shows_same(&self, other: &Self) -> bool {
         let place = |map: &Self| (map.scale, map.offset, map.clamp);
         self.path == other.path && place(self) == place(other)
     }
 }
 
-/// The first word and what follows it.
+/// Returns the first word and the rest.
 pub(super) fn next_word(text: &str) -> (&str, &str) {
     let text = text.trim_start();
     let end = text.find(char::is_whitespace).unwrap_or(text.len());
     text.split_at(end)
 }
 
-/// Up to `n` numbers, and what follows; the last word is never one, as it is the file name.
+/// Returns up to `n` numbers, and the rest; the last word is never a number, as it is the file name.
 fn numbers(mut rest: &str, n: usize) -> (Vec<f64>, &str) {
     let mut numbers = Vec::new();
     while numbers.len() < n

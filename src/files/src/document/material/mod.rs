@@ -1,11 +1,11 @@
-//! Materials between formats: what MTL, with its extension for physically based shading, and glTF can both say.
+//! Materials between formats: the common content of MTL, with its extension for physically based shading, and glTF.
 //!
-//! Colors are carried as they are, without a conversion: that is how Blender and obj2gltf read and write them. Where MTL says
-//! nothing of roughness, it follows from `Ns` as in Blender, so that its own files come back as they were: r = 1 − √(Ns / 1000).
-//! `Ks` ½ is the reflection of 4 % that glTF gives to everything, so that `specularColorFactor` is twice `Ks`.
+//! Colors are transferred without a conversion, as in Blender and obj2gltf. Without an MTL roughness, it follows from
+//! `Ns` as in Blender, so that Blender's own files round-trip: r = 1 − √(Ns / 1000). `Ks` ½ is the reflection of 4 %
+//! that glTF assumes for everything, so that `specularColorFactor` is twice `Ks`.
 //!
-//! MTL is read without a library: the one at hand (`tobj`) knows neither options of maps nor the extension, and ends at the first
-//! number that it cannot read.
+//! MTL is read without a library: the available one (`tobj`) knows neither options of maps nor the extension, and stops
+//! at the first number that it cannot read.
 mod map;
 mod mtl;
 mod mtl_text;
@@ -27,28 +27,28 @@ pub(super) struct Material {
     pub color: [f64; 3],
     pub alpha: f64,
     pub color_map: Option<Map>,
-    /// Whether the alpha of `color_map` counts.
+    /// `true` if the alpha of `color_map` counts.
     pub is_cut_out: bool,
     pub metallic: f64,
     pub roughness: f64,
     /// Roughness in green, metalness in blue.
     pub metallic_roughness_map: Option<Map>,
-    /// `Ks`; ½ where nothing is said.
+    /// `Ks`; ½ by default.
     pub specular: [f64; 3],
     pub ior: f64,
     pub emission: [f64; 3],
     pub emission_map: Option<Map>,
     pub normal_map: Option<Map>,
-    /// Whether `normal_map` is called a bump map, which may also mean one of heights.
+    /// `true` if `normal_map` is called a bump map, which may also mean one of heights.
     pub is_bump: bool,
     /// Strength and roughness of a coat.
     pub coat: [f64; 2],
-    /// Whether it shows its color whatever the light.
+    /// `true` if it shows its color independent of the light.
     pub is_unlit: bool,
 }
 
 impl Material {
-    /// What glTF takes for granted, but no metal.
+    /// Creates a material with the defaults of glTF, except that it is not a metal.
     pub fn named(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),

@@ -1,25 +1,25 @@
-//! Reading of material files.
+//! Reader of material files.
 use super::map::next_word;
 use super::{Map, Material};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The materials of several files by name, the first of a name.
+/// Materials of several files by name; the first wins.
 #[derive(Debug, Default)]
 pub(in crate::document) struct MaterialFiles {
     statements: BTreeMap<String, Statements>,
 }
 
-/// The folder of the file that a material comes from, and its statements by keyword in lower case.
+/// Folder of the material's file, and its statements by keyword in lower case.
 #[derive(Debug, Default)]
 struct Statements {
     folder: String,
     words: BTreeMap<String, String>,
 }
 
-/// What cannot be carried: keywords, and of how many materials.
+/// Keywords that cannot be transferred, with the number of affected materials.
 pub(in crate::document) type Dropped = BTreeMap<String, usize>;
 
-/// Words that say how to render rather than what a surface is, or that all files have: no one misses them.
+/// Keywords about rendering rather than the surface, or that all files have: dropping them needs no warning.
 const IDLE: &[&str] = &["ka", "illum", "sharpness", "tr", "d", "ni", "km", "map_aat"];
 
 impl MaterialFiles {
@@ -51,12 +51,12 @@ impl MaterialFiles {
         }
     }
 
-    /// Whether there is any material.
+    /// Returns whether there are no materials.
     pub fn is_empty(&self) -> bool {
         self.statements.is_empty()
     }
 
-    /// The files that maps name, each with the folder of its material file.
+    /// Iterates over the files of maps, each with the folder of its material file.
     pub fn pictures(&self) -> impl Iterator<Item = (&str, String)> {
         self.statements.values().flat_map(|statements| {
             let maps = statements
@@ -67,14 +67,14 @@ impl MaterialFiles {
         })
     }
 
-    /// The keywords of maps that a material has.
+    /// Iterates over the keywords of maps that a material has.
     pub fn maps_of(&self, name: &str) -> impl Iterator<Item = &str> {
         let words = self.statements.get(name).into_iter();
         let keywords = words.flat_map(|statements| statements.words.keys());
         keywords.map(String::as_str).filter(|k| is_map(k))
     }
 
-    /// A material, and the folder that its maps are relative to; what of it is left out is added to `dropped`.
+    /// Returns a material, and the folder to which its maps are relative; adds keywords that are left out to `dropped`.
     pub fn material(&self, name: &str, dropped: &mut Dropped) -> Option<(Material, &str)> {
         let statements = self.statements.get(name)?;
         let mut reader = Reader {
@@ -90,7 +90,7 @@ impl MaterialFiles {
     }
 }
 
-/// Whether a keyword names a picture.
+/// Returns whether a keyword refers to a picture.
 fn is_map(keyword: &str) -> bool {
     keyword.starts_with("map_") && keyword != "map_aat"
         || matches!(
@@ -99,7 +99,7 @@ fn is_map(keyword: &str) -> bool {
         )
 }
 
-/// Goes through the statements of a material and remembers which it has used.
+/// Reads the statements of a material and records those it has used.
 struct Reader<'a> {
     words: &'a BTreeMap<String, String>,
     used: BTreeSet<&'static str>,
@@ -151,7 +151,7 @@ impl Reader<'_> {
         Some(number)
     }
 
-    /// Three numbers, or one for all three, none negative.
+    /// Returns three numbers, or one for all three, clamped to be nonnegative.
     fn color(&mut self, keyword: &'static str) -> Option<[f64; 3]> {
         let words = self.words.get(keyword)?.split_whitespace();
         let numbers: Result<Vec<f64>, _> = words.take(3).map(str::parse).collect();
@@ -176,7 +176,7 @@ impl Reader<'_> {
         Some(map)
     }
 
-    /// Whether `map_d` is the alpha of `map_Kd`; another picture cannot be had beside it.
+    /// Returns whether `map_d` is the alpha of `map_Kd`; another picture cannot be combined with it.
     fn is_cut_out(&mut self, color_map: Option<&Map>) -> bool {
         let alpha = self.words.get("map_d").and_then(|rest| Map::parse(rest));
         let is_same =
@@ -187,7 +187,7 @@ impl Reader<'_> {
         is_same
     }
 
-    /// Roughness and metalness where both are channels of one picture.
+    /// Returns the map of roughness and metalness if both are channels of one picture.
     fn metallic_roughness_map(&mut self) -> Option<Map> {
         let parse = |keyword| self.words.get(keyword).and_then(|rest| Map::parse(rest));
         let (roughness, metallic) = (parse("map_pr")?, parse("map_pm")?);
@@ -199,7 +199,7 @@ impl Reader<'_> {
         Some(roughness)
     }
 
-    /// A normal map, and whether it is only called a bump map, as many tools do.
+    /// Returns a normal map, and whether it is only called a bump map, as in many tools.
     fn normal_map(&mut self) -> (Option<Map>, bool) {
         let normal = self.map("norm");
         let bump = self.map("map_bump").or_else(|| self.map("bump"));
@@ -218,7 +218,7 @@ impl Reader<'_> {
         }
     }
 
-    /// What was not used and says something.
+    /// Returns the keywords that were not used although they have an effect.
     fn left(&self) -> Vec<String> {
         let says_something = |(keyword, rest): &(&String, &String)| {
             let is_idle = IDLE.contains(&keyword.as_str());

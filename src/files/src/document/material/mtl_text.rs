@@ -1,8 +1,8 @@
-//! Writing of material files.
+//! Writer of material files.
 use super::{Map, Material};
 use std::fmt::Write as _;
 
-/// The text of a material file.
+/// Returns the text of a material file.
 pub(in crate::document) fn mtl_text(materials: &[Material]) -> Vec<u8> {
     let mut text = String::new();
     for (k, material) in materials.iter().enumerate() {
@@ -86,7 +86,7 @@ fn push_map(text: &mut String, keyword: &str, options: &str, map: &Map) -> std::
     writeln!(text, " {}", map.path)
 }
 
-/// The number without what rounding has added to it.
+/// Removes rounding noise from a number.
 fn short(x: f64) -> f64 {
     (x * 1e9).round() / 1e9 + 0.0
 }

@@ -1,9 +1,9 @@
-//! Materials of glTF.
+//! Conversion of materials from glTF.
 use super::mtl::Dropped;
 use super::{Map, Material};
 use serde_json::Value;
 
-/// Extensions of which something is carried, with the members that are.
+/// Extensions that are partly transferred, with the members that are.
 const CARRIED: [(&str, &[&str]); 5] = [
     (
         "KHR_materials_specular",
@@ -18,7 +18,8 @@ const CARRIED: [(&str, &[&str]); 5] = [
     ("KHR_materials_unlit", &[]),
 ];
 
-/// A material by the name `name`; `map` makes maps of texture infos. What MTL has no place for is added to `lost`.
+/// Converts a material under the name `name`; `map` converts texture infos to maps. Adds parts that MTL cannot hold to
+/// `lost`.
 pub(in crate::document) fn material(
     object: &Value,
     name: String,
@@ -28,6 +29,7 @@ pub(in crate::document) fn material(
     let new = Material::named(name);
     let at = |pointer: &str| object.pointer(pointer);
     let pbr = |key: &str| at(&format!("/pbrMetallicRoughness/{key}"));
+    // Color, specular reflection, emission, coat and normals.
     let [r, g, b, alpha] = numbers(pbr("baseColorFactor")).unwrap_or([1.0; 4]);
     let mode = at("/alphaMode").and_then(Value::as_str).unwrap_or("OPAQUE");
     let color_map = pbr("baseColorTexture").and_then(&mut map);
@@ -67,7 +69,7 @@ pub(in crate::document) fn material(
     }
 }
 
-/// Names of what MTL has no place for.
+/// Returns the names of parts that MTL cannot hold.
 fn lost_parts(object: &Value, mode: &str) -> Vec<String> {
     let mut lost = Vec::new();
     if object.get("occlusionTexture").is_some() {

@@ -1,16 +1,16 @@
-//! Pictures that material files name, among the files that were supplied.
+//! Pictures of material files, among the supplied files.
 use super::super::gltf::normalized;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The files of an upload.
+/// Files of an upload.
 pub(in crate::document) struct Pictures<'a> {
     resources: &'a BTreeMap<String, Vec<u8>>,
-    /// Those that were named and are not there.
+    /// Paths of pictures that were not supplied.
     pub missing: BTreeSet<String>,
 }
 
 impl<'a> Pictures<'a> {
-    /// Those among the files of an upload.
+    /// Searches among the files of an upload.
     pub fn among(resources: &'a BTreeMap<String, Vec<u8>>) -> Self {
         Self {
             resources,
@@ -18,7 +18,7 @@ impl<'a> Pictures<'a> {
         }
     }
 
-    /// Name and content of a picture that a material file in `folder` names.
+    /// Returns name and content of a picture named by a material file in `folder`.
     pub fn find(&mut self, folder: &str, path: &str) -> Option<(&'a str, &'a [u8])> {
         let resources = self.resources;
         let found = Self::candidates(folder, path)
@@ -31,8 +31,9 @@ impl<'a> Pictures<'a> {
         found
     }
 
-    /// What the path may mean: relative to the material file, to the main file, or, as absolute paths are those of another
-    /// machine, a file of that name beside one of them. Nothing climbs out of the main file's folder.
+    /// Iterates over the possible meanings of a path: relative to the material file, to the main file, or, as absolute
+    /// paths belong to another machine, a file of that name in the folder of one of them. None leaves the main file's
+    /// folder.
     pub fn candidates(folder: &str, path: &str) -> impl Iterator<Item = String> {
         let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
         let within =

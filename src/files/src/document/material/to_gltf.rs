@@ -1,4 +1,4 @@
-//! Materials in glTF.
+//! Conversion of materials to glTF.
 use super::{Map, Material, Pictures};
 use crate::document::gltf::encoded;
 use crate::document::{Warning, warning};
@@ -10,18 +10,18 @@ const CLAMP_TO_EDGE: usize = 33071;
 /// Materials of a new glTF file with their textures.
 pub(in crate::document) struct GltfMaterials<'a> {
     pictures: Pictures<'a>,
-    /// Files that images are in.
+    /// Files of the images.
     pub resources: BTreeMap<String, Vec<u8>>,
     materials: Vec<Value>,
     images: Vec<Value>,
     textures: Vec<Value>,
     extensions: BTreeSet<&'static str>,
-    /// Bump maps that are taken for normal maps, and those that are not.
+    /// Bump maps that are taken as normal maps, and those that are not.
     bump_maps: [BTreeSet<String>; 2],
 }
 
 impl<'a> GltfMaterials<'a> {
-    /// None yet; their pictures are among these files.
+    /// Starts without materials; their pictures are among these files.
     pub fn new(resources: &'a BTreeMap<String, Vec<u8>>) -> Self {
         Self {
             pictures: Pictures::among(resources),
@@ -34,9 +34,10 @@ impl<'a> GltfMaterials<'a> {
         }
     }
 
-    /// Appends a material whose maps are relative to `folder`. Whether it has textures.
+    /// Appends a material whose maps are relative to `folder`. Returns whether it has textures.
     pub fn push(&mut self, material: &Material, folder: &str) -> bool {
         let n_textures = self.textures.len();
+        // Members of the core specification.
         let mut pbr =
             json!({"metallicFactor": material.metallic, "roughnessFactor": material.roughness});
         let [r, g, b] = material.color.map(|x| x.min(1.0));
@@ -71,6 +72,7 @@ impl<'a> GltfMaterials<'a> {
         if material.alpha < 1.0 || material.is_cut_out {
             json["alphaMode"] = json!("BLEND");
         }
+        // Extensions.
         let extensions = extensions(material, glow);
         if !extensions.is_empty() {
             self.extensions
@@ -84,14 +86,14 @@ impl<'a> GltfMaterials<'a> {
         self.textures.len() > n_textures
     }
 
-    /// Lets `parent` have a texture, if the picture is there.
+    /// Adds a texture to `parent`, if the picture exists.
     fn put(&mut self, parent: &mut Value, slot: &str, map: Option<&Map>, folder: &str) {
         if let Some(info) = map.and_then(|map| self.info(map, folder)) {
             parent[slot] = info;
         }
     }
 
-    /// Pictures of one channel are heights and no directions.
+    /// Adds the normal map, unless it is a bump map of one channel, which holds heights, not directions.
     fn put_normal_map(&mut self, json: &mut Value, material: &Material, folder: &str) {
         let Some(map) = &material.normal_map else {
             return;
@@ -137,7 +139,7 @@ impl<'a> GltfMaterials<'a> {
         Some(info)
     }
 
-    /// Adds what there is to the members of a glTF file.
+    /// Adds the nonempty collections to the members of a glTF file.
     pub fn insert_into(&self, json: &mut Value) {
         let collections = [
             ("materials", &self.materials),
@@ -161,7 +163,7 @@ impl<'a> GltfMaterials<'a> {
         }
     }
 
-    /// What could not be carried.
+    /// Returns warnings about content that could not be transferred.
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = Vec::new();
         let listed = |names: &BTreeSet<String>| warning::listed(names.iter().map(String::as_str));
@@ -191,7 +193,7 @@ impl<'a> GltfMaterials<'a> {
     }
 }
 
-/// Extensions for what the core has no place for.
+/// Returns the extensions for content outside the core.
 fn extensions(material: &Material, glow: f64) -> Vec<(&'static str, Value)> {
     let mut extensions = Vec::new();
     if glow > 1.0 {
@@ -221,7 +223,7 @@ fn extensions(material: &Material, glow: f64) -> Vec<(&'static str, Value)> {
     extensions
 }
 
-/// The index of an object, which is appended where there is none like it.
+/// Returns the index of an object, which is appended if there is no equal one.
 fn place_of(objects: &mut Vec<Value>, wanted: Value) -> usize {
     let found = objects.iter().position(|object| *object == wanted);
     found.unwrap_or_else(|| {
@@ -230,7 +232,7 @@ fn place_of(objects: &mut Vec<Value>, wanted: Value) -> usize {
     })
 }
 
-/// Whether a PNG or JPEG has one channel, by its header.
+/// Returns whether a PNG or JPEG has one channel, by its header.
 fn is_gray(bytes: &[u8]) -> bool {
     if bytes.starts_with(&[0x89, b'P', b'N', b'G']) {
         // The type of color stands at the end of the first chunk; 4 is gray with alpha.

@@ -1,9 +1,9 @@
 //! Gmsh `.msh` of versions 2.2 and 4.1, text and binary.
 //!
-//! Nodes, triangles and tetrahedra are read; points and lines, which describe boundaries, and all other sections are passed
-//! over. Elements of other shapes or higher order are refused, as the mesh would have holes or corners without them.
-//! Read without a library: of the crates at hand `mshio` (last release 2020) reads 4.1 only, `msh-rw` and `rutile` (2020, 2021)
-//! call themselves unfinished; the two versions share everything but their framing.
+//! Nodes, triangles and tetrahedra are read; points and lines, which describe boundaries, and all other sections are
+//! skipped. Elements of other shapes or higher order are refused, as the mesh would have holes or missing corners
+//! without them. Read without a library: of the available crates `mshio` (last release 2020) reads only 4.1, `msh-rw`
+//! and `rutile` (2020, 2021) call themselves unfinished; the two versions share everything except their framing.
 mod reader;
 mod writer;
 
@@ -24,7 +24,7 @@ enum Version {
     V41,
 }
 
-/// Whether the text begins with the format's first section.
+/// Returns whether the text begins with the format's first section.
 pub(super) fn has_header(text: &[u8]) -> bool {
     text.starts_with(b"$MeshFormat")
 }
@@ -57,7 +57,7 @@ pub fn read(bytes: &[u8]) -> Result<Elements, ReadError> {
     Ok(reader.elements)
 }
 
-/// Version and encoding: `version is-binary size-of-numbers`, and in binary files the number 1.
+/// Reads version and encoding: `version is-binary size-of-numbers`, and in binary files the number 1.
 fn read_header(cursor: &mut Cursor) -> Result<Version, ReadError> {
     let version: f64 = cursor.parse("expected a version")?;
     let binary: u32 = cursor.parse("0 or 1 is expected")?;

@@ -6,16 +6,16 @@ use super::super::{ReadError, position};
 use super::{TETRAHEDRON, TRIANGLE};
 use std::collections::HashMap;
 
-/// Nodes and elements of a file so far.
+/// Nodes and elements of a file read so far.
 pub(super) struct Reader<'a> {
     pub cursor: Cursor<'a>,
     pub elements: Elements,
-    /// Tags of nodes need not be consecutive.
+    /// Vertex of each node tag; tags need not be consecutive.
     vertex_of_tag: HashMap<u64, u32>,
 }
 
 impl<'a> Reader<'a> {
-    /// Nothing read yet; the cursor stands behind the header.
+    /// Creates a reader with the cursor behind the header.
     pub fn new(cursor: Cursor<'a>) -> Self {
         Self {
             cursor,
@@ -101,14 +101,14 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// In binary files the numbers begin on the line after the keyword or the count.
+    /// Moves to the numbers, which in binary files begin on the line after the keyword or the count.
     fn begin_numbers(&mut self) {
         if self.cursor.encoding != Encoding::Text {
             self.cursor.end_line();
         }
     }
 
-    /// Numbers of blocks and of entries, smallest and greatest tag.
+    /// Reads the numbers of blocks and of entries, and the smallest and greatest tag.
     fn four_sizes(&mut self) -> Result<[u64; 4], ReadError> {
         let mut next = || self.cursor.size();
         Ok([next()?, next()?, next()?, next()?])
@@ -156,7 +156,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// How many nodes an element has: triangles, tetrahedra, points, and lines of any order.
+/// Returns the number of nodes of an element; known are triangles, tetrahedra, points, and lines of any order.
 fn n_nodes(element_type: i32) -> Option<usize> {
     Some(match element_type {
         15 => 1,

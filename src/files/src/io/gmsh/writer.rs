@@ -1,7 +1,7 @@
 use super::{Elements, TETRAHEDRON, TRIANGLE};
 use std::fmt::Write;
 
-/// The text of the elements in version 2.2, which more programs read than 4.1; triangles before tetrahedra.
+/// Returns the text of the elements in version 2.2, which more programs read than 4.1; triangles before tetrahedra.
 pub fn write(elements: &Elements) -> String {
     let n_vertices = elements.vertices.len();
     let mut text = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{n_vertices}\n");

@@ -1,10 +1,10 @@
-//! The data: numbers as text or bytes of either order, one after the other.
+//! PLY data: numbers as text or bytes of either order, one after the other.
 
 use super::super::{ReadError, number};
 use super::header::{Encoding, Scalar};
 use super::malformed;
 
-/// What follows the header.
+/// The data after the header.
 pub(super) struct Data<'a> {
     pub bytes: &'a [u8],
     pub at: usize,
@@ -12,7 +12,7 @@ pub(super) struct Data<'a> {
 }
 
 impl Data<'_> {
-    /// The next number.
+    /// Reads the next number.
     pub fn next(&mut self, scalar: Scalar) -> Result<f64, ReadError> {
         let big = self.encoding == Encoding::BigEndian;
         if self.encoding == Encoding::Text {
@@ -30,7 +30,7 @@ impl Data<'_> {
         })
     }
 
-    /// The next `N` bytes, least significant first.
+    /// Takes the next `N` bytes, least significant first.
     fn take<const N: usize>(&mut self, big: bool) -> Result<[u8; N], ReadError> {
         let taken = self.bytes[self.at..].first_chunk::<N>();
         let mut taken = *taken.ok_or_else(|| malformed(self.at, "the file ends early"))?;
@@ -53,7 +53,7 @@ impl Data<'_> {
         Ok(value)
     }
 
-    /// The items of a list, kept as indices where `kept` is given.
+    /// Reads the items of a list, kept as indices if `kept` is given.
     pub fn list(
         &mut self,
         n_items: u64,

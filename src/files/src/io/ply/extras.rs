@@ -1,4 +1,4 @@
-//! What a PLY file has beside the shape: colors of vertices, and names of what is not read.
+//! Additional data of a PLY file: colors of vertices, and names of properties that are not read.
 
 use super::data::Data;
 use super::header::{Element, Header, Kind, Scalar, header};
@@ -17,16 +17,16 @@ const COLORS: [[&[u8]; 4]; 3] = [
     [b"r", b"g", b"b", b"a"],
 ];
 
-/// What is not the shape.
+/// Data besides the shape.
 #[derive(Debug, Default, Clone, PartialEq)]
 pub struct Extras {
-    /// Red, green, blue and alpha of each vertex, 1 at most, as the file has them.
+    /// Red, green, blue and alpha of each vertex, at most 1, in the encoding of the file.
     pub colors: Option<Vec<[f64; 4]>>,
-    /// Properties and elements that are not read, `vertex nx` and the like.
+    /// Names of properties and elements that are not read, such as `vertex nx`.
     pub left_out: Vec<String>,
 }
 
-/// Reads what [`read`](super::read) passes over.
+/// Reads the data that [`read`](super::read) skips.
 pub fn extras(bytes: &[u8]) -> Result<Extras, ReadError> {
     let header = header(bytes)?;
     let is_vertex = |element: &&Element| element.name == b"vertex";
@@ -40,7 +40,7 @@ pub fn extras(bytes: &[u8]) -> Result<Extras, ReadError> {
     })
 }
 
-/// Where the color stands among the properties, three or four of them.
+/// Returns the places of the color channels among the properties, three or four of them.
 fn channels(element: &Element) -> Option<Vec<usize>> {
     let place = |name: &[u8]| element.properties.iter().position(|p| p.name == name);
     COLORS.iter().find_map(|[r, g, b, a]| {
@@ -77,7 +77,7 @@ fn colors(bytes: &[u8], header: &Header, channels: &[usize]) -> Result<Vec<[f64;
     Ok(colors)
 }
 
-/// The number that stands for all of a color.
+/// Returns the number that stands for full intensity.
 fn largest(element: &Element, property: usize) -> f64 {
     match element.properties.get(property).map(|p| &p.kind) {
         Some(Kind::Scalar(Scalar::U8)) => 255.0,

@@ -1,4 +1,4 @@
-//! The header: which elements follow, with which properties, in which encoding.
+//! PLY header: the elements that follow, their properties and their encoding.
 
 use super::super::{ReadError, number, words};
 use super::malformed;
@@ -51,6 +51,7 @@ pub(super) fn header(bytes: &[u8]) -> Result<Header, ReadError> {
     let mut encoding = None;
     let mut at = 0;
     loop {
+        // The next line.
         let rest = &bytes[at..];
         let length = rest.iter().position(|&b| b == b'\n' || b == b'\r');
         let length = length.ok_or_else(|| malformed(at, "the header has no end"))?;
@@ -60,6 +61,7 @@ pub(super) fn header(bytes: &[u8]) -> Result<Header, ReadError> {
         } else {
             1
         };
+        // Its meaning.
         let mut line_words = words(line);
         match line_words.next().unwrap_or_default() {
             b"end_header" => {

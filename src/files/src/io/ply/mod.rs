@@ -1,9 +1,10 @@
 //! PLY, text and binary of both byte orders.
 //!
-//! A header declares elements and their properties, the data follow in that order. Used are `x y z` of `vertex`
-//! and the list `vertex_indices` (or `vertex_index`) of `face`; everything else is passed over by its declared
-//! size ([`extras`](fn@extras) has the colors). Read without a library: the kept one at hand refuses `nan` anywhere in a text file, numbers such as `1.`
-//! and comments that are not UTF-8, and runs for ever on an element that has a count but no properties.
+//! A header declares elements and their properties, the data follow in that order. The reader uses `x y z` of `vertex`
+//! and the list `vertex_indices` (or `vertex_index`) of `face`; everything else is skipped by its declared size
+//! ([`extras`](fn@extras) has the colors). Read without a library: the maintained one refuses `nan` anywhere in a text
+//! file, numbers such as `1.` and comments that are not UTF-8, and loops forever on an element that has a count but no
+//! properties.
 mod data;
 mod extras;
 mod header;
@@ -23,7 +24,7 @@ fn malformed(at: usize, cause: &'static str) -> ReadError {
     }
 }
 
-/// Whether the file begins with the format's first line.
+/// Returns whether the file begins with the format's first line.
 pub(super) fn has_header(head: &[u8]) -> bool {
     head.starts_with(b"ply") && matches!(head.get(3), Some(b'\n' | b'\r' | b' '))
 }
@@ -76,7 +77,7 @@ fn read_vertices(
     })
 }
 
-/// Faces may come before the vertices: their indices are compared with the vertices at the end of the file.
+/// Reads faces. They may come before the vertices: their indices are compared with the vertices at the end of the file.
 fn read_faces(element: &Element, data: &mut Data, faces: &mut Faces) -> Result<(), ReadError> {
     let list = element.properties.iter().position(|p| {
         matches!(p.kind, Kind::List { .. })
@@ -90,13 +91,13 @@ fn read_faces(element: &Element, data: &mut Data, faces: &mut Faces) -> Result<(
     })
 }
 
-/// One element: the scalars by property (a list counts as 0), and the list that was asked for.
+/// One record: the scalars by property (a list counts as 0), and the requested list.
 struct Record {
     scalars: Vec<f64>,
     list: Vec<i64>,
 }
 
-/// Reads all records of an element. Each takes at least a byte, so a false count ends with the file.
+/// Reads all records of an element. Each takes at least one byte, so a false count ends with the file.
 fn read_records(
     element: &Element,
     data: &mut Data,
