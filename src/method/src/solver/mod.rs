@@ -13,8 +13,8 @@
 //! go as fast as the others allow. [`levenberg()`] is the iteration of the paper itself, kept for comparison: it shifts
 //! the Hessian until it factors instead of projecting it, and holds handles by soft constraints.
 //!
-//! Invariant: with an energy that forbids flips every iterate, and so every result however the solver ended, has det J
-//! > 0 in every element, and while no handle moves the energy falls from iterate to iterate. The solver knows no energy
+//! Invariant: with an energy that forbids flips every iterate, and so every result however the solver ended, has
+//! det J > 0 in every element, and while no handle moves the energy falls from iterate to iterate. The solver knows no energy
 //! by name, has no clock and no randomness; a [`Watch`] may end it early.
 
 mod directions;
