@@ -15,7 +15,7 @@ const MOST: usize = 300;
 /// Heights of bends to choose from, in units of [`BEND`].
 const HEIGHTS: [f64; 6] = [-2.0, -1.0, -0.5, 0.5, 1.0, 2.0];
 
-/// Greedily chooses a bend for each path, in several sweeps, so that handles moving at the same time come as little
+/// Chooses a bend for each path greedily, in several sweeps, so that handles moving at the same time come as little
 /// closer to each other than at the start or the end as possible. With more than [`MOST`] paths all stay straight.
 pub(super) fn apart(ways: &[Way], axes: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let mut bends = vec![[0.0; 3]; ways.len()];

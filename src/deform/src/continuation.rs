@@ -75,7 +75,7 @@ impl Problem {
         Ok(best)
     }
 
-    /// Returns the problem of moving nothing: its targets are met and it starts from a solution.
+    /// Returns this problem with only its last station and without search, starting from a solution.
     fn from(&self, solution: &Solution) -> Self {
         Self {
             start: solution.x.clone(),

@@ -184,8 +184,8 @@ impl Problem {
         Ok(self)
     }
 
-    /// With a barrier, untangles elements of the start at or below ε, moving as little as possible. Handles may move
-    /// too; their paths then start from there.
+    /// Untangles elements of the start at or below ε, moving as little as possible; does nothing without a barrier.
+    /// Handles may move too; their paths then start from there.
     pub fn untangle_start(&mut self) -> Result<(), ProblemError> {
         if self.barrier.kind == BarrierKind::None {
             return Ok(());

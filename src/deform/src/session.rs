@@ -16,8 +16,8 @@ use unwrapd_method::solver::{Handles, Stage, Summary};
 /// A session in which a body is deformed: its mesh and energy are built once, handles are added, moved and removed, and
 /// the map follows an iteration at a time, every iterate valid.
 ///
-/// Positions, handles and radii are in the unit of the body, as for [`Problem`]; internally its mean element has size
-/// 1. Without further changes a session settles where [`Problem::solve`] ends. A surface in a [`cage`](super::cage) is
+/// Positions, handles and radii are in the unit of the body, as for [`Problem`]; internally its mean element has
+/// size 1. Without further changes a session settles where [`Problem::solve`] ends. A surface in a [`cage`](super::cage) is
 /// carried along by [`Cage::interpolate`](super::cage::Cage::interpolate). Paths are not bent: the user who drags
 /// chooses the path.
 ///
@@ -165,8 +165,8 @@ impl Session {
         self.live.step()
     }
 
-    /// Iterates while there is something to do and `go_on`, which is called before each iteration, returns `true`: a
-    /// time slice, if it checks a clock.
+    /// Runs iterations while there is something to do and `go_on`, called before each, returns `true`: a time slice, if
+    /// it checks a clock.
     pub fn step_while(&mut self, mut go_on: impl FnMut(&Self) -> bool) -> Stage {
         while self.stage() == Stage::Moving && go_on(self) {
             self.step();
@@ -237,7 +237,7 @@ impl Session {
         self.restore(state)
     }
 
-    /// Returns to rest, without handles. The history is kept.
+    /// Resets the body to rest, without handles. The history is kept.
     pub fn reset(&mut self) {
         let rest = State {
             x: self.live.problem().body.rest.clone(),

@@ -2,8 +2,7 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | [`mesh`] | surfaces welded by position, adjacency, defects; [`mesh::Disk`], proven to be one disk; planar and
-//!   tetrahedral meshes |
+//! | [`mesh`] | surfaces welded by position, adjacency, defects; [`mesh::Disk`], proven to be one disk; planar and tetrahedral meshes |
 //! | [`plane`] | geometry of the plane: a spatial index, segments, polygons, overlapping triangles |
 //! | [`cut`] | surfaces opened along seams to disks |
 //! | [`embed`] | a valid start for every disk, and its optimization |

@@ -25,7 +25,7 @@ impl UvSession {
         self.restore(state)
     }
 
-    /// Returns to the map at the start, without anchors. The history is kept.
+    /// Resets the map to its start, without anchors. The history is kept.
     pub fn reset(&mut self) {
         self.restore(Some(State {
             anchors: BTreeMap::new(),
@@ -41,7 +41,7 @@ impl UvSession {
         }
     }
 
-    /// Restores a state; charts that were not held then return to their start.
+    /// Restores a state, if any, and returns whether that succeeded; charts that were not held then go back to their start.
     fn restore(&mut self, state: Option<State>) -> bool {
         let Some(State { anchors, charts }) = state else {
             return false;

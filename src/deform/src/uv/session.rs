@@ -210,7 +210,7 @@ impl UvSession {
         self.stage()
     }
 
-    /// Iterates while there is something to do and `go_on`, which is called before each iteration, returns `true`.
+    /// Runs iterations while there is something to do and `go_on`, called before each, returns `true`.
     pub fn step_while(&mut self, mut go_on: impl FnMut(&Self) -> bool) -> Stage {
         while self.stage() == Stage::Moving && go_on(self) {
             self.step();

@@ -152,7 +152,7 @@ fn join(parts: &mut [Part]) -> usize {
     n_parts
 }
 
-/// Counts the groups of objects that have more than one.
+/// Counts the groups of objects that have more than one group.
 fn lost_groups(polygons: &[[Option<u32>; 3]]) -> usize {
     let pairs: BTreeSet<_> = polygons.iter().map(|[o, g, _]| (*o, *g)).collect();
     let pairs: Vec<_> = pairs.into_iter().collect();

@@ -13,11 +13,9 @@ pub(super) const LEVELS: [u32; 3] = [12, 14, 16];
 /// Returns the coarsest of 23, 16, 14 and 12 bits at which all faces of nonzero orientation keep it.
 ///
 /// - 23 bits: it is kept when every coordinate is rounded to the nearest multiple of 2⁻²³. This is the grid that this
-///   program writes;
-/// coordinates on it do not move.
-/// - b = 16, 14, 12: it is kept however each coordinate moves by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶. That covers every quantizer
-///   that rounds to
-/// i/(2ᵇ−1) and stores the result in 16 bits, over the unit square or over a smaller box.
+///   program writes; coordinates on it do not move.
+/// - b = 16, 14, 12: it is kept however each coordinate moves by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶. That covers every
+///   quantizer that rounds to i/(2ᵇ−1) and stores the result in 16 bits, over the unit square or over a smaller box.
 ///
 /// Decided in integers. Coordinates that are not multiples of 2⁻⁴⁰ are truncated and the move is allowed for, so that a
 /// doubt is never resolved in favor of the map.

@@ -6,8 +6,7 @@
 //! - a sheet of genus 0 with a boundary stays as it is;
 //! - a closed sheet of genus 0 gets a slit between two vertices far apart, with branches to vertices far from it;
 //! - any other gets a cut graph: the tree–cotree decomposition (Eppstein 2003) rooted in the shortest loop that does
-//!   not separate,
-//! greedily as Erickson and Whittlesey (2005) choose their loops, leaving its holes alone.
+//!   not separate, greedily as Erickson and Whittlesey (2005) choose their loops, leaving its holes alone.
 //!
 //! The decomposition never needs an orientation, so a Möbius strip is opened by the same code as a torus. Cut parts can
 //! be joined again at single edges ([`join_disks`]): two disks glued along one edge are a disk, whatever they were cut

@@ -8,15 +8,13 @@
 //! - Positions are welded by equality; charts, seams and winding are those of [`certificate`](crate::certificate).
 //! - With a texture that is not square u is first multiplied by its width over its height: lengths are those of texels.
 //! - UVs are scaled by s = √(A₃d / A_uv) before distortion is computed, so that total areas agree; σ₁ ≥ σ₂ are the
-//!   singular values of a
-//! face's scaled map from the surface to UV. Means and percentiles are weighted by surface area.
-//! - If faces have weights, the intended densities, the surface is enlarged by them for distortion and density; areas,
-//!   means and seams stay
-//! those of the surface.
+//!   singular values of a face's scaled map from the surface to UV. Means and percentiles are weighted by surface
+//!   area.
+//! - If faces have weights, the intended densities, the surface is enlarged by them for distortion and density;
+//!   areas, means and seams stay those of the surface.
 //! - A face is degenerate in 3D if its area is 0, below 10⁻⁹ of its longest edge squared, or below 10⁻¹⁴ of the
-//!   bounding box diagonal
-//! squared. Such faces and those of zero UV area are excluded from distortion, but counted separately, so that a
-//! collapse cannot hide.
+//!   bounding box diagonal squared. Such faces and those of zero UV area are excluded from distortion, but counted
+//!   separately, so that a collapse cannot hide.
 //! - Orientation and overlap are exact; everything else is a sum of f64. Figures that do not exist for a mesh are
 //!   `None`.
 

@@ -8,8 +8,9 @@ use crate::energy::Guard;
 /// φ = β (1/g(y) − 1)   for y < 1, 0 above     y = (λ − ε)/(s (λ⁰ − ε))     g(y) = y³ − 3y² + 3y
 /// ```
 /// λ is the element's size, area or volume, λ⁰ at rest. Minimum 0, at y ≥ 1: with s = 1 from the rest size on; twice
-/// continuously differentiable there. The paper has sλ⁰, its authors' code s(λ⁰ − ε), which is zero at rest. Not weighted; β and ε are absolute, so scale a mesh to a mean size of 1 first. Domain λ > ε, +∞ outside.
-/// From: Schüller et al. 2013, equations 2 to 6. Tests: `barrier::taylor_*`, `barrier::spline_is_infinite_at_epsilon`.
+/// continuously differentiable there. The paper has sλ⁰, its authors' code s(λ⁰ − ε), which is zero at rest. Not
+/// weighted; β and ε are absolute, so scale a mesh to a mean size of 1 first. Domain λ > ε, +∞ outside. From: Schüller
+/// et al. 2013, equations 2 to 6. Tests: `barrier::taylor_*`, `barrier::spline_is_infinite_at_epsilon`.
 #[derive(Clone, Copy, Debug)]
 pub struct InverseSpline {
     /// β, the strength.

@@ -14,8 +14,8 @@ pub fn smallest_root_below([c0, c1, c2, c3]: [f64; 4], best: f64) -> f64 {
     }
 }
 
-/// Solves a quadratic. The roots are q/c₂ and c₀/q with q = −½(c₁ ± √disc), the sign that of c₁: this avoids
-/// cancellation and a special case for c₂ = 0.
+/// Returns the smallest positive root of a quadratic if it is below `best`, else `best`. The roots are q/c₂ and c₀/q
+/// with q = −½(c₁ ± √disc), the sign that of c₁: this avoids cancellation and a special case for c₂ = 0.
 fn quadratic([c0, c1, c2]: [f64; 3], best: f64) -> f64 {
     let discriminant = c1 * c1 - 4.0 * c0 * c2;
     if discriminant < 0.0 {
@@ -28,8 +28,9 @@ fn quadratic([c0, c1, c2]: [f64; 3], best: f64) -> f64 {
         .fold(best, f64::min)
 }
 
-/// Solves a cubic. Between its turning points the polynomial is monotone: the first such piece that ends below zero
-/// holds the root, which bisection finds from the positive side.
+/// Returns the smallest positive root of a cubic if it is below `best`, else `best`. Between its turning points the
+/// polynomial is monotone: the first such piece that ends below zero holds the root, which bisection finds from the
+/// positive side.
 fn cubic(c: [f64; 4], best: f64) -> f64 {
     let [c0, c1, c2, c3] = c;
     let value = |t: f64| c0 + t * (c1 + t * (c2 + t * c3));

@@ -14,8 +14,8 @@
 //! the Hessian until it factors instead of projecting it, and holds handles by soft constraints.
 //!
 //! Invariant: with an energy that forbids flips every iterate, and so every result however the solver ended, has
-//! det J > 0 in every element, and while no handle moves the energy falls from iterate to iterate. The solver knows no
-//! energy by name, has no clock and no randomness; a [`Watch`] may end it early.
+//! det J > 0 in every element, and while no handle moves the energy falls from iterate to iterate. The solver knows no energy
+//! by name, has no clock and no randomness; a [`Watch`] may end it early.
 
 mod drag;
 mod flow;

@@ -1,4 +1,4 @@
-//! Pictures of textures as files besides an OBJ file.
+//! Pictures of textures as separate files next to an OBJ file.
 use super::body::Body;
 use super::json::{extension, item, unsigned};
 use super::obj_names::Taken;

@@ -5,7 +5,7 @@ use crate::document::warning::listed;
 use crate::document::{Warning, WriteOptions};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Warns about new UVs that are not in set 0, with the reason, and about sets that had to be filled.
+/// Returns warnings about new UVs that are not in set 0, with the reason, and about sets that had to be filled.
 pub(super) fn set_warnings(
     document: &GltfDocument,
     (choices, textures): (&[Option<Choice>], &Textures),

@@ -3,7 +3,7 @@ use super::{GltfDocument, names};
 use crate::document::warning::listed;
 use crate::document::{Warning, WriteNotes};
 
-/// Warns about textures that show the old layout, and about those that could not be resampled, with the reason.
+/// Returns warnings about textures that show the old layout, and about those that could not be resampled, with the reason.
 pub(super) fn texture_warnings(document: &GltfDocument, notes: &WriteNotes) -> Vec<Warning> {
     let named = |slot: &str, material: Option<usize>| {
         let slot = slot.rsplit('/').next().unwrap_or_default();
