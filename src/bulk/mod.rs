@@ -19,7 +19,6 @@
 //! The work itself is done by a [`Worker`]: a child process ([`Local`]), or a service ([`Remote`]).
 
 mod asset;
-mod digest;
 mod folder;
 mod list_error;
 mod local;
@@ -27,17 +26,14 @@ mod manifest;
 mod one;
 mod order;
 mod place;
-mod publish;
 mod record;
 mod regular;
 mod remote;
 mod row;
 mod run;
-mod scratch;
 mod shard;
 mod summary;
 mod trouble;
-mod whole;
 mod worker;
 
 pub use asset::Asset;
@@ -45,6 +41,7 @@ pub use folder::{Listing, assets_in};
 pub use list_error::ListError;
 pub use local::Local;
 pub use manifest::assets_of;
+pub use order::Scratch;
 pub use order::{Fate, Order};
 pub use place::Place;
 pub use record::Record;
@@ -52,7 +49,6 @@ pub use regular::{MOST_BYTES, read_bounded, read_regular};
 pub use remote::{Remote, RemoteError};
 pub use row::{Figures, Row, Status};
 pub use run::{Seen, recorded, run};
-pub use scratch::Scratch;
 pub use shard::{Shard, ShardChoice, ShardError, array_variable};
 pub use summary::{Totals, csv};
 pub use worker::{Extra, Task, Worker};

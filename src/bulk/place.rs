@@ -1,12 +1,11 @@
 //! The output folder.
 
-use std::fs;
-use std::io;
+use super::asset::Asset;
+use std::fs::File;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
-
-use super::asset::Asset;
-use super::whole::write_whole;
+use std::{fs, io};
 
 /// Age above which an unfinished file was left by a killed process.
 const PART_AGE: Duration = Duration::from_hours(24);
@@ -81,4 +80,27 @@ impl Place {
     fn part(&self) -> PathBuf {
         self.parts().join(uuid::Uuid::now_v7().to_string())
     }
+}
+
+// Files that are complete or absent, even after a system crash.
+
+/// Writes a file as `part` and moves it to `path`. Syncs the content before the name, and the name before returning.
+///
+/// # Errors
+/// Fails if it cannot be written; the file at `path` is then unchanged.
+fn write_whole(path: &Path, part: &Path, content: &[u8]) -> io::Result<()> {
+    let written = written(part, content).and_then(|()| fs::rename(part, path));
+    if let Err(error) = written {
+        // The first error is the one to tell.
+        let _ = fs::remove_file(part);
+        return Err(error);
+    }
+    let folder = path.parent().filter(|folder| folder != &Path::new(""));
+    File::open(folder.unwrap_or(Path::new(".")))?.sync_all()
+}
+
+fn written(part: &Path, content: &[u8]) -> io::Result<()> {
+    let mut file = File::create_new(part)?;
+    file.write_all(content)?;
+    file.sync_all()
 }

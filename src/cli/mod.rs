@@ -33,7 +33,6 @@ mod man;
 mod measure;
 mod output;
 mod owner_args;
-mod privacy;
 mod process;
 mod progress;
 mod queue;

@@ -9,7 +9,6 @@
 #![doc = include_str!("guide.md")]
 
 mod aims;
-mod apart;
 mod attempt;
 mod axes;
 mod bends;
@@ -21,7 +20,6 @@ pub mod cage;
 mod cells;
 mod continuation;
 mod deformation_energy;
-mod flowed;
 mod handles;
 mod history;
 mod idle;
@@ -37,11 +35,9 @@ mod potential;
 mod problem;
 mod problem_error;
 mod problem_file;
-mod problem_handles;
 mod pull;
 mod session;
 mod shake;
-mod slices;
 mod solve;
 mod turns_left;
 mod units;
@@ -63,8 +59,8 @@ pub use handles::{Bound, Handle, bind};
 pub use potential::Potential;
 pub use problem::{Model, Problem};
 pub use problem_error::ProblemError;
+pub use problem_file::ProblemHandles;
 pub use problem_file::{ProblemFile, Rest};
-pub use problem_handles::ProblemHandles;
 pub use pull::PullSummary;
 pub use session::{HandleId, Session};
 pub use solve::{Method, Solution};

@@ -1,14 +1,15 @@
 //! Choice of paths to the targets: straight ones, and others if those do not lead there.
 
 use super::attempt::{Attempt, Trial};
-use super::flowed::flow_to;
 use super::missing::Missing;
+use super::normalized::Frame;
 use super::problem::Problem;
 use super::problem_error::ProblemError;
 use super::solve::Solution;
+use unwrapd_method::energy::{Positional, Row};
 use unwrapd_method::numerics::rotation::Rotation;
 use unwrapd_method::numerics::square::{Matrix, Square};
-use unwrapd_method::solver::{Pace, Settings, Summary, Watch};
+use unwrapd_method::solver::{Continued, Flow, Handles, Pace, Settings, Summary, Watch, flow};
 
 /// Bends, each all to one side, that are tried before the flow: they bring handles that change places past each other.
 const FIRST: usize = 2;
@@ -140,4 +141,52 @@ where
         missing.alone(trial)?;
     }
     Ok(missing)
+}
+
+// Handles that flow to their targets, each as fast as the others let it.
+
+/// Most iterations.
+const MOST: usize = 500;
+
+/// Moves the map `x` until the handles come no nearer to these targets; handles that can reach their targets are then
+/// close to them.
+fn flow_to(trial: &mut Trial, targets: &Handles, x: &mut [f64]) {
+    let dim = trial.problem.body.dim();
+    let place = |v: u32| &x[dim * v as usize..dim * (v as usize + 1)];
+    let ends = targets.targets.chunks_exact(dim);
+    let is_held = |pair: &(&u32, &[f64])| place(*pair.0) == pair.1;
+    let (held, pulled): (Vec<_>, Vec<_>) = targets.vertices.iter().zip(ends).partition(is_held);
+    let held: Vec<u32> = held.into_iter().map(|(&v, _)| v).collect();
+    let of_vertices = pulled.iter().map(|(v, _)| vec![(**v, 1.0)]);
+    let rows: Vec<Row> = of_vertices.chain(targets.points.iter().cloned()).collect();
+    let ends: Vec<f64> = (pulled.iter().flat_map(|(_, end)| end.iter()))
+        .chain(&targets.point_targets)
+        .copied()
+        .collect();
+    let constraints = |rows, targets| Positional {
+        dim,
+        rows,
+        targets,
+        alpha: 0.0,
+    };
+    trial.objective.fix(&held);
+    trial.objective.pull_at(constraints(rows, ends.clone()));
+    let course = Flow {
+        targets: &ends,
+        edge: Frame::of(&trial.problem.body).squared(1.0).sqrt(),
+    };
+    let settings = Settings {
+        max_iterations: MOST.min(trial.settings.max_iterations),
+        ..trial.settings
+    };
+    let watch = Continued {
+        watch: trial.watch,
+        before: trial.total.iterations,
+    };
+    let done = flow(&mut trial.objective, x, &course, &settings, &watch);
+    trial.objective.pull_at(constraints(
+        targets.points.clone(),
+        targets.point_targets.clone(),
+    ));
+    trial.add(&done);
 }

@@ -18,7 +18,6 @@
 //!
 //! [`Term::renew`]: unwrapd_method::energy::Term::renew
 
-mod contact;
 mod gap;
 mod pairs;
 mod term;

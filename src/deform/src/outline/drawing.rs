@@ -1,10 +1,9 @@
 //! The outline of a drawing's filled shapes.
 
-use super::flatten::{PathError, polygons};
 use super::nesting::Windings;
-use super::style::{Rule, Style};
-use super::{Frame, MOST_LOOPS, MOST_VERTICES, Outline, OutlineError, shape};
-use kurbo::BezPath;
+use super::transform::numbers;
+use super::{Frame, MOST_LOOPS, MOST_VERTICES, Outline, OutlineError, transform};
+use kurbo::{Affine, BezPath, Circle, Ellipse, PathEl, Point, Rect, RoundedRect, Shape};
 use roxmltree::{Document, Node, ParsingOptions};
 use unwrapd_maps::plane::{doubled_polygon_area, meeting_point};
 
@@ -88,7 +87,7 @@ impl Drawing {
             for child in node.children().filter(Node::is_element) {
                 self.visit(child, style, depth + 1)?;
             }
-        } else if let Some(path) = shape::path(node).map_err(OutlineError::InvalidSvg)?
+        } else if let Some(path) = path(node).map_err(OutlineError::InvalidSvg)?
             && style.is_filled
         {
             self.n_paths += 1;
@@ -169,4 +168,232 @@ impl Drawing {
             .filter_map(|(vertices, kept)| kept.then_some(vertices))
             .collect())
     }
+}
+
+// Paths of curves as closed polygons.
+
+/// Largest coordinate of a path.
+const GREATEST: f64 = 1e9;
+
+/// Reason why a path has no polygons.
+enum PathError {
+    /// A coordinate is not finite or beyond [`GREATEST`].
+    OutOfRange,
+    /// The path has more vertices than allowed.
+    TooDetailed,
+    /// A part of the path does not end where it began.
+    Open,
+}
+
+/// Returns the closed polygons of a path, nowhere farther than `tolerance` from its curves, with at most
+/// `most_vertices` in total.
+///
+/// A polygon may repeat its first vertex at its end. Parts of a single point are left out.
+fn polygons(
+    path: BezPath,
+    tolerance: f64,
+    most_vertices: usize,
+) -> Result<Vec<Vec<[f64; 2]>>, PathError> {
+    let in_range = |p: Point| p.x.abs() < GREATEST && p.y.abs() < GREATEST;
+    let is_in_range = |e: &PathEl| e.is_finite() && e.end_point().is_none_or(in_range);
+    if !path.elements().iter().all(is_in_range) {
+        return Err(PathError::OutOfRange);
+    }
+    let mut parts = Parts::default();
+    let mut n_vertices = 0;
+    kurbo::flatten(path, tolerance, |element| {
+        n_vertices += 1;
+        if n_vertices <= most_vertices {
+            parts.push(element);
+        }
+    });
+    parts.begin(None);
+    if n_vertices > most_vertices {
+        Err(PathError::TooDetailed)
+    } else if parts.is_any_open {
+        Err(PathError::Open)
+    } else {
+        Ok(parts.closed)
+    }
+}
+
+/// The finished parts of a path, and the one in progress.
+#[derive(Default)]
+struct Parts {
+    closed: Vec<Vec<[f64; 2]>>,
+    is_any_open: bool,
+    current: Vec<[f64; 2]>,
+}
+
+impl Parts {
+    fn push(&mut self, element: PathEl) {
+        match element {
+            PathEl::MoveTo(p) => self.begin(Some([p.x, p.y])),
+            PathEl::LineTo(p) => self.current.push([p.x, p.y]),
+            // Flattened paths have no other elements than the end of a part. What follows begins where this part did, if it
+            // has no beginning of its own.
+            _ => {
+                let first = self.current.first().copied();
+                self.current.extend(first);
+                self.begin(first);
+            }
+        }
+    }
+
+    /// Ends the current part and begins another one at a point.
+    fn begin(&mut self, first: Option<[f64; 2]>) {
+        let part = std::mem::replace(&mut self.current, first.into_iter().collect());
+        if part.len() > 1 {
+            self.is_any_open |= part.first() != part.last();
+            self.closed.push(part);
+        }
+    }
+}
+
+// SVG's basic shapes as paths.
+
+/// Largest error of the curves of circles and ellipses, in user units, before any flattening.
+const ARC_TOLERANCE: f64 = 1e-4;
+
+/// Returns the path of a shape element; `Ok(None)` for other elements and for shapes without extent.
+fn path(node: Node) -> Result<Option<BezPath>, String> {
+    // A missing attribute is zero.
+    let length = |name: &str| match node.attribute(name) {
+        None => Ok(0.0),
+        Some(text) => parse_length(text).ok_or_else(|| format!("`{name}` is not a number: {text}")),
+    };
+    Ok(Some(match node.tag_name().name() {
+        "path" => {
+            let data = node.attribute("d").unwrap_or_default();
+            BezPath::from_svg(data).map_err(|error| format!("path data: {error}"))?
+        }
+        "polygon" => polygon(node.attribute("points").unwrap_or_default(), true)?,
+        "polyline" => polygon(node.attribute("points").unwrap_or_default(), false)?,
+        "rect" => {
+            let (x, y, w, h) = (
+                length("x")?,
+                length("y")?,
+                length("width")?,
+                length("height")?,
+            );
+            if w <= 0.0 || h <= 0.0 {
+                return Ok(None);
+            }
+            let rect = Rect::new(x, y, x + w, y + h);
+            let radius = length("rx")?.max(length("ry")?).min(0.5 * w.min(h));
+            RoundedRect::from_rect(rect, radius).to_path(ARC_TOLERANCE)
+        }
+        "circle" => {
+            let radius = length("r")?;
+            if radius <= 0.0 {
+                return Ok(None);
+            }
+            Circle::new((length("cx")?, length("cy")?), radius).to_path(ARC_TOLERANCE)
+        }
+        "ellipse" => {
+            let radii = (length("rx")?, length("ry")?);
+            if radii.0 <= 0.0 || radii.1 <= 0.0 {
+                return Ok(None);
+            }
+            let ellipse = Ellipse::new((length("cx")?, length("cy")?), radii, 0.0);
+            let mut path = ellipse.to_path(ARC_TOLERANCE);
+            path.close_path(); // it ends next to its beginning
+            path
+        }
+        _ => return Ok(None),
+    }))
+}
+
+fn polygon(points: &str, is_closed: bool) -> Result<BezPath, String> {
+    let numbers = numbers(points).ok_or_else(|| format!("points: {points}"))?;
+    let mut path = BezPath::new();
+    for (k, point) in numbers.chunks_exact(2).enumerate() {
+        let point = (point[0], point[1]);
+        if k == 0 {
+            path.move_to(point);
+        } else {
+            path.line_to(point);
+        }
+    }
+    if is_closed && !path.is_empty() {
+        path.close_path();
+    }
+    Ok(path)
+}
+
+/// Parses a number in user units; `px` is one, other units depend on the screen and are not read.
+fn parse_length(text: &str) -> Option<f64> {
+    let text = text.trim();
+    text.strip_suffix("px").unwrap_or(text).parse().ok()
+}
+
+// Presentation attributes of SVG elements that affect the filled region.
+
+/// Fill rule: the parts inside a shape that winds around them several times.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Rule {
+    NonZero,
+    EvenOdd,
+}
+
+impl Rule {
+    pub fn is_inside(self, winding: i32) -> bool {
+        match self {
+            Self::NonZero => winding != 0,
+            Self::EvenOdd => winding % 2 != 0,
+        }
+    }
+}
+
+/// Properties that an element passes on to its children.
+#[derive(Clone, Copy)]
+struct Style {
+    pub map: Affine,
+    pub is_filled: bool,
+    pub rule: Rule,
+}
+
+impl Style {
+    /// Properties of the root.
+    pub const INITIAL: Self = Self {
+        map: Affine::IDENTITY,
+        is_filled: true,
+        rule: Rule::NonZero,
+    };
+
+    /// Returns the style of an element; `None` if it is not shown.
+    pub fn of(node: Node, outer: Self) -> Result<Option<Self>, OutlineError> {
+        if property(node, "display") == Some("none")
+            || property(node, "visibility") == Some("hidden")
+        {
+            return Ok(None);
+        }
+        let mut style = outer;
+        if let Some(text) = node.attribute("transform") {
+            let map = transform::parse(text)
+                .ok_or_else(|| OutlineError::InvalidSvg(format!("transform: {text}")))?;
+            style.map *= map;
+        }
+        if let Some(fill) = property(node, "fill") {
+            style.is_filled = fill != "none";
+        }
+        if let Some(rule) = property(node, "fill-rule") {
+            style.rule = if rule == "evenodd" {
+                Rule::EvenOdd
+            } else {
+                Rule::NonZero
+            };
+        }
+        Ok(Some(style))
+    }
+}
+
+/// Returns a presentation property, from the `style` attribute or an attribute of its own.
+fn property<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
+    let declarations = node.attribute("style").unwrap_or_default().split(';');
+    declarations
+        .filter_map(|declaration| declaration.split_once(':'))
+        .find(|(key, _)| key.trim() == name)
+        .map(|(_, value)| value.trim())
+        .or_else(|| node.attribute(name).map(str::trim))
 }

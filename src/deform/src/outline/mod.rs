@@ -6,12 +6,8 @@
 mod contour;
 mod drawing;
 mod error;
-mod flatten;
 mod frame;
 mod nesting;
-mod shape;
-mod simplify;
-mod style;
 mod transform;
 mod triangulate;
 

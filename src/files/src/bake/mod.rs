@@ -20,7 +20,6 @@ mod coverage;
 mod fill;
 mod frames;
 mod plane;
-mod reduced;
 mod resample;
 mod size;
 mod texture;

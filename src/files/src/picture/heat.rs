@@ -1,8 +1,11 @@
 //! The heat map of each face's distortion.
-use super::legend;
+
+use super::canvas::{Canvas, Lines};
+use super::color::{self, FLIPPED, INK, NO_VALUE, Rgb};
 use super::panel::{Panel, Style, sheet};
 use super::raster::Mode;
 use super::scale::{HeatmapMeasure, Scale};
+use super::text;
 use unwrapd_maps::mesh::VAxis;
 
 /// Draws a PNG of the faces in the colors of their distortion, with a legend below; flipped faces are yellow.
@@ -20,9 +23,111 @@ pub fn heatmap_png(panels: &[Panel], measure: HeatmapMeasure, size: u32, v_axis:
     };
     let drawn = sheet(panels, size, v_axis, &style);
     let faces = || panels.iter().flat_map(|panel| panel.distortion);
-    let exceptions = legend::Exceptions {
+    let exceptions = Exceptions {
         flipped: faces().any(|face| face.flipped),
         no_value: faces().any(|face| !measure.value(face).is_finite()),
     };
-    legend::below(&drawn, measure.title(), &scale, &exceptions).png()
+    below(&drawn, measure.title(), &scale, &exceptions).png()
+}
+
+// The strip below a heat map: title, scale with numbers, and colors outside the scale.
+
+/// Colors outside the scale that occur in the picture.
+struct Exceptions {
+    pub flipped: bool,
+    pub no_value: bool,
+}
+
+/// Numbers at possible ticks, as multiples of the ideal value.
+const TICKS: [f64; 19] = [
+    1.0, 1.05, 1.1, 1.2, 1.35, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0, 5.0, 10.0, 20.0, 50.0, 100.0, 1e3,
+    1e4, 1e6,
+];
+
+/// Returns the picture with its legend below it: title, scale and exceptions in one line, or in two if it is narrow.
+fn below(drawn: &Canvas, title: &str, scale: &Scale, exceptions: &Exceptions) -> Canvas {
+    let letters = (drawn.width as f64 / 80.0).clamp(6.0, 16.0);
+    let narrow = drawn.width < 640;
+    let line = if narrow { 2.0 * letters } else { 0.0 };
+    let strip = (4.2 * letters + line) as usize;
+    let mut canvas = Canvas::new(drawn.width, drawn.height + strip);
+    canvas.place(drawn, 0, 0);
+    let margin = letters.round();
+    let top = drawn.height as f64 + margin;
+    let mut ink = Lines::new(&canvas);
+    text::write(&mut ink, title, margin, top, letters);
+    let right = swatches(&mut canvas, &mut ink, exceptions, [margin, top], letters);
+    let bar = if narrow {
+        [2.0 * margin, canvas.width as f64 - 3.0 * margin]
+    } else {
+        let left = margin + text::width(title, letters) + 2.0 * margin;
+        [left, (right - 2.0 * margin).max(left + 1.0)]
+    };
+    let top = top + line;
+    for column in bar[0] as usize..bar[1] as usize {
+        let t = (column as f64 - bar[0]) / (bar[1] - bar[0]);
+        let rows = top as usize..(top + letters) as usize;
+        canvas.fill(column..column + 1, rows, color::heat(t));
+    }
+    ticks(&mut ink, scale, bar, top + letters, letters);
+    canvas.ink(&ink, INK, 1.0);
+    canvas
+}
+
+/// Draws ticks and numbers, from the right end of the bar, leaving out those without room.
+fn ticks(ink: &mut Lines, scale: &Scale, bar: [f64; 2], y: f64, letters: f64) {
+    let mut free = f64::INFINITY;
+    for tick in TICKS.iter().rev().map(|tick| tick * scale.ideal) {
+        if tick > scale.greatest * (1.0 + 1e-9) {
+            continue;
+        }
+        let x = bar[0] + scale.position(tick) * (bar[1] - bar[0]);
+        let at_end = tick >= scale.greatest * (1.0 - 1e-9);
+        let number = if at_end {
+            format!("≥{tick}")
+        } else {
+            format!("{tick:.4}")
+        };
+        let number = if number.contains('.') {
+            number
+                .trim_end_matches('0')
+                .trim_end_matches('.')
+                .to_owned()
+        } else {
+            number
+        };
+        let half = 0.5 * text::width(&number, letters);
+        if x + half + letters > free
+            || (tick > scale.ideal && x - half - letters < bar[0] + letters)
+        {
+            continue;
+        }
+        free = x - half;
+        ink.segment([x, y + 1.0], [x, y + 0.4 * letters], 1.0);
+        text::write(ink, &number, x - half, y + 0.8 * letters, letters);
+    }
+}
+
+/// Draws colored squares with their meaning at the right; returns the left end.
+fn swatches(
+    canvas: &mut Canvas,
+    ink: &mut Lines,
+    exceptions: &Exceptions,
+    [margin, top]: [f64; 2],
+    letters: f64,
+) -> f64 {
+    let mut right = canvas.width as f64 - margin;
+    let kinds: [(bool, &str, Rgb); 2] = [
+        (exceptions.no_value, "no area", NO_VALUE),
+        (exceptions.flipped, "flipped", FLIPPED),
+    ];
+    for (_, label, color) in kinds.into_iter().filter(|kind| kind.0) {
+        let left = right - text::width(label, letters);
+        text::write(ink, label, left, top, letters);
+        let square = left - 1.6 * letters;
+        let rows = top as usize..(top + letters) as usize;
+        canvas.fill(square as usize..(square + letters) as usize, rows, color);
+        right = square - 1.5 * margin;
+    }
+    right
 }

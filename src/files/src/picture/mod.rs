@@ -11,8 +11,6 @@ mod heat;
 mod image;
 mod jpeg;
 mod layout;
-mod legend;
-mod mipmaps;
 mod panel;
 mod png;
 mod raster;

@@ -15,10 +15,8 @@
 //!
 //! Nothing here makes a map, and nothing is moved or subdivided.
 
-mod cut_graph;
 mod distances;
 mod doubled;
-mod far_pairs;
 mod join;
 mod open;
 mod sheet;
@@ -26,8 +24,8 @@ mod slit;
 
 pub use distances::{Neighbors, distances, distances_until, opposite_end};
 pub use doubled::isolate_doubled_edges;
-pub use far_pairs::far_pairs;
 pub use join::join_disks;
 pub use open::{open_to_disk, ways_to_open};
 pub use sheet::{Sheet, surface_fans};
 pub use slit::Branches;
+pub use slit::far_pairs;

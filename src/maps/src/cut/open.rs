@@ -1,8 +1,7 @@
 //! Seams that open a sheet to a disk.
 
 use super::Sheet;
-use super::cut_graph::cut_graph;
-use super::distances::Neighbors;
+use super::distances::{Distances, Neighbors, distances};
 use super::slit::{Branches, slits};
 use crate::mesh::{CUT, UnionFind};
 
@@ -36,4 +35,197 @@ fn boundary_loops(sheet: &Sheet) -> usize {
         n_loops -= usize::from(sets.unite(a, b));
     }
     n_loops
+}
+
+// Cut graphs of sheets with handles or twists.
+
+/// Most roots tried for the first loop of a closed sheet; large sheets get fewer.
+const MOST_ROOTS: usize = 12;
+
+/// Budget for trying roots: halfedges times roots.
+const ROOT_BUDGET: usize = 2_000_000;
+
+/// Returns the edges of a cut graph: cutting them makes a sheet a disk that has the holes of the sheet (merged where
+/// the graph passes through one).
+///
+/// Each hole is closed by a virtual face; its edges are cut already, so paths along them cost nothing. Each round grows
+/// a shortest-path tree T from the edges cut so far, then a spanning tree of the faces that crosses no edge of T and
+/// prefers the edges whose paths back to the root are longest. The edges in neither tree number 2 g (or the crosscaps);
+/// each closes, with its two paths back, a loop that does not separate, and these are the shortest such loops. Half of
+/// them are cut and the others are found again from there, since a longer cut is a nearer root. O(n log n) per round.
+pub fn cut_graph(sheet: &Sheet, neighbors: &Neighbors) -> Vec<u32> {
+    let holes = Holes::new(sheet);
+    let mut cut = vec![false; sheet.twin.len()];
+    let mut on_cut = vec![false; sheet.positions.len()];
+    let root = holes
+        .root
+        .unwrap_or_else(|| best_root(sheet, neighbors, &holes));
+    on_cut[root as usize] = true;
+    let mut first = true;
+    loop {
+        let (from_cut, loops) = shortest_loops(sheet, neighbors, &holes, &on_cut, &cut);
+        if loops.is_empty() {
+            break;
+        }
+        let taken = if first { 1 } else { loops.len().div_ceil(2) };
+        for &h in &loops[..taken] {
+            cut[h as usize] = true;
+            for v in sheet.ends(h) {
+                for step in from_cut.path(sheet, v) {
+                    cut[step as usize] = true;
+                }
+            }
+        }
+        if first && holes.root.is_none() {
+            prune(sheet, neighbors, &mut cut);
+            on_cut[root as usize] = false;
+        }
+        first = false;
+        for h in sheet.edges().filter(|&h| cut[h as usize]) {
+            for v in sheet.ends(h) {
+                on_cut[v as usize] = true;
+            }
+        }
+    }
+    prune(sheet, neighbors, &mut cut);
+    sheet
+        .edges()
+        .filter(|&h| cut[h as usize] && sheet.twin[h as usize] != CUT)
+        .collect()
+}
+
+/// Boundary loops of a sheet, as virtual faces.
+struct Holes {
+    /// For each halfedge on the boundary its loop.
+    loop_of: Vec<u32>,
+    count: usize,
+    /// A vertex of the longest loop.
+    root: Option<u32>,
+}
+
+impl Holes {
+    fn new(sheet: &Sheet) -> Self {
+        let boundary = || (0..sheet.twin.len() as u32).filter(|&h| sheet.twin[h as usize] == CUT);
+        let mut sets = UnionFind::new(sheet.positions.len());
+        for h in boundary() {
+            let [a, b] = sheet.ends(h);
+            sets.unite(a, b);
+        }
+        let (labels, _) = sets.labels();
+        let mut loop_of = vec![CUT; sheet.twin.len()];
+        let mut number = vec![CUT; labels.len()];
+        let mut lengths: Vec<(f64, u32)> = Vec::new();
+        for h in boundary() {
+            let vertex = sheet.vertex[h as usize];
+            let n = &mut number[labels[vertex as usize] as usize];
+            if *n == CUT {
+                *n = lengths.len() as u32;
+                lengths.push((0.0, vertex));
+            }
+            lengths[*n as usize].0 += sheet.length(h);
+            loop_of[h as usize] = *n;
+        }
+        let longest = lengths.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        Self {
+            loop_of,
+            count: lengths.len(),
+            root: longest.map(|l| l.1),
+        }
+    }
+
+    /// Returns the node across an edge in the graph of faces and holes.
+    fn across(&self, sheet: &Sheet, h: u32) -> u32 {
+        match sheet.twin[h as usize] {
+            CUT => sheet.triangles.len() as u32 + self.loop_of[h as usize],
+            t => t / 3,
+        }
+    }
+}
+
+/// Returns the edges that close the shortest loops through the edges cut so far, shortest first, and the distances from
+/// these.
+fn shortest_loops(
+    sheet: &Sheet,
+    neighbors: &Neighbors,
+    holes: &Holes,
+    on_cut: &[bool],
+    cut: &[bool],
+) -> (Distances, Vec<u32>) {
+    let free = |h: u32| cut[h as usize] || sheet.twin[h as usize] == CUT;
+    let sources = (0u32..).zip(on_cut).filter(|(_, on)| **on).map(|(v, _)| v);
+    let length = |h: u32| if free(h) { 0.0 } else { sheet.length(h) };
+    let from_cut = distances(sheet, neighbors, sources, length);
+    let mut in_tree = cut.to_vec();
+    for &h in from_cut.arrival.iter().filter(|&&h| h != CUT) {
+        in_tree[h as usize] = true;
+    }
+    let mut candidates: Vec<(f64, u32)> = sheet
+        .edges()
+        .filter(|&h| !in_tree[h as usize])
+        .map(|h| {
+            let [a, b] = sheet.ends(h).map(|v| from_cut.distance[v as usize]);
+            (a + b + length(h), h)
+        })
+        .collect();
+    candidates.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let mut faces = UnionFind::new(sheet.triangles.len() + holes.count);
+    let mut loops: Vec<u32> = candidates
+        .into_iter()
+        .filter(|&(_, h)| !faces.unite(h / 3, holes.across(sheet, h)))
+        .map(|(_, h)| h)
+        .collect();
+    loops.reverse();
+    (from_cut, loops)
+}
+
+/// Returns the vertex with the shortest loop among a few vertices spread over a closed sheet.
+fn best_root(sheet: &Sheet, neighbors: &Neighbors, holes: &Holes) -> u32 {
+    let n_roots = (ROOT_BUDGET / sheet.twin.len()).clamp(2, MOST_ROOTS);
+    let mut on_cut = vec![false; sheet.positions.len()];
+    let mut candidates: Vec<u32> = Vec::new();
+    let mut best = (f64::INFINITY, 0);
+    let uncut = vec![false; sheet.twin.len()];
+    let mut root = sheet.outermost(|_| true).unwrap_or(0);
+    for _ in 0..n_roots {
+        on_cut[root as usize] = true;
+        let (from_root, loops) = shortest_loops(sheet, neighbors, holes, &on_cut, &uncut);
+        on_cut[root as usize] = false;
+        if let Some(&h) = loops.first() {
+            let [a, b] = sheet.ends(h).map(|v| from_root.distance[v as usize]);
+            let length = a + b + sheet.length(h);
+            if length < best.0 {
+                best = (length, root);
+            }
+        }
+        candidates.push(root);
+        let spread = distances(sheet, neighbors, candidates.iter().copied(), |h| {
+            sheet.length(h)
+        });
+        root = spread.farthest().0;
+    }
+    best.1
+}
+
+/// Uncuts dead ends: edges that end neither at the boundary nor at another cut edge.
+fn prune(sheet: &Sheet, neighbors: &Neighbors, cut: &mut [bool]) {
+    let on_boundary = sheet.on_boundary();
+    let mut degree = vec![0u32; sheet.positions.len()];
+    for h in sheet.edges().filter(|&h| cut[h as usize]) {
+        for v in sheet.ends(h) {
+            degree[v as usize] += 1;
+        }
+    }
+    for start in 0..degree.len() as u32 {
+        let mut v = start;
+        while degree[v as usize] == 1 && !on_boundary[v as usize] {
+            let Some(&h) = neighbors.of(v).iter().find(|&&h| cut[h as usize]) else {
+                break;
+            };
+            cut[h as usize] = false;
+            for end in sheet.ends(h) {
+                degree[end as usize] -= 1;
+            }
+            v = super::distances::opposite_end(sheet, h, v);
+        }
+    }
 }

@@ -16,29 +16,25 @@
 
 mod closed;
 mod decimate;
-mod flat;
 mod hierarchy;
-mod map_term;
 mod options;
 mod parameterize;
 mod pins;
 mod positive;
 mod problem;
-mod reinsert;
 mod rest;
 mod simplify;
 mod star;
 mod start;
-mod sweep;
 mod triangulation;
 mod tutte;
 mod unfolded;
 
-pub use map_term::map_term;
 pub use options::{Embedding, Options};
 pub use parameterize::{InvalidStart, optimize, parameterize};
 pub use pins::Pins;
 pub use positive::is_positive;
+pub use problem::map_term;
 pub use rest::is_needle;
 pub use rest::{RestShapes, rest_shapes};
 pub use simplify::Simplification;

@@ -1,12 +1,12 @@
 //! A disk, its rest shapes and the energy of its maps.
 
-use super::map_term::{map_term, map_term_with, signed_area};
 use super::options::{Embedding, Options};
 use super::positive::first_bad_triangle;
 use super::rest::RestShapes;
 use crate::mesh::Disk;
-use unwrapd_method::barrier::BarrierKind;
-use unwrapd_method::energy::Term;
+use unwrapd_method::barrier::{Barrier, BarrierKind, MapEnergy, epsilon, map_energy};
+use unwrapd_method::energy::{RestShape, Term};
+use unwrapd_method::numerics::vec2::doubled_area;
 use unwrapd_method::solver::{Objective, Settings, Summary, Watch, best_scale, minimize};
 
 /// Most Newton steps times triangles: 14 steps for 357,000 triangles, where one takes 1.5 s. Six of them came within
@@ -157,4 +157,45 @@ fn scaled(uv: &[[f64; 2]], factor: f64) -> Vec<[f64; 2]> {
 
 fn power_of_two(factor: f64) -> f64 {
     factor.log2().round().exp2()
+}
+
+// The energy of maps of some triangles.
+
+/// Creates the energy of maps of triangles with these rest shapes, in their unit, with the ε that a start requires.
+pub fn map_term(
+    triangles: &[[u32; 3]],
+    rest: &[RestShape],
+    start: &[[f64; 2]],
+    options: &Options,
+) -> Box<dyn Term> {
+    let smallest = |sizes: &mut dyn Iterator<Item = f64>| sizes.fold(f64::INFINITY, f64::min);
+    let smallest_rest = smallest(&mut rest.iter().map(|shape| shape.size));
+    let smallest_start = smallest(&mut triangles.iter().map(|t| signed_area(t, start)));
+    let epsilon = epsilon(smallest_rest, smallest_start);
+    map_term_with(triangles, rest, epsilon, options)
+}
+
+/// Like [`map_term`], with a given ε.
+fn map_term_with(
+    triangles: &[[u32; 3]],
+    rest: &[RestShape],
+    epsilon: f64,
+    options: &Options,
+) -> Box<dyn Term> {
+    let parameters = MapEnergy {
+        energy: options.energy,
+        barrier: Barrier {
+            kind: options.barrier,
+            beta: options.beta,
+            s: options.s,
+            epsilon,
+        },
+    };
+    map_energy(triangles, rest, &parameters)
+}
+
+/// Returns the area of a triangle in a map; negative if it is flipped.
+fn signed_area(triangle: &[u32; 3], uv: &[[f64; 2]]) -> f64 {
+    let [a, b, c] = triangle.map(|v| uv[v as usize]);
+    0.5 * doubled_area(a, b, c)
 }

@@ -18,7 +18,6 @@
 //! - Orientation and overlap are exact; everything else is a sum of f64. Figures that do not exist for a mesh are
 //!   `None`.
 
-mod coverage;
 mod density;
 mod distortion;
 mod faces;

@@ -1,6 +1,5 @@
 //! Deformation by handles of meshes, solids, pictures and surfaces in a cage, and problem files.
 
-pub(super) mod cage_map;
 pub(super) mod cage_report;
 pub(super) mod caged;
 pub(super) mod file;
@@ -10,7 +9,6 @@ pub(super) mod held;
 pub(super) mod missed;
 pub(super) mod moved;
 pub(super) mod plan;
-pub(super) mod planar_map;
 pub(super) mod pull_report;
 pub(super) mod solution;
 pub(super) mod solve;

@@ -1,8 +1,6 @@
 //! Unwrapping and packing of documents: read, prepared, merged by group, written, read again and judged.
 
-pub(super) mod islands;
 pub(super) mod merged;
-mod new_uvs;
 pub(super) mod nodes;
 pub(super) mod pictures;
 pub(super) mod prepared;

@@ -1,15 +1,16 @@
 //! Unwrapping of documents, from bytes to bytes: read, unwrap, write, read again, judge.
 
-use super::islands::placements;
 use super::merged::Merged;
-use super::new_uvs::new_uvs;
 use super::pictures::Pictures;
 use super::prepared::Prepared;
 use super::uv_arrays::UvArrays;
 use crate::PipelineError;
+use crate::arrays::placement::Placement;
 use crate::arrays::plan::Plan;
+use crate::arrays::repeated::GridCorners;
 use crate::arrays::soup::Soup;
-use crate::arrays::unwrap::{in_pool, unwrap_all};
+use crate::arrays::unwrap::{Unwrapped, in_pool, unwrap_all};
+use crate::island_error::IslandError;
 use crate::judge::groups::WrittenUvs;
 use crate::judge::history::{add_history, promise_kept};
 use crate::judge::report::{Report, Seconds};
@@ -21,8 +22,10 @@ use crate::stop_watch::StopWatch;
 use crate::tracker::Tracker;
 use unwrapd_api::Stage;
 use unwrapd_files::document::{
-    BakedTextures, Document, GroupBy, NewUvs, OutputFormat, Upload, WriteOptions, Written,
+    BakedTextures, Corners, Document, Group, GroupBy, Layout, NewUvs, OutputFormat, Upload,
+    WriteOptions, Written,
 };
+use unwrapd_layout::atlas::GRID_BITS;
 use unwrapd_maps::mesh::VAxis;
 
 /// Result of unwrapping a document.
@@ -184,4 +187,81 @@ fn write(
         written.notes.warnings.extend(warnings);
     }
     Ok(written)
+}
+
+// Islands named by the user, located in the meshes of a document.
+
+/// Returns for each group its islands with fixed placements.
+pub fn placements(
+    document: &Document,
+    groups: &[Group],
+    islands: &[Island],
+) -> Result<Vec<Vec<Placement>>, IslandError> {
+    let primitives = document.primitives();
+    let mut placed = vec![Vec::new(); groups.len()];
+    for (number, island) in islands.iter().enumerate() {
+        let unknown = || IslandError::UnknownFace(number);
+        let index = island.primitive as usize;
+        let primitive = primitives.get(index).ok_or_else(unknown)?;
+        if island.face as usize >= primitive.triangles.len() {
+            return Err(unknown());
+        }
+        let is_inside = |group: &Group| group.primitives.contains(&index);
+        let group = groups.iter().position(is_inside).ok_or_else(unknown)?;
+        let before = (groups[group].primitives.iter()).take_while(|&&own| own != index);
+        let first: usize = before.map(|&own| primitives[own].triangles.len()).sum();
+        let face = first as u32 + island.face;
+        placed[group].push(island.placement((number, face), document.v_axis()));
+    }
+    Ok(placed)
+}
+
+// Atlases as UVs of a document.
+
+/// Converts the atlases to UVs of the document. Islands that stay in place keep the document's UVs.
+pub fn new_uvs(
+    document: &Document,
+    groups: &[Group],
+    atlases: &[Unwrapped],
+    options: &Options,
+) -> Result<NewUvs, PipelineError> {
+    let primitives = document.primitives();
+    let v_axis = document.v_axis();
+    let mut corners = vec![None; primitives.len()];
+    for (group, atlas) in groups.iter().zip(atlases) {
+        let (mut rest, mut still) = (atlas.grid.as_slice(), atlas.still.as_slice());
+        let mut first = 0;
+        for &index in &group.primitives {
+            let (own, others) = rest.split_at(primitives[index].triangles.len());
+            let mut uvs: Vec<Corners> = own.iter().map(|face| from_grid(face, v_axis)).collect();
+            let next = first + own.len() as u32;
+            let (inside, beyond) = still.split_at(still.partition_point(|&face| face < next));
+            if !inside.is_empty()
+                && let Some(given) = document.corner_uvs(index, options.sets.source())?
+            {
+                for face in inside.iter().map(|face| (face - first) as usize) {
+                    // What is less than a step below a page lies on its border.
+                    uvs[face] = given[face].map(|uv| uv.map(|x| (x as f32).max(0.0)));
+                }
+            }
+            corners[index] = Some(uvs);
+            (rest, still, first) = (others, beyond, next);
+        }
+    }
+    Ok(NewUvs {
+        layout: Layout::New,
+        pages: options.layout.pages,
+        v_axis,
+        corners,
+    })
+}
+
+/// Converts grid coordinates to UVs, exactly in f32.
+fn from_grid(corners: &GridCorners, v_axis: VAxis) -> Corners {
+    let side = 1 << GRID_BITS;
+    let unit = |i: i32| i as f32 / side as f32;
+    corners.map(|[u, v]| match v_axis {
+        VAxis::Up => [unit(u), unit(v)],
+        VAxis::Down => [unit(u), unit(side - v)],
+    })
 }

@@ -2,5 +2,4 @@
 
 pub(super) mod held;
 pub(super) mod report;
-pub(super) mod terms;
 pub(super) mod uvs;

@@ -1,21 +1,23 @@
 //! Editing of a document's UVs by anchors, judged in the written bytes.
 
 use super::report::{ChartEditReport, EditReport, completion};
-use super::terms::{WholeJudgment, edited_terms};
-use crate::PipelineError;
 use crate::arrays::unwrap::in_pool;
 use crate::deform::pull_report::PullReport;
-use crate::limits;
+use crate::judge::groups::WrittenUvs;
+use crate::judge::proven::{Mirrored, Proven};
+use crate::judge::shortfalls::unproven;
 use crate::observer::Observer;
-use crate::options::{CommandOptions, EditOptions, Editing};
+use crate::options::{CommandOptions, EditOptions, Editing, MeasureOptions};
 use crate::start::start;
 use crate::tracker::Tracker;
+use crate::{PipelineError, limits};
 use unwrapd_api::Stage;
 use unwrapd_deform::uv::{ChartFaces, EditedUvs, UvMesh, edit_uvs_from};
 use unwrapd_files::document::{
-    Corners, Document, DocumentError, Layout, NewUvs, Upload, WriteOptions, Written,
+    Corners, Document, DocumentError, GroupBy, Layout, Marked, NewUvs, OutputFormat, Sets, Terms,
+    Upload, Warning, WriteOptions, Written,
 };
-use unwrapd_maps::certificate::{PlanarCertificate, boundary_crossings, certify_planar};
+use unwrapd_maps::certificate::{Overlap, PlanarCertificate, boundary_crossings, certify_planar};
 use unwrapd_maps::mesh::CornerUvs;
 use unwrapd_method::barrier::BarrierKind;
 
@@ -222,4 +224,72 @@ fn certified(faces: &ChartFaces, uvs: &[CornerUvs], flip_v: bool) -> PlanarCerti
     let places: Vec<[f64; 2]> = faces.corners().flatten().map(place).collect();
     let triangles = (0..faces.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]);
     certify_planar(&places, &triangles.collect::<Vec<_>>())
+}
+
+// Promises in the record of a document with edited UVs.
+
+/// Returns the record of a document with edited UVs in which no two faces overlap. It promises nothing about
+/// distances between charts, which the edit does not check.
+pub fn edited_terms(document: &Document, options: &EditOptions) -> Result<Terms, PipelineError> {
+    let present = match document.marked()? {
+        Marked::Fits(mark) if mark.sets == Sets::One(options.texcoord) => Some(mark.terms),
+        _ => None,
+    };
+    let present = present.as_ref();
+    let resolution = present.map(|terms| terms.resolution);
+    Ok(Terms {
+        group_by: match options.format {
+            OutputFormat::Obj => GroupBy::Scene,
+            OutputFormat::Glb | OutputFormat::Gltf => {
+                present.map_or(document.grouping(), |terms| terms.group_by)
+            }
+        },
+        separate_nodes: present.is_some_and(|terms| terms.separate_nodes),
+        padding: None,
+        resolution: resolution.unwrap_or(MeasureOptions::default().resolution()),
+        pages: None,
+        mips: 0,
+        aligned: false,
+        bits: None,
+        overlaps: false,
+    })
+}
+
+/// Judgment of a whole UV set, including charts without anchors.
+pub struct WholeJudgment {
+    pub proven: Proven,
+    /// Missing properties, in words.
+    pub lacking: Vec<&'static str>,
+    /// Warnings with place and extent of what is missing.
+    pub warnings: Vec<Warning>,
+}
+
+impl WholeJudgment {
+    /// Judges all primitives that have the set, as [`verify_document`](crate::verify_document) does with
+    /// `bijective`. Mirrored charts are left to the author of the UVs.
+    pub fn new(document: &Document, texcoord: u32) -> Result<Self, PipelineError> {
+        let uvs = WrittenUvs::of_set(document, texcoord)?;
+        let certificates = uvs.certify(&Overlap::Test.into());
+        let proven = Proven::of(certificates.iter());
+        Ok(Self {
+            lacking: proven.lacks(Overlap::Test, Mirrored::Allowed),
+            warnings: unproven(&uvs.groups, &certificates, Mirrored::Allowed),
+            proven,
+        })
+    }
+
+    pub fn is_certified(&self) -> bool {
+        self.lacking.is_empty()
+    }
+
+    /// Returns a warning if the UVs were faulty before the edit.
+    pub fn as_before(&self) -> Option<Warning> {
+        let lacking = self.lacking.join(", ");
+        (!self.is_certified()).then(|| {
+            Warning::new(
+                "uncertified_before",
+                format!("before the edit, the UVs already had: {lacking}"),
+            )
+        })
+    }
 }

@@ -1,8 +1,8 @@
 //! References of a document when it was read, and removal of objects that have lost theirs.
+
 use super::body::Body;
+use super::json::{array_mut, as_unsigned, items, required, unsigned};
 use super::links::{Collection, Object, visit};
-use super::repacked::repack_bytes;
-use super::unknown::Unknown;
 use crate::document::DocumentError;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
@@ -157,6 +157,126 @@ fn move_objects(json: &mut Value, places: &Places) {
         // An array without an element is no glTF.
         if objects.is_empty() && !places.is_empty() {
             super::json::remove(json, collection.key());
+        }
+    }
+}
+
+// Compaction of the binary data to the bytes of its buffer views.
+
+/// Alignment of accessors in bytes, sufficient for all components.
+const ALIGNMENT: usize = 4;
+
+/// Removes the bytes that lie in no buffer view. Views that overlap still do so.
+fn repack_bytes(body: &mut Body) -> Result<(), DocumentError> {
+    let mut ranges = Vec::new();
+    for (index, view) in items(&body.json, "bufferViews")?.iter().enumerate() {
+        let start = unsigned(view, "byteOffset")?.unwrap_or(0);
+        ranges.push((start, start + required(view, "byteLength")?, index));
+    }
+    if ranges.is_empty() {
+        return Ok(());
+    }
+    ranges.sort_unstable();
+    let old = std::mem::take(&mut body.bin);
+    let mut offsets = vec![0; ranges.len()];
+    let mut rest = ranges.as_slice();
+    while let [(start, mut end, _), ..] = *rest {
+        let mut n_joined = 0;
+        while let Some((next, next_end, _)) = rest.get(n_joined)
+            && (n_joined == 0 || *next < end)
+        {
+            end = end.max(*next_end);
+            n_joined += 1;
+        }
+        let (joined, others) = rest.split_at(n_joined);
+        rest = others;
+        let base = body.bin.len().next_multiple_of(ALIGNMENT) + start % ALIGNMENT;
+        body.bin.resize(base, 0);
+        body.bin
+            .extend_from_slice(old.get(start..end).unwrap_or_default());
+        for (begin, _, index) in joined {
+            offsets[*index] = base + begin - start;
+        }
+    }
+    let views = array_mut(&mut body.json, "bufferViews")?;
+    for (view, offset) in views.iter_mut().zip(offsets) {
+        if offset > 0 || view.get("byteOffset").is_some() {
+            view["byteOffset"] = json!(offset);
+        }
+    }
+    Ok(())
+}
+
+// Possible references of unknown extensions.
+
+/// Extensions without references to any of the collections, except in texture infos.
+const PLAIN: [&str; 8] = [
+    "KHR_texture_transform",
+    "KHR_lights_punctual",
+    "KHR_mesh_quantization",
+    "KHR_xmp_json_ld",
+    "KHR_animation_pointer",
+    "KHR_node_visibility",
+    "EXT_mesh_features",
+    "MSFT_lod",
+];
+
+/// Returns whether [`visit`](super::links::visit) finds all references of an extension.
+fn is_understood(name: &str) -> bool {
+    const NAMING: [&str; 11] = [
+        "KHR_draco_mesh_compression",
+        "EXT_mesh_gpu_instancing",
+        "CESIUM_primitive_outline",
+        "EXT_mesh_manifold",
+        "KHR_texture_basisu",
+        "EXT_texture_webp",
+        "EXT_texture_avif",
+        "MSFT_texture_dds",
+        "EXT_lights_image_based",
+        "EXT_structural_metadata",
+        "EXT_meshopt_compression",
+    ];
+    name.starts_with("KHR_materials_")
+        || name == "KHR_meshopt_compression"
+        || PLAIN.contains(&name)
+        || NAMING.contains(&name)
+}
+
+/// Possible references of unknown extensions.
+#[derive(Default)]
+struct Unknown {
+    /// All whole numbers in them: each may be the index of anything.
+    pub numbers: BTreeSet<usize>,
+    /// `true` if they have a member `buffer`, and so may refer to places in the binary data.
+    pub buffers: bool,
+}
+
+impl Unknown {
+    pub fn of(json: &Value) -> Self {
+        let mut unknown = Self::default();
+        unknown.search(json, false);
+        unknown
+    }
+
+    fn search(&mut self, value: &Value, is_inside: bool) {
+        match value {
+            Value::Array(items) => items.iter().for_each(|item| self.search(item, is_inside)),
+            Value::Object(members) => {
+                for (key, child) in members {
+                    self.buffers |= is_inside && key == "buffer";
+                    match child {
+                        _ if key == "extras" => {}
+                        Value::Object(extensions) if key == "extensions" => {
+                            for (name, extension) in extensions {
+                                self.search(extension, is_inside || !is_understood(name));
+                            }
+                        }
+                        _ => self.search(child, is_inside),
+                    }
+                }
+            }
+            number if is_inside => self.numbers.extend(as_unsigned(number)),
+            _ => {}
         }
     }
 }
