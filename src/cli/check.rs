@@ -37,17 +37,17 @@ pub(super) struct Args {
 
 /// The findings, as printed.
 #[derive(Serialize)]
-struct Printed {
+struct PrintedCheck {
     jobs: usize,
     files: usize,
     missing: Vec<String>,
     damaged: Vec<String>,
-    unknown: Vec<Unknown>,
+    unknown: Vec<UnknownFiles>,
 }
 
 /// Files without a job, with their time in quarantine.
 #[derive(Serialize)]
-struct Unknown {
+struct UnknownFiles {
     job: String,
     bytes: u64,
     quarantine_days: Option<f64>,
@@ -71,7 +71,7 @@ async fn check(args: &Args) -> Result<(), Failure> {
     let blobs = blobs_at(&url).map_err(|error| failed(&error))?;
     let found = compared(args, &store, blobs.as_ref()).await;
     let (found, quarantined) = found.map_err(|error| failed(&error))?;
-    let printed = Printed::of(&found, &quarantined);
+    let printed = PrintedCheck::of(&found, &quarantined);
     if args.json {
         print_json(&printed)?;
     } else {
@@ -112,7 +112,7 @@ async fn compared(
     Ok((found, store.quarantined().await?))
 }
 
-impl Printed {
+impl PrintedCheck {
     fn of(found: &Inspection, quarantined: &[Quarantined]) -> Self {
         let lost = |loss| {
             let lost = found.lost.iter().filter(move |file| file.loss == loss);
@@ -120,7 +120,7 @@ impl Printed {
         };
         let unknown = found.unknown.iter().map(|(job, bytes)| {
             let held = quarantined.iter().find(|files| files.job == *job);
-            Unknown {
+            UnknownFiles {
                 job: job.to_string(),
                 bytes: *bytes,
                 quarantine_days: held.map(|files| files.held.as_secs_f64() / DAY_SECONDS),

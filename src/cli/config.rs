@@ -38,7 +38,7 @@ pub(super) struct Args {
 
 /// A setting of the service.
 #[derive(Serialize)]
-struct Row {
+struct SettingRow {
     option: String,
     value: Option<String>,
     /// `flag`, `environment` or `default`.
@@ -51,11 +51,11 @@ pub(super) fn run(args: &Args, program: &clap::Command, typed: &ArgMatches) -> R
     let serve = program.find_subcommand("serve");
     let derived = args.serve.derived();
     let options = serve.into_iter().flat_map(clap::Command::get_arguments);
-    let rows: Vec<Row> = options
+    let rows: Vec<SettingRow> = options
         .filter(|option| option.get_env().is_some())
-        .map(|option| Row::of(option, typed, &derived))
+        .map(|option| SettingRow::of(option, typed, &derived))
         .collect();
-    let rows: Vec<Row> = rows.into_iter().chain(S3.map(Row::of_s3)).collect();
+    let rows: Vec<SettingRow> = rows.into_iter().chain(S3.map(SettingRow::of_s3)).collect();
     for variable in unknown(program) {
         warn_of(format!("no option reads {variable}"));
     }
@@ -74,7 +74,7 @@ pub(super) fn run(args: &Args, program: &clap::Command, typed: &ArgMatches) -> R
     Ok(())
 }
 
-impl Row {
+impl SettingRow {
     /// Creates the row of an environment variable without an option.
     fn of_s3((name, is_secret): (&str, bool)) -> Self {
         let value = std::env::var(name).ok();

@@ -29,7 +29,7 @@ pub(super) struct Args {
 
 /// Part of the response that is read.
 #[derive(Deserialize)]
-struct Drain {
+struct DrainAnswer {
     draining: bool,
     running: usize,
 }
@@ -54,7 +54,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-fn call(args: &Args, method: &str) -> Result<Drain, Failure> {
+fn call(args: &Args, method: &str) -> Result<DrainAnswer, Failure> {
     let answer = args
         .local
         .call(&format!("{method} /v1/drain"), args.key.as_deref());

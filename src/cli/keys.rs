@@ -19,11 +19,11 @@ const LONGEST: Duration = Duration::from_hours(100 * 365 * 24);
 #[derive(clap::Args)]
 pub(super) struct Args {
     #[command(subcommand)]
-    action: Action,
+    action: KeyAction,
 }
 
 #[derive(clap::Subcommand)]
-enum Action {
+enum KeyAction {
     /// Make a key and print it. It is not shown again: only a digest of it is kept
     Create(Create),
     /// Add a key that was made elsewhere, such as one in the secrets of a cluster
@@ -114,10 +114,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let runtime = super::batch::runtime()?;
     runtime.block_on(async {
         match &args.action {
-            Action::Create(args) => create(args).await,
-            Action::Add(args) => add(args).await,
-            Action::List(args) => list(args).await,
-            Action::Revoke(args) => revoke(args).await,
+            KeyAction::Create(args) => create(args).await,
+            KeyAction::Add(args) => add(args).await,
+            KeyAction::List(args) => list(args).await,
+            KeyAction::Revoke(args) => revoke(args).await,
         }
     })
 }
@@ -188,7 +188,7 @@ async fn add(args: &Add) -> Result<(), Failure> {
 async fn list(args: &List) -> Result<(), Failure> {
     let keys = args.store.present().await?.keys().await;
     let keys = keys.map_err(|error| Failure::other(format!("no keys read: {error}")))?;
-    let rows: Vec<Row> = keys.iter().map(Row::of).collect();
+    let rows: Vec<KeyRow> = keys.iter().map(KeyRow::of).collect();
     if args.json {
         return print_json(&rows);
     }
@@ -219,7 +219,7 @@ const HEAD: [&str; 8] = [
 
 /// A key as it is listed.
 #[derive(Serialize)]
-struct Row {
+struct KeyRow {
     id: String,
     state: &'static str,
     owner: String,
@@ -230,7 +230,7 @@ struct Row {
     name: String,
 }
 
-impl Row {
+impl KeyRow {
     fn of(key: &Key) -> Self {
         let is_over = key.expires.is_some_and(|end| end <= Timestamp::now());
         Self {

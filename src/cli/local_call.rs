@@ -28,7 +28,7 @@ pub(super) struct Local {
 }
 
 /// Response of a service.
-pub(super) struct Answer {
+pub(super) struct LocalAnswer {
     pub(super) status_line: String,
     pub(super) body: String,
 }
@@ -50,13 +50,13 @@ impl Local {
     }
 
     /// Sends a request such as `GET /readyz`, with a key if there is one.
-    pub(super) fn call(&self, call: &str, key: Option<&str>) -> Result<Answer, String> {
+    pub(super) fn call(&self, call: &str, key: Option<&str>) -> Result<LocalAnswer, String> {
         let address = self.address()?;
         answer(address, call, key).map_err(|error| format!("{address} does not answer: {error}"))
     }
 }
 
-impl Answer {
+impl LocalAnswer {
     /// Returns whether the status is 200.
     pub(super) fn is_ok(&self) -> bool {
         self.status_line.split(' ').nth(1) == Some("200")
@@ -72,7 +72,7 @@ fn written(path: &Path) -> Result<SocketAddr, String> {
         .map_err(|_| format!("{} has no address in it", path.display()))
 }
 
-fn answer(address: SocketAddr, call: &str, key: Option<&str>) -> std::io::Result<Answer> {
+fn answer(address: SocketAddr, call: &str, key: Option<&str>) -> std::io::Result<LocalAnswer> {
     let key = key.map_or_else(String::new, |key| {
         format!("Authorization: Bearer {key}\r\n")
     });
@@ -86,7 +86,7 @@ fn answer(address: SocketAddr, call: &str, key: Option<&str>) -> std::io::Result
     stream.take(MOST).read_to_end(&mut answer)?;
     let answer = String::from_utf8_lossy(&answer);
     let (head, body) = answer.split_once("\r\n\r\n").unwrap_or((&answer, ""));
-    Ok(Answer {
+    Ok(LocalAnswer {
         status_line: head.lines().next().unwrap_or_default().to_owned(),
         body: body.to_owned(),
     })

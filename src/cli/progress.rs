@@ -21,11 +21,11 @@ pub(super) struct Display {
     is_shown: bool,
     bar: Option<ProgressBar>,
     last_stage: Mutex<Option<Stage>>,
-    frames: Option<Frames>,
+    frames: Option<FrameFiles>,
 }
 
 /// Settings for a file per iteration.
-struct Frames {
+struct FrameFiles {
     folder: PathBuf,
     extension: String,
     failure: Mutex<Option<Failure>>,
@@ -54,7 +54,7 @@ impl Display {
     pub(super) fn with_frames(talk: &Talk, folder: PathBuf, extension: String) -> Self {
         let failure = Mutex::new(None);
         Self {
-            frames: Some(Frames {
+            frames: Some(FrameFiles {
                 folder,
                 extension,
                 failure,

@@ -13,13 +13,13 @@ use unwrapd_server::store::RecordStore;
 #[derive(clap::Args)]
 pub(super) struct Args {
     #[command(subcommand)]
-    action: Action,
+    action: QueueAction,
 }
 
 #[derive(clap::Subcommand)]
-enum Action {
+enum QueueAction {
     /// Print how many jobs there are in each state, and whether waiting ones are started
-    Status(Status),
+    Status(QueueStatus),
     /// Start no waiting job from now on, in any process. Jobs are accepted, and running ones end
     Pause(StoreArgs),
     /// Start waiting jobs again
@@ -29,7 +29,7 @@ enum Action {
 }
 
 #[derive(clap::Args)]
-struct Status {
+struct QueueStatus {
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -51,7 +51,7 @@ struct Retry {
 
 /// The queue as it is printed.
 #[derive(Serialize)]
-struct Printed {
+struct PrintedQueue {
     paused: bool,
     oldest_queued_seconds: f64,
     jobs: serde_json::Map<String, serde_json::Value>,
@@ -62,10 +62,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let runtime = super::batch::runtime()?;
     runtime.block_on(async {
         match &args.action {
-            Action::Status(args) => status(args).await,
-            Action::Pause(args) => set_paused(args, true).await,
-            Action::Resume(args) => set_paused(args, false).await,
-            Action::Retry(args) => retry(args).await,
+            QueueAction::Status(args) => status(args).await,
+            QueueAction::Pause(args) => set_paused(args, true).await,
+            QueueAction::Resume(args) => set_paused(args, false).await,
+            QueueAction::Retry(args) => retry(args).await,
         }
     })
 }
@@ -97,7 +97,7 @@ async fn retry(args: &Retry) -> Result<(), Failure> {
     Ok(())
 }
 
-async fn status(args: &Status) -> Result<(), Failure> {
+async fn status(args: &QueueStatus) -> Result<(), Failure> {
     let store = args.store.present().await?;
     let printed = printed(&store).await;
     let printed = printed.map_err(|error| Failure::other(format!("no jobs read: {error}")))?;
@@ -113,10 +113,10 @@ async fn status(args: &Status) -> Result<(), Failure> {
     Ok(())
 }
 
-async fn printed(store: &RecordStore) -> Result<Printed, StoreError> {
+async fn printed(store: &RecordStore) -> Result<PrintedQueue, StoreError> {
     let queue = store.queue().await?;
     let count = |(state, count): (State, u64)| (state.word().to_owned(), count.into());
-    Ok(Printed {
+    Ok(PrintedQueue {
         paused: store.is_paused().await?,
         oldest_queued_seconds: queue.oldest_wait.as_secs_f64(),
         jobs: queue.counts.into_iter().map(count).collect(),

@@ -67,8 +67,8 @@ impl StoreArgs {
     /// Creates the data folder, and protects it and all files created from now on from other users.
     pub fn make_folder(&self) -> Result<(), String> {
         let database = match self.database {
-            None => Database::Here,
-            Some(_) => Database::Elsewhere,
+            None => DatabaseAddress::Here,
+            Some(_) => DatabaseAddress::Elsewhere,
         };
         make_private(&self.data, database)
     }
@@ -92,7 +92,7 @@ const DATABASE: &str = "unwrapd.sqlite";
 
 /// Location of the database.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Database {
+enum DatabaseAddress {
     /// A file in the data folder.
     Here,
     /// A server elsewhere.
@@ -121,7 +121,7 @@ const STICKY: u32 = 0o1000;
 /// looser folder if this user owns it, and warns otherwise. A group keeps its access if the folder is shared that
 /// way: it has the setgid bit, which Kubernetes sets for `fsGroup`, or it belongs to another user and its group may
 /// write.
-fn make_private(folder: &Path, has_database: Database) -> Result<(), String> {
+fn make_private(folder: &Path, has_database: DatabaseAddress) -> Result<(), String> {
     // Create the folder.
     let failed = |error: std::io::Error| format!("cannot create {}: {error}", folder.display());
     let mut builder = DirBuilder::new();
@@ -139,7 +139,7 @@ fn make_private(folder: &Path, has_database: Database) -> Result<(), String> {
     };
     umask(Mode::from_bits_truncate(denied));
     let database = folder.join(DATABASE);
-    if is_of_group && has_database == Database::Here {
+    if is_of_group && has_database == DatabaseAddress::Here {
         share(&database)
             .map_err(|error| format!("cannot share {}: {error}", database.display()))?;
     }

@@ -22,7 +22,7 @@ pub(super) struct Args {
     #[command(flatten)]
     pub(super) files: Files<OutputFormat>,
     #[command(flatten)]
-    pub(super) pictures: Pictures,
+    pub(super) pictures: PictureArgs,
     #[command(flatten)]
     pub(super) acceptance: Acceptance,
     #[arg(
@@ -38,7 +38,7 @@ pub(super) struct Args {
 
 #[derive(clap::Args)]
 #[command(next_help_heading = "Files and messages")]
-pub(super) struct Pictures {
+pub(super) struct PictureArgs {
     /// Write a picture of the UV layout
     #[arg(long, value_name = "L.png")]
     pub(super) layout: Option<PathBuf>,
@@ -61,7 +61,7 @@ impl Args {
 
     /// Checks and returns all output paths.
     pub(super) fn outputs(&self) -> Result<Outputs, Failure> {
-        let Pictures { layout, heatmap } = &self.pictures;
+        let PictureArgs { layout, heatmap } = &self.pictures;
         let Files { report, output, .. } = &self.files;
         let seams = self.seams.as_deref().filter(|path| !is_word(path));
         let inputs: Vec<&Path> = [self.input.as_path()].into_iter().chain(seams).collect();

@@ -34,7 +34,7 @@ pub(super) struct WatchArgs {
         env = "UNWRAPD_LOG_FORMAT",
         default_value = "text"
     )]
-    log_format: Format,
+    log_format: LogFormat,
     /// Address at which anybody may get /metrics without a key [default: none; `serve` has them at
     /// its own address, for keys with the scope admin]
     #[arg(long, value_name = "ADDRESS", env = "UNWRAPD_METRICS_LISTEN")]
@@ -43,7 +43,7 @@ pub(super) struct WatchArgs {
 
 /// How lines of the log look.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Format {
+enum LogFormat {
     /// For people.
     Text,
     /// An object per line.
@@ -68,8 +68,8 @@ impl WatchArgs {
             .with_env_filter(EnvFilter::new(&self.log))
             .with_writer(std::io::stderr);
         match self.log_format {
-            Format::Text => log.with_ansi(std::io::stderr().is_terminal()).init(),
-            Format::Json => log.json().flatten_event(true).init(),
+            LogFormat::Text => log.with_ansi(std::io::stderr().is_terminal()).init(),
+            LogFormat::Json => log.json().flatten_event(true).init(),
         }
     }
 

@@ -102,7 +102,7 @@ impl Format {
         self.row().media_types
     }
 
-    fn row(self) -> &'static Row {
+    fn row(self) -> &'static FormatRow {
         &ROWS[self as usize]
     }
 }
@@ -120,7 +120,7 @@ pub fn without_mark(bytes: &[u8]) -> &[u8] {
 }
 
 /// Properties of a format.
-struct Row {
+struct FormatRow {
     format: Format,
     /// Extensions without the dot, the one for writing first.
     extensions: &'static [&'static str],
@@ -134,8 +134,8 @@ const fn row(
     extensions: &'static [&'static str],
     media_types: &'static [&'static str],
     contents: &'static [Content],
-) -> Row {
-    Row {
+) -> FormatRow {
+    FormatRow {
         format,
         extensions,
         media_types,
@@ -148,7 +148,7 @@ const STL_TYPES: &[&str] = &["model/stl", "application/sla", "application/vnd.ms
 
 /// Formats in the order of [`Format`], which is also the order in messages.
 #[rustfmt::skip]
-const ROWS: [Row; 20] = [
+const ROWS: [FormatRow; 20] = [
     row(Format::Glb, &["glb"], &["model/gltf-binary"], &[Content::Surface, Content::Body]),
     row(Format::Gltf, &["gltf"], &["model/gltf+json"], &[Content::Surface, Content::Body]),
     row(Format::Obj, &["obj"], &["model/obj"], &[Content::Surface, Content::Body]),

@@ -9,7 +9,7 @@ pub(super) struct Job {
     pub id: String,
     pub state: State,
     error: Option<Problem>,
-    links: Links,
+    links: RemoteLinks,
 }
 
 /// State of a job.
@@ -32,14 +32,14 @@ pub(super) struct Problem {
 }
 
 #[derive(Deserialize)]
-struct Links {
+struct RemoteLinks {
     #[serde(rename = "self")]
     itself: String,
-    files: Vec<File>,
+    files: Vec<RemoteFile>,
 }
 
 #[derive(Deserialize)]
-struct File {
+struct RemoteFile {
     href: String,
 }
 

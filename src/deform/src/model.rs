@@ -81,7 +81,7 @@ impl DeformationEnergy {
         body: &Body,
         rest: &[RestShape<D>],
         density: Option<Box<dyn Density<D>>>,
-    ) -> Parts<D> {
+    ) -> ModelParts<D> {
         let sizes = || -> Vec<f64> { rest.iter().map(|shape| shape.size).collect() };
         let (corners, x) = (body.corners(), || body.rest.clone());
         let quadratic = match self {
@@ -152,7 +152,7 @@ impl DeformationEnergy {
 }
 
 /// A quadratic form, and a density.
-type Parts<const D: usize> = (Option<Quadratic>, Box<dyn Density<D>>);
+type ModelParts<const D: usize> = (Option<Quadratic>, Box<dyn Density<D>>);
 
 fn together(quadratic: Option<Quadratic>, guarded: impl Term + 'static) -> Vec<Box<dyn Term>> {
     let quadratic = quadratic.map(|quadratic| Box::new(quadratic) as Box<dyn Term>);

@@ -144,7 +144,7 @@ impl Holds {
 }
 
 /// A map of the plane after pulling.
-pub(super) struct Pulled {
+pub(super) struct PulledMap {
     /// Positions in the unit of the body.
     pub vertices: Vec<[f64; 2]>,
     pub summary: PullSummary,
@@ -166,7 +166,7 @@ pub(super) fn pull(
     holds: &Holds,
     how: &How,
     watch: &dyn Watch,
-) -> Result<Pulled, ProblemError> {
+) -> Result<PulledMap, ProblemError> {
     let (handles, unit) = (holds.handles(&body, start)?, how.unit);
     let problem = Problem {
         aims: holds.aims(),
@@ -182,7 +182,7 @@ pub(super) fn pull(
         ..problem
     };
     let worth = normalized.worth(vertices.as_flattened());
-    Ok(Pulled {
+    Ok(PulledMap {
         summary: PullSummary {
             status: solution.summary.status,
             iterations: solution.summary.iterations,

@@ -30,7 +30,7 @@ pub struct Session {
     body: Body,
     frame: Frame,
     live: Live,
-    held: Held,
+    held: SessionHandles,
     next: u32,
     history: History<State>,
 }
@@ -41,7 +41,7 @@ pub struct HandleId(u32);
 
 /// Handles, and their vertices and points in the caller's unit.
 #[derive(Clone, Default)]
-struct Held {
+struct SessionHandles {
     handles: BTreeMap<HandleId, Handle>,
     bound: Handles,
 }
@@ -49,7 +49,7 @@ struct Held {
 /// State to which [`Session::undo`] returns.
 struct State {
     x: Vec<f64>,
-    held: Held,
+    held: SessionHandles,
 }
 
 impl Session {
@@ -64,7 +64,7 @@ impl Session {
             live: Live::new(normalized)?,
             body: problem.body,
             frame,
-            held: Held::default(),
+            held: SessionHandles::default(),
             next: 0,
             history: History::new(),
         })
@@ -136,7 +136,7 @@ impl Session {
             _ => bind(&self.body, &list)?.stations.pop().unwrap_or_default(),
         };
         self.live.aim(self.frame.handles(&bound))?;
-        self.held = Held { handles, bound };
+        self.held = SessionHandles { handles, bound };
         Ok(())
     }
 
@@ -241,7 +241,7 @@ impl Session {
     pub fn reset(&mut self) {
         let rest = State {
             x: self.live.problem().body.rest.clone(),
-            held: Held::default(),
+            held: SessionHandles::default(),
         };
         self.restore(Some(rest));
     }

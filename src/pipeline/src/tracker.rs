@@ -14,10 +14,10 @@ use unwrapd_method::solver::{Control, Iterate, Watch};
 pub(super) struct Tracker<'a> {
     observer: &'a dyn Observer,
     time_budget: Option<Duration>,
-    state: Mutex<State>,
+    state: Mutex<TrackerState>,
 }
 
-struct State {
+struct TrackerState {
     progress: Progress,
     /// Fractions at which the current stage ends, and at which packing begins.
     ends: f64,
@@ -44,7 +44,7 @@ const PACKED: f64 = 0.92;
 /// faces.
 const WORDS_PER_FACE: f64 = 10_000.0;
 
-impl State {
+impl TrackerState {
     /// Returns the fractions of the work at which a stage begins and ends.
     fn span(&self, stage: Stage) -> [f64; 2] {
         match stage {
@@ -90,7 +90,7 @@ impl<'a> Tracker<'a> {
         Self {
             observer,
             time_budget: (budget.time_budget).and_then(|s| Duration::try_from_secs_f64(s).ok()),
-            state: Mutex::new(State {
+            state: Mutex::new(TrackerState {
                 progress,
                 ends: 0.0,
                 pack_begins: 0.8,
@@ -171,11 +171,11 @@ impl<'a> Tracker<'a> {
         self.observer.frame(number, file);
     }
 
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn state(&self) -> MutexGuard<'_, TrackerState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn update(&self, change: impl FnOnce(&mut State)) -> Control {
+    fn update(&self, change: impl FnOnce(&mut TrackerState)) -> Control {
         let progress = {
             let mut state = self.state();
             change(&mut state);
@@ -226,7 +226,7 @@ impl Watch for Tracker<'_> {
     }
 }
 
-impl State {
+impl TrackerState {
     fn see(&mut self, iterate: &Iterate) {
         self.progress.iteration = iterate.iteration;
         self.progress.energy = iterate.energy;

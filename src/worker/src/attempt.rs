@@ -34,7 +34,7 @@ pub fn draw(folder: &Path) -> u8 {
     reported(drawn(folder), folder)
 }
 
-fn reported(attempt: Attempt<()>, folder: &Path) -> u8 {
+fn reported(attempt: AttemptResult<()>, folder: &Path) -> u8 {
     match attempt {
         Ok(()) => 0,
         Err((exit_code, failure)) => {
@@ -47,9 +47,9 @@ fn reported(attempt: Attempt<()>, folder: &Path) -> u8 {
     }
 }
 
-type Attempt<T> = Result<T, (u8, Failure)>;
+type AttemptResult<T> = Result<T, (u8, Failure)>;
 
-fn attempt(folder: &Path) -> Attempt<()> {
+fn attempt(folder: &Path) -> AttemptResult<()> {
     let finish = Arc::new(AtomicBool::new(false));
     let maps = Arc::new(Maps::new(folder));
     listen(&finish, &maps).map_err(internal)?;
@@ -79,7 +79,7 @@ fn attempt(folder: &Path) -> Attempt<()> {
     write_json(folder, OUTCOME, &Outcome { output, verdict }).map_err(unwritten)
 }
 
-fn drawn(folder: &Path) -> Attempt<()> {
+fn drawn(folder: &Path) -> AttemptResult<()> {
     end_with_server(|| {}).map_err(internal)?;
     let task = DrawingTask::read(folder).map_err(internal)?;
     contain(task.memory()).map_err(internal)?;

@@ -25,11 +25,11 @@ pub(crate) struct Made {
 /// A kind of job with its options, checked as far as possible without the file.
 pub struct Work {
     options: Value,
-    run: Box<Run>,
+    run: Box<RunComputation>,
 }
 
-type Run = dyn FnOnce(&Upload, Limits, &dyn Observer) -> Ended + Send;
-type Ended = Result<Made, PipelineError>;
+type RunComputation = dyn FnOnce(&Upload, Limits, &dyn Observer) -> WorkResult + Send;
+type WorkResult = Result<Made, PipelineError>;
 
 impl Work {
     /// Parses and checks the options of a kind; absent options have their defaults.
@@ -49,7 +49,7 @@ impl Work {
 
     fn of<O>(
         options: Value,
-        run: fn(&Upload, &O, &dyn Observer) -> Ended,
+        run: fn(&Upload, &O, &dyn Observer) -> WorkResult,
     ) -> Result<Self, PipelineError>
     where
         O: CommandOptions + DeserializeOwned + Serialize + Send + 'static,
@@ -72,16 +72,21 @@ impl Work {
     }
 
     /// Runs the job.
-    pub(crate) fn run(self, upload: &Upload, limits: Limits, observer: &dyn Observer) -> Ended {
+    pub(crate) fn run(
+        self,
+        upload: &Upload,
+        limits: Limits,
+        observer: &dyn Observer,
+    ) -> WorkResult {
         (self.run)(upload, limits, observer)
     }
 }
 
-fn unwrap(upload: &Upload, options: &Options, observer: &dyn Observer) -> Ended {
+fn unwrap(upload: &Upload, options: &Options, observer: &dyn Observer) -> WorkResult {
     pipeline::unwrap_document(upload, options, observer).map(atlas)
 }
 
-fn repack(upload: &Upload, options: &RepackOptions, observer: &dyn Observer) -> Ended {
+fn repack(upload: &Upload, options: &RepackOptions, observer: &dyn Observer) -> WorkResult {
     pipeline::repack_document(upload, options, observer).map(atlas)
 }
 
@@ -98,7 +103,7 @@ fn atlas(outcome: pipeline::Outcome) -> Made {
     made
 }
 
-fn measure(upload: &Upload, options: &MeasureOptions, _: &dyn Observer) -> Ended {
+fn measure(upload: &Upload, options: &MeasureOptions, _: &dyn Observer) -> WorkResult {
     let report = pipeline::measure_document(upload, options)?;
     // Nothing was asked for that could be proven.
     let worth = Worth {
@@ -108,7 +113,7 @@ fn measure(upload: &Upload, options: &MeasureOptions, _: &dyn Observer) -> Ended
     Ok(Made::new(Vec::new()).reported(&report, worth, &report.warnings))
 }
 
-fn verify(upload: &Upload, options: &VerifyOptions, _: &dyn Observer) -> Ended {
+fn verify(upload: &Upload, options: &VerifyOptions, _: &dyn Observer) -> WorkResult {
     let verified = pipeline::verify_document(upload, options)?;
     let lacking = verified.lacking.iter();
     let lacking = lacking.map(|words| Warning::new("not_proven", (*words).to_owned()));
@@ -117,11 +122,11 @@ fn verify(upload: &Upload, options: &VerifyOptions, _: &dyn Observer) -> Ended {
     Ok(Made::new(Vec::new()).reported(&verified, worth, &warnings))
 }
 
-fn solve(upload: &Upload, options: &SolveOptions, observer: &dyn Observer) -> Ended {
+fn solve(upload: &Upload, options: &SolveOptions, observer: &dyn Observer) -> WorkResult {
     pipeline::solve_file(upload, options, observer).map(body)
 }
 
-fn deform(upload: &Upload, options: &DeformOptions, observer: &dyn Observer) -> Ended {
+fn deform(upload: &Upload, options: &DeformOptions, observer: &dyn Observer) -> WorkResult {
     pipeline::deform_file(upload, options, observer).map(body)
 }
 
@@ -132,17 +137,17 @@ fn body(deformed: Deformed) -> Made {
     made
 }
 
-fn warp(upload: &Upload, options: &WarpOptions, observer: &dyn Observer) -> Ended {
+fn warp(upload: &Upload, options: &WarpOptions, observer: &dyn Observer) -> WorkResult {
     let warped = pipeline::warp_file(upload, options, observer)?;
     let report = &warped.report;
     Ok(Made::new(warped.files).reported(report, Worth::proven(report.certified), &report.warnings))
 }
 
-fn edit_uv(upload: &Upload, options: &EditOptions, observer: &dyn Observer) -> Ended {
+fn edit_uv(upload: &Upload, options: &EditOptions, observer: &dyn Observer) -> WorkResult {
     edit(upload, Editing::Map, options, observer)
 }
 
-fn texture_map(upload: &Upload, options: &EditOptions, observer: &dyn Observer) -> Ended {
+fn texture_map(upload: &Upload, options: &EditOptions, observer: &dyn Observer) -> WorkResult {
     edit(upload, Editing::Texture, options, observer)
 }
 
@@ -151,7 +156,7 @@ fn edit(
     editing: Editing,
     options: &EditOptions,
     observer: &dyn Observer,
-) -> Ended {
+) -> WorkResult {
     let edited = pipeline::edit_document(upload, editing, options, observer)?;
     let report = &edited.report;
     Ok(Made::new(edited.files).reported(report, Worth::proven(report.certified), &report.warnings))

@@ -20,7 +20,7 @@ pub(super) struct Gap {
 }
 
 /// A summand λuuᵀ of a Hessian, with u given at the vertex and the ends of the edge.
-pub(super) type Mode = (f64, [[f64; 2]; 3]);
+pub(super) type GapCurvature = (f64, [[f64; 2]; 3]);
 
 impl Gap {
     /// Computes the gap between the vertex at `p` and the edge from `a` to `b`.
@@ -70,7 +70,7 @@ impl Gap {
     /// Let q be the weighted moves, h = n·q and k = τ·q along normal and edge, and θ the turn of the edge. The Hessian
     /// is φ″h² + φ′(k²/d) at an end and φ″h² − φ′(2θk + dθ²) along the edge. k and θ are orthogonal, so the
     /// eigenvectors of the part with φ′ are known.
-    pub fn modes(&self, [first, second]: [f64; 2]) -> [Mode; 3] {
+    pub fn modes(&self, [first, second]: [f64; 2]) -> [GapCurvature; 3] {
         let spread = |direction: [f64; 2], weights: [f64; 3], factor: f64| {
             weights.map(|w| direction.map(|x| factor * w * x))
         };

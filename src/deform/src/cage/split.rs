@@ -88,7 +88,7 @@ fn snapped(levels: Levels) -> Levels {
 
 /// A corner of a piece.
 #[derive(Clone, Copy)]
-struct Corner {
+struct CageCorner {
     vertex: u32,
     weights: [f64; 3],
 }
@@ -105,7 +105,7 @@ struct Cutter {
 impl Cutter {
     fn split(&mut self, parent: u32, triangle: [u32; 3]) {
         let weights = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let corner = |k: usize| Corner {
+        let corner = |k: usize| CageCorner {
             vertex: triangle[k],
             weights: weights[k],
         };
@@ -131,12 +131,12 @@ impl Cutter {
     fn slice(
         &mut self,
         parent: u32,
-        piece: Vec<Corner>,
+        piece: Vec<CageCorner>,
         family: usize,
-        slices: &mut Vec<Vec<Corner>>,
+        slices: &mut Vec<Vec<CageCorner>>,
     ) {
         // Range of the levels of the piece's corners.
-        let level = |cutter: &Self, c: &Corner| cutter.levels[c.vertex as usize][family];
+        let level = |cutter: &Self, c: &CageCorner| cutter.levels[c.vertex as usize][family];
         let range = |pick: fn(f64, f64) -> f64, from: f64| {
             piece
                 .iter()
@@ -174,8 +174,8 @@ impl Cutter {
     }
 
     /// Returns the corner where an edge passes a plane; independent of side and direction.
-    fn cut(&mut self, parent: u32, ends: [Corner; 2], family: usize, plane: f64) -> Corner {
-        let position = |c: Corner| self.result.positions[c.vertex as usize];
+    fn cut(&mut self, parent: u32, ends: [CageCorner; 2], family: usize, plane: f64) -> CageCorner {
+        let position = |c: CageCorner| self.result.positions[c.vertex as usize];
         let [mut a, mut b] = ends;
         if position(b) < position(a) {
             (a, b) = (b, a);
@@ -200,6 +200,6 @@ impl Cutter {
                 weights,
             });
         }
-        Corner { vertex, weights }
+        CageCorner { vertex, weights }
     }
 }

@@ -49,13 +49,13 @@ pub fn of_svg(text: &str, settings: &SvgSettings) -> Result<Outline, OutlineErro
     if root.tag_name().name() != "svg" {
         return Err(OutlineError::InvalidSvg("the root is not `svg`".into()));
     }
-    let mut drawing = Drawing {
+    let mut drawing = SvgDrawing {
         tolerance: settings.tolerance,
         n_paths: 0,
         n_vertices: 0,
         loops: Vec::new(),
     };
-    drawing.visit(root, Style::INITIAL, 0)?;
+    drawing.visit(root, SvgStyle::INITIAL, 0)?;
     Outline::new(drawing.boundary()?)
 }
 
@@ -66,21 +66,21 @@ struct Loop {
     rule: Rule,
 }
 
-struct Drawing {
+struct SvgDrawing {
     tolerance: f64,
     n_paths: usize,
     n_vertices: usize,
     loops: Vec<Loop>,
 }
 
-impl Drawing {
-    fn visit(&mut self, node: Node, outer: Style, depth: usize) -> Result<(), OutlineError> {
+impl SvgDrawing {
+    fn visit(&mut self, node: Node, outer: SvgStyle, depth: usize) -> Result<(), OutlineError> {
         if depth > DEEPEST {
             return Err(OutlineError::InvalidSvg(
                 "groups are nested too deep".into(),
             ));
         }
-        let Some(style) = Style::of(node, outer)? else {
+        let Some(style) = SvgStyle::of(node, outer)? else {
             return Ok(());
         };
         if matches!(node.tag_name().name(), "svg" | "g" | "a" | "switch") {
@@ -199,7 +199,7 @@ fn polygons(
     if !path.elements().iter().all(is_in_range) {
         return Err(PathError::OutOfRange);
     }
-    let mut parts = Parts::default();
+    let mut parts = PathParts::default();
     let mut n_vertices = 0;
     kurbo::flatten(path, tolerance, |element| {
         n_vertices += 1;
@@ -219,13 +219,13 @@ fn polygons(
 
 /// The finished parts of a path, and the one in progress.
 #[derive(Default)]
-struct Parts {
+struct PathParts {
     closed: Vec<Vec<[f64; 2]>>,
     is_any_open: bool,
     current: Vec<[f64; 2]>,
 }
 
-impl Parts {
+impl PathParts {
     fn push(&mut self, element: PathEl) {
         match element {
             PathEl::MoveTo(p) => self.begin(Some([p.x, p.y])),
@@ -347,13 +347,13 @@ impl Rule {
 
 /// Properties that an element passes on to its children.
 #[derive(Clone, Copy)]
-struct Style {
+struct SvgStyle {
     pub map: Affine,
     pub is_filled: bool,
     pub rule: Rule,
 }
 
-impl Style {
+impl SvgStyle {
     /// Properties of the root.
     pub const INITIAL: Self = Self {
         map: Affine::IDENTITY,

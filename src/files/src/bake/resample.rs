@@ -27,7 +27,7 @@ pub fn baked(plane: &Plane, coverage: &Coverage) -> Image {
     let side = coverage.side();
     let numbers = 0..plane.textures.len();
     let reduced: Vec<Reduced> = numbers.map(|n| Reduced::new(plane, n, coverage)).collect();
-    let bake = Bake {
+    let bake = Resampling {
         plane,
         textures: &reduced,
         coverage,
@@ -49,13 +49,13 @@ pub fn baked(plane: &Plane, coverage: &Coverage) -> Image {
 }
 
 /// Inputs of the texels.
-struct Bake<'a> {
+struct Resampling<'a> {
     plane: &'a Plane<'a>,
     textures: &'a [Reduced<'a>],
     coverage: &'a Coverage,
 }
 
-impl Bake<'_> {
+impl Resampling<'_> {
     /// Computes the value of a texel: the mean over its square, which is cut off at the face if it lies at a border.
     fn texel(&self, [x, y]: [usize; 2]) -> Option<[u8; 4]> {
         let face = self.coverage.at(x, y)?;

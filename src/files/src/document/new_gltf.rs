@@ -57,7 +57,7 @@ pub(super) fn document(
     materials: &GltfMaterials,
 ) -> Result<New, DocumentError> {
     let is_one = meshes.len() == 1 && meshes[0].primitives.len() == 1;
-    let mut parts = Parts::default();
+    let mut parts = GltfParts::default();
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     let mut objects = Vec::with_capacity(meshes.len());
     for mesh in meshes {
@@ -103,7 +103,7 @@ fn vertices_of(shape: &Shape, primitive: &NewPrimitive, of_file: &[u32]) -> Vert
     let uvs = |face: usize| shape.uvs[face].filter(|_| has_uvs);
     let corners = faces().map(|face| {
         let (normals, uvs) = (normals(face), uvs(face));
-        [0, 1, 2].map(|k| Corner {
+        [0, 1, 2].map(|k| GltfCorner {
             vertex: shape.triangles[face][k],
             normal: normals.map(|n| n[k]),
             uv: uvs.map(|uv| uv[k]),
@@ -112,7 +112,7 @@ fn vertices_of(shape: &Shape, primitive: &NewPrimitive, of_file: &[u32]) -> Vert
     Vertices::new(of_file, corners, has_normals, has_uvs)
 }
 
-fn upload(parts: Parts, meshes: &[Value], materials: &GltfMaterials) -> Upload {
+fn upload(parts: GltfParts, meshes: &[Value], materials: &GltfMaterials) -> Upload {
     let node = |(index, mesh): (usize, &Value)| {
         let mut node = json!({"mesh": index});
         if let Some(name) = mesh.get("name") {
@@ -143,13 +143,13 @@ fn upload(parts: Parts, meshes: &[Value], materials: &GltfMaterials) -> Upload {
 
 /// Accessors, buffer views and the buffer, which grow together.
 #[derive(Default)]
-struct Parts {
+struct GltfParts {
     bin: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
 }
 
-impl Parts {
+impl GltfParts {
     /// Appends the data of a primitive and returns its JSON.
     fn primitive(&mut self, shape: &Shape, own: &Vertices, material: Option<usize>) -> Value {
         let n = own.origins.len();
@@ -237,7 +237,7 @@ pub(super) fn unit_normals(normals: [[f64; 3]; 3]) -> Option<[[f32; 3]; 3]> {
 
 /// Attributes of a corner of a triangle.
 #[derive(Clone, Copy)]
-struct Corner {
+struct GltfCorner {
     /// Vertex of the file.
     pub vertex: u32,
     pub normal: Option<[f32; 3]>,
@@ -245,7 +245,7 @@ struct Corner {
 }
 
 /// Attributes in which corners must agree to be one vertex.
-type Key = (Option<[u32; 3]>, Option<[u32; 2]>);
+type CornerKey = (Option<[u32; 3]>, Option<[u32; 2]>);
 
 /// Vertices and triangles of a primitive.
 struct Vertices {
@@ -261,17 +261,17 @@ impl Vertices {
     /// copies for the others follow after all vertices.
     pub fn new(
         of_file: &[u32],
-        corners: impl Iterator<Item = [Corner; 3]>,
+        corners: impl Iterator<Item = [GltfCorner; 3]>,
         has_normals: bool,
         has_uvs: bool,
     ) -> Self {
         let is_identity = of_file
             .last()
             .is_none_or(|last| *last as usize + 1 == of_file.len());
-        let mut given: Vec<Option<Corner>> = vec![None; of_file.len()];
-        let mut copies: HashMap<(u32, Key), u32> = HashMap::new();
+        let mut given: Vec<Option<GltfCorner>> = vec![None; of_file.len()];
+        let mut copies: HashMap<(u32, CornerKey), u32> = HashMap::new();
         let mut origins = of_file.to_vec();
-        let mut place = |corner: Corner| {
+        let mut place = |corner: GltfCorner| {
             let own = if is_identity {
                 corner.vertex
             } else {
@@ -291,8 +291,8 @@ impl Vertices {
         let triangles = corners.map(|face| face.map(&mut place)).collect();
         // A vertex of no face has neither; any unit vector will do.
         let normal =
-            |corner: &Option<Corner>| corner.and_then(|c| c.normal).unwrap_or([0.0, 0.0, 1.0]);
-        let uv = |corner: &Option<Corner>| corner.and_then(|c| c.uv).unwrap_or_default();
+            |corner: &Option<GltfCorner>| corner.and_then(|c| c.normal).unwrap_or([0.0, 0.0, 1.0]);
+        let uv = |corner: &Option<GltfCorner>| corner.and_then(|c| c.uv).unwrap_or_default();
         Self {
             normals: has_normals.then(|| given.iter().map(normal).collect()),
             uvs: has_uvs.then(|| given.iter().map(uv).collect()),
@@ -302,7 +302,7 @@ impl Vertices {
     }
 }
 
-fn key(corner: &Corner) -> Key {
+fn key(corner: &GltfCorner) -> CornerKey {
     (
         corner.normal.map(|normal| normal.map(f32::to_bits)),
         corner.uv.map(|uv| uv.map(f32::to_bits)),

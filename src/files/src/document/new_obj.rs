@@ -57,7 +57,7 @@ pub(super) fn text(parts: &[ObjPart], material_file: Option<&str>) -> Vec<u8> {
     if let Some(name) = material_file {
         let _ = writeln!(vertices, "mtllib {name}");
     }
-    let mut lines = Lines::default();
+    let mut lines = ObjLines::default();
     let mut faces = Vec::new();
     let mut first_vertex = 0;
     let mut object = None;
@@ -91,13 +91,13 @@ fn push_vertices(text: &mut Vec<u8>, part: &ObjPart) {
 
 /// Lines to which corners refer by number.
 #[derive(Default)]
-struct Lines {
+struct ObjLines {
     texcoords: TexcoordLines,
     normals: Vec<u8>,
     numbers_of_normals: HashMap<[u32; 3], u32>,
 }
 
-impl Lines {
+impl ObjLines {
     /// Returns the number, from 0, of the line for a normal.
     fn normal(&mut self, normal: [f32; 3]) -> u32 {
         let next = self.numbers_of_normals.len() as u32;
@@ -111,7 +111,7 @@ impl Lines {
     }
 }
 
-fn push_faces(text: &mut Vec<u8>, part: &ObjPart, first_vertex: u32, lines: &mut Lines) {
+fn push_faces(text: &mut Vec<u8>, part: &ObjPart, first_vertex: u32, lines: &mut ObjLines) {
     for (f, face) in part.primitive.triangles.iter().enumerate() {
         let corners = [0, 1, 2].map(|k| {
             let vertex = face[k] + first_vertex;

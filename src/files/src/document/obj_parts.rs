@@ -36,8 +36,11 @@ pub(super) struct Part {
 impl ObjParts {
     /// Reads the statements of a text.
     pub fn of(bytes: &[u8]) -> Self {
-        let (mut objects, mut groups, mut materials) =
-            (Names::default(), Names::default(), Names::default());
+        let (mut objects, mut groups, mut materials) = (
+            PartNames::default(),
+            PartNames::default(),
+            PartNames::default(),
+        );
         let mut polygons = Vec::new();
         let mut colors = Vec::new();
         let (mut is_colored, mut n_lost_elements) = (false, 0);
@@ -118,13 +121,13 @@ pub(super) fn name_of(statement: &Statement) -> String {
 
 /// Names in the order of their first use, and the current one.
 #[derive(Default)]
-struct Names {
+struct PartNames {
     all: Vec<String>,
     numbers: HashMap<String, u32>,
     current: Option<u32>,
 }
 
-impl Names {
+impl PartNames {
     fn begin(&mut self, statement: &Statement) {
         let name = name_of(statement);
         self.current = (!name.is_empty()).then(|| {

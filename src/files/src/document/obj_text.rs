@@ -26,7 +26,7 @@ pub(super) fn rewrite(
 ) -> Rewritten {
     let line_end = line_end(bytes);
     let mut lines = TexcoordLines::default();
-    let mut faces = Faces::new(obj, positions, uvs, &mut lines, line_end);
+    let mut faces = ObjFaces::new(obj, positions, uvs, &mut lines, line_end);
     let mut texcoords = std::mem::take(&mut lines.text);
     let mut text = Vec::with_capacity(bytes.len() + texcoords.len());
     for statement in statements(bytes) {
@@ -134,7 +134,7 @@ fn push_without_texcoords(text: &mut Vec<u8>, statement: &Statement, line_end: &
 }
 
 /// Polygons with the numbers of their new texture coordinates.
-struct Faces<'a> {
+struct ObjFaces<'a> {
     obj: &'a Obj,
     positions: &'a [[f32; 3]],
     /// Numbers per triangle.
@@ -146,7 +146,7 @@ struct Faces<'a> {
     split_polygons: usize,
 }
 
-impl<'a> Faces<'a> {
+impl<'a> ObjFaces<'a> {
     fn new(
         obj: &'a Obj,
         positions: &'a [[f32; 3]],

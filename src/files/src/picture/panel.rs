@@ -33,13 +33,13 @@ fn border_thickness(pixels: usize) -> f64 {
 
 /// The square of UV space that is drawn: the unit square if it contains all UVs, else the bounding square.
 #[derive(Clone, Copy)]
-struct Frame {
+struct PanelFrame {
     origin: [f64; 2],
     side: f64,
     is_unit: bool,
 }
 
-impl Frame {
+impl PanelFrame {
     fn new(uvs: &[CornerUvs]) -> Self {
         let mut low = [f64::INFINITY; 2];
         let mut high = [f64::NEG_INFINITY; 2];
@@ -93,7 +93,7 @@ pub(super) struct Style<'a> {
 
 /// Draws a panel in a square.
 fn square(panel: &Panel, pixels: usize, v_axis: VAxis, style: &Style) -> Canvas {
-    let frame = Frame::new(panel.uvs);
+    let frame = PanelFrame::new(panel.uvs);
     let place = |face: &CornerUvs| face.map(|uv| frame.pixel(uv, pixels, v_axis));
     let mut raster = Raster::new(pixels);
     let is_flipped = |face: usize| panel.distortion.get(face).is_some_and(|d| d.flipped);

@@ -48,7 +48,7 @@ impl Raster {
     /// Fills a triangle given in pixels. Its edges are drawn with the given opacity; each face draws its half.
     pub fn fill(&mut self, corners: [[f64; 2]; 3], color: Rgb, edge_opacity: f32, mode: Mode) {
         let fixed = steps(corners.map(|p| p.map(|x| x * self.per_pixel as f64)));
-        let edges = Edges::new(&fixed);
+        let edges = TriangleEdges::new(&fixed);
         let reach = 0.5 * EDGE_PIXELS * self.per_pixel as f64;
         for (row, columns) in spans(fixed, [self.side; 2]) {
             let distances = edges.of_row(row);
@@ -151,12 +151,12 @@ fn first_sample(a: [i64; 2], b: [i64; 2], y: i64) -> i64 {
 }
 
 /// Distances to the three lines of a triangle's edges.
-struct Edges {
+struct TriangleEdges {
     /// Point and unit normal of each edge.
     lines: [([f64; 2], [f64; 2]); 3],
 }
 
-impl Edges {
+impl TriangleEdges {
     fn new(corners: &[[i64; 2]; 3]) -> Self {
         let lines = [0, 1, 2].map(|k| {
             let a = corners[k].map(|x| x as f64);

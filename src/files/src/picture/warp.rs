@@ -202,7 +202,7 @@ fn stored([r, g, b, a]: Premultiplied) -> [u8; 4] {
 type Premultiplied = [f32; 4];
 
 /// A coarser copy: red, green and blue times alpha, and alpha, from 0 to 65535.
-struct Level {
+struct MipmapLevel {
     width: usize,
     height: usize,
     pixels: Vec<[u16; 4]>,
@@ -212,7 +212,7 @@ struct Level {
 struct Mipmaps<'a> {
     image: &'a Image,
     /// Levels from 1 on; level 0 is the picture itself.
-    halved: Vec<Level>,
+    halved: Vec<MipmapLevel>,
 }
 
 impl<'a> Mipmaps<'a> {
@@ -256,7 +256,7 @@ impl<'a> Mipmaps<'a> {
     }
 
     /// Averages two by two pixels; at odd sizes the last column or row counts twice.
-    fn halving(&self, level: usize) -> Level {
+    fn halving(&self, level: usize) -> MipmapLevel {
         let [w, h] = self.size(level);
         let (width, height) = (w.div_ceil(2), h.div_ceil(2));
         let average = |x: usize, y: usize| {
@@ -268,7 +268,7 @@ impl<'a> Mipmaps<'a> {
                 .fold([0.0; 4], |sum, p| mix(sum, p, 1.0));
             sum.map(|c| (c * 0.25 * 65535.0).round() as u16)
         };
-        Level {
+        MipmapLevel {
             width,
             height,
             pixels: (0..width * height)

@@ -18,7 +18,7 @@ impl HasPosition for Site {
 }
 
 type Cdt = ConstrainedDelaunayTriangulation<Site>;
-type Edge<'a> = DirectedEdgeHandle<'a, Site, (), CdtEdge<()>, ()>;
+type PolygonEdge<'a> = DirectedEdgeHandle<'a, Site, (), CdtEdge<()>, ()>;
 
 /// No corner, or no side.
 const NONE: u32 = u32::MAX;
@@ -120,7 +120,11 @@ fn add_sides(cdt: &mut Cdt, site_of: &[usize]) -> Option<Vec<FixedDirectedEdgeHa
 /// Turns counter-clockwise from a side to the next side that begins at its origin, assigns the corner to all triangles
 /// between them, and returns that side. Returns `None` if that leads outside or to a triangle that already has a
 /// corner.
-fn walk_wedge<'a>(side: Edge<'a>, corner: u32, corner_of: &mut [u32]) -> Option<Edge<'a>> {
+fn walk_wedge<'a>(
+    side: PolygonEdge<'a>,
+    corner: u32,
+    corner_of: &mut [u32],
+) -> Option<PolygonEdge<'a>> {
     let mut edge = side;
     loop {
         let slot = &mut corner_of[edge.fix().index()];

@@ -8,14 +8,14 @@ const LEAST_AREA: f64 = 1e-12;
 /// Returns the corners relative to the first, in units of a power of two no smaller than the largest coordinate; `None`
 /// if there is no such power.
 pub(super) fn scaled<const N: usize>(corners: &[[f64; 3]; N]) -> Option<[[f64; 3]; N]> {
-    let frame = Frame::of(corners)?;
+    let frame = PlaneFrame::of(corners)?;
     Some(corners.map(|p| frame.enter(p)))
 }
 
 /// Returns the corners in their mean plane, seen from the side from which they turn counter-clockwise; `None` if they
 /// have no area. Exact if the plane is that of two axes.
 pub(super) fn flattened(corners: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
-    let frame = Frame::of(corners)?;
+    let frame = PlaneFrame::of(corners)?;
     let corners: Vec<[f64; 3]> = corners.iter().map(|&p| frame.enter(p)).collect();
     let normal = newell_normal(&corners);
     if norm(normal) <= LEAST_AREA {
@@ -47,12 +47,12 @@ fn newell_normal(corners: &[[f64; 3]]) -> [f64; 3] {
 }
 
 /// Position and scale of a polygon.
-struct Frame {
+struct PlaneFrame {
     origin: [f64; 3],
     scale: f64,
 }
 
-impl Frame {
+impl PlaneFrame {
     fn of(corners: &[[f64; 3]]) -> Option<Self> {
         let &origin = corners.first()?;
         let extent = corners.iter().flat_map(|&p| sub(p, origin));

@@ -7,7 +7,7 @@ use serde::Serialize;
 use unwrapd_method::numerics::predicates::orient2d_sign;
 use unwrapd_method::numerics::predicates::orient3d_sign;
 
-type Triangle = [[f64; 3]; 3];
+type CrossingTriangle = [[f64; 3]; 3];
 
 /// Where a surface crosses itself.
 #[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
@@ -33,7 +33,7 @@ pub fn crossings(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Crossings {
         position.iter().all(|x| x.is_finite()).then_some(*position)
     };
     let corners = |t: &[u32; 3]| Some([corner(t[0])?, corner(t[1])?, corner(t[2])?]);
-    let (faces, corners): (Vec<u32>, Vec<Triangle>) = (0..)
+    let (faces, corners): (Vec<u32>, Vec<CrossingTriangle>) = (0..)
         .zip(triangles)
         .filter_map(|(face, triangle)| Some((face, corners(triangle)?)))
         .unzip();
@@ -53,7 +53,7 @@ pub fn crossings(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Crossings {
 }
 
 /// Returns whether the relative interiors of two triangles have a common point.
-fn cross(a: &Triangle, b: &Triangle) -> bool {
+fn cross(a: &CrossingTriangle, b: &CrossingTriangle) -> bool {
     let sides_of_a = a.map(|p| side(b, p));
     let sides_of_b = b.map(|p| side(a, p));
     if sides_of_a == [0; 3] && sides_of_b == [0; 3] {
@@ -62,7 +62,7 @@ fn cross(a: &Triangle, b: &Triangle) -> bool {
     let (Some(apex_a), Some(apex_b)) = (apex(sides_of_a), apex(sides_of_b)) else {
         return false;
     };
-    let rotated = |t: &Triangle, k: usize| [t[k], t[(k + 1) % 3], t[(k + 2) % 3]];
+    let rotated = |t: &CrossingTriangle, k: usize| [t[k], t[(k + 1) % 3], t[(k + 2) % 3]];
     let (mut p, mut q) = (rotated(a, apex_a), rotated(b, apex_b));
     if sides_of_a[apex_a] < 0 {
         q.swap(1, 2);
@@ -78,7 +78,7 @@ fn cross(a: &Triangle, b: &Triangle) -> bool {
 
 /// Returns the side of a triangle's plane on which a point lies. A common corner, for which the exact predicate is
 /// slow, is on it.
-fn side(triangle: &Triangle, point: [f64; 3]) -> i8 {
+fn side(triangle: &CrossingTriangle, point: [f64; 3]) -> i8 {
     if triangle.contains(&point) {
         return 0;
     }
@@ -97,11 +97,11 @@ fn apex(sides: [i8; 3]) -> Option<usize> {
 }
 
 /// Returns whether two triangles of one plane overlap, tested in the first coordinate plane in which both have an area.
-fn coplanar_overlap(a: &Triangle, b: &Triangle) -> bool {
+fn coplanar_overlap(a: &CrossingTriangle, b: &CrossingTriangle) -> bool {
     [[0, 1], [1, 2], [2, 0]]
         .into_iter()
         .find_map(|[x, y]| {
-            let counter_clockwise = |t: &Triangle| {
+            let counter_clockwise = |t: &CrossingTriangle| {
                 let [p, q, r] = t.map(|p| [p[x], p[y]]);
                 match orient2d_sign(p, q, r) {
                     0 => None,

@@ -82,7 +82,7 @@ const FEW: usize = 64;
 const MOST_LOOKS: usize = 64;
 
 type Point = [u64; 2];
-type Edge = [[f64; 2]; 2];
+type OverlapEdge = [[f64; 2]; 2];
 
 /// Returns whether no two of these counter-clockwise triangles have interior points in common; `false` also if that is
 /// not known. `tree` holds their boxes.
@@ -110,9 +110,9 @@ fn key(point: [f64; 2]) -> Point {
 }
 
 /// Returns the edges that no edge in the opposite direction cancels, in a fixed order.
-fn uncancelled(triangles: &[CornerUvs]) -> Vec<Edge> {
+fn uncancelled(triangles: &[CornerUvs]) -> Vec<OverlapEdge> {
     // By their ends, the smaller first, and whether they run from it.
-    let mut edges: Vec<([Point; 2], bool, Edge)> = (triangles.iter())
+    let mut edges: Vec<([Point; 2], bool, OverlapEdge)> = (triangles.iter())
         .flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]])
         .map(|edge| {
             let [p, q] = edge.map(key);
@@ -135,7 +135,7 @@ fn uncancelled(triangles: &[CornerUvs]) -> Vec<Edge> {
 }
 
 /// Chains edges to closed lines; returns `None` if several edges begin at one point.
-fn closed_lines(edges: &[Edge]) -> Option<Vec<Vec<Edge>>> {
+fn closed_lines(edges: &[OverlapEdge]) -> Option<Vec<Vec<OverlapEdge>>> {
     let mut from: HashMap<Point, usize> = HashMap::with_capacity(edges.len());
     for (index, edge) in edges.iter().enumerate() {
         if from.insert(key(edge[0]), index).is_some() {
@@ -161,7 +161,7 @@ fn closed_lines(edges: &[Edge]) -> Option<Vec<Vec<Edge>>> {
 /// Returns whether the right side of a line is found uncovered: at a midpoint of an edge that floating point can
 /// represent, only the edge's own triangle may be.
 fn is_free_outside(
-    line: &[Edge],
+    line: &[OverlapEdge],
     triangles: &[CornerUvs],
     tree: &BoxTree,
     looks: &mut usize,
@@ -179,7 +179,7 @@ fn is_free_outside(
 }
 
 /// Returns the midpoint of an edge if it is exact in both coordinates.
-fn middle([a, b]: &Edge) -> Option<[f64; 2]> {
+fn middle([a, b]: &OverlapEdge) -> Option<[f64; 2]> {
     let is_exact = (0..2).all(|k| is_sum(a[k], b[k]));
     is_exact.then(|| [0, 1].map(|k| f64::midpoint(a[k], b[k])))
 }
@@ -191,7 +191,7 @@ fn is_sum(a: f64, b: f64) -> bool {
     (a - (sum - b_there)) + (b - b_there) == 0.0
 }
 
-fn has_edge([a, b, c]: &CornerUvs, edge: &Edge) -> bool {
+fn has_edge([a, b, c]: &CornerUvs, edge: &OverlapEdge) -> bool {
     [[*a, *b], [*b, *c], [*c, *a]].contains(edge)
 }
 

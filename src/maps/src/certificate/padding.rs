@@ -51,7 +51,7 @@ pub(super) fn judge_padding(boundary: &ChartBoundary, padding: Padding) -> Paddi
     if points().flatten().any(|x| x.abs() >= LIMIT) {
         return verdict;
     }
-    let bound = Bound::new(padding.texels, side, points().all(is_exact));
+    let bound = PaddingBound::new(padding.texels, side, points().all(is_exact));
     let distance = f64::from(padding.texels) / f64::from(side);
     let mut too_close = BTreeSet::new();
     // A little more than half of the distance on each side, so that rounding misses no pair.
@@ -80,12 +80,12 @@ fn fixed_segment(segment: Segment) -> [Fixed; 2] {
 }
 
 /// A distance of `length / resolution` units.
-struct Bound {
+struct PaddingBound {
     length: u128,
     resolution: u128,
 }
 
-impl Bound {
+impl PaddingBound {
     /// Creates the bound. Truncation moves each coordinate by less than a unit, and two points by less than three
     /// relative to each other: the bound is enlarged by that, so that a doubt is never resolved in favor of the map.
     fn new(texels: u32, resolution: u32, is_exact: bool) -> Self {

@@ -4,7 +4,7 @@ use super::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
 use crate::mesh::boundary_edges;
 use unwrapd_method::numerics::predicates::orient2d_sign;
 
-type Segment = [[f64; 2]; 2];
+type LoopSegment = [[f64; 2]; 2];
 
 /// Returns a vertex near which closed polygons cross or touch themselves or each other; `None` if they do not.
 pub(super) fn meeting_point(loops: &[Vec<[f64; 2]>]) -> Option<[f64; 2]> {
@@ -59,19 +59,19 @@ pub fn boundary_crossings(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> u64 
 }
 
 /// Returns whether a segment runs back over the one that ends where it begins.
-fn turns_back(a: Segment, b: Segment) -> bool {
+fn turns_back(a: LoopSegment, b: LoopSegment) -> bool {
     let along = |k: usize| (a[1][k] - a[0][k]) * (b[1][k] - b[0][k]);
     orient2d_sign(a[0], a[1], b[1]) == 0 && along(0) + along(1) < 0.0
 }
 
 /// Returns whether two segments have a common point.
-fn intersect(a: Segment, b: Segment) -> bool {
-    let sides = |s: Segment, t: Segment| t.map(|p| orient2d_sign(s[0], s[1], p));
+fn intersect(a: LoopSegment, b: LoopSegment) -> bool {
+    let sides = |s: LoopSegment, t: LoopSegment| t.map(|p| orient2d_sign(s[0], s[1], p));
     let (of_b, of_a) = (sides(a, b), sides(b, a));
     if of_b == [0; 2] {
         // On one line: they meet if their boxes do.
         return (0..2).all(|k| {
-            let range = |s: Segment| [s[0][k].min(s[1][k]), s[0][k].max(s[1][k])];
+            let range = |s: LoopSegment| [s[0][k].min(s[1][k]), s[0][k].max(s[1][k])];
             let (p, q) = (range(a), range(b));
             p[0] <= q[1] && q[0] <= p[1]
         });

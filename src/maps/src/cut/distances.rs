@@ -74,9 +74,9 @@ pub fn distances_until(
     let mut queue = BinaryHeap::new();
     for vertex in sources {
         distance[vertex as usize] = 0.0;
-        queue.push(Entry { key: 0.0, vertex });
+        queue.push(QueueEntry { key: 0.0, vertex });
     }
-    while let Some(Entry { key, vertex }) = queue.pop() {
+    while let Some(QueueEntry { key, vertex }) = queue.pop() {
         if key > distance[vertex as usize] {
             continue;
         }
@@ -89,7 +89,7 @@ pub fn distances_until(
             if key < distance[far as usize] {
                 distance[far as usize] = key;
                 arrival[far as usize] = h;
-                queue.push(Entry { key, vertex: far });
+                queue.push(QueueEntry { key, vertex: far });
             }
         }
     }
@@ -133,12 +133,12 @@ pub fn opposite_end(sheet: &Sheet, h: u32, vertex: u32) -> u32 {
 }
 
 /// A vertex in the queue, ordered by distance, then by index.
-struct Entry {
+struct QueueEntry {
     key: f64,
     vertex: u32,
 }
 
-impl Ord for Entry {
+impl Ord for QueueEntry {
     fn cmp(&self, other: &Self) -> Ordering {
         other
             .key
@@ -147,16 +147,16 @@ impl Ord for Entry {
     }
 }
 
-impl PartialOrd for Entry {
+impl PartialOrd for QueueEntry {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Entry {
+impl PartialEq for QueueEntry {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Entry {}
+impl Eq for QueueEntry {}

@@ -82,7 +82,7 @@ pub(super) fn coarse_to_fine(
     positions: &[[f64; 3]],
     least: Least,
 ) -> Option<Vec<[f64; 2]>> {
-    let shape = Shape { positions, least };
+    let shape = DiskShape { positions, least };
     let mut decimation = Decimation::new(positions, &closed.triangles, closed.n_real);
     let mut levels = Vec::new();
     coarsen(&mut decimation, COARSEST, Care::Shape, &mut levels);
@@ -133,7 +133,7 @@ struct CoarsestMap {
 fn coarsest_map(
     closed: &ClosedDisk,
     decimation: &Decimation,
-    shape: &Shape,
+    shape: &DiskShape,
 ) -> Option<CoarsestMap> {
     let triangles: Vec<_> = decimation.triangulation.triangles().collect();
     let system = System::new(&triangles, closed.n_real, shape);
@@ -166,7 +166,7 @@ struct System {
 }
 
 impl System {
-    fn new(level: &[(usize, [u32; 3])], n_real: usize, shape: &Shape) -> Self {
+    fn new(level: &[(usize, [u32; 3])], n_real: usize, shape: &DiskShape) -> Self {
         let mut triangles: Vec<[u32; 3]> = level.iter().map(|(_, t)| *t).collect();
         let vertices = UsedVertices::new(triangles.iter().flatten().copied());
         vertices.renumber(triangles.as_flattened_mut());
@@ -267,14 +267,14 @@ struct NoRoom;
 
 /// Surfaces in space: positions in the unit of the rest shapes, and the least size of shapes.
 #[derive(Clone, Copy)]
-struct Shape<'a> {
+struct DiskShape<'a> {
     pub positions: &'a [[f64; 3]],
     pub least: Least,
 }
 
 /// Undoes the collapses, last first; `uv` must be positive on the coarse triangles and is then positive on the fine
 /// ones, exactly.
-fn reinsert(collapses: &Collapses, shape: &Shape, uv: &mut [[f64; 2]]) -> Result<(), NoRoom> {
+fn reinsert(collapses: &Collapses, shape: &DiskShape, uv: &mut [[f64; 2]]) -> Result<(), NoRoom> {
     for collapse in collapses.list.iter().rev() {
         let ring = collapses.ring(collapse);
         let is_free = |p: &[f64; 2]| {
@@ -293,7 +293,12 @@ fn reinsert(collapses: &Collapses, shape: &Shape, uv: &mut [[f64; 2]]) -> Result
 
 /// Returns the mean of the places at which the vertex would form, with each edge of its ring, a triangle similar to
 /// that in space.
-fn similar_place(collapse: &Collapse, ring: &[u32], shape: &Shape, uv: &[[f64; 2]]) -> [f64; 2] {
+fn similar_place(
+    collapse: &Collapse,
+    ring: &[u32],
+    shape: &DiskShape,
+    uv: &[[f64; 2]],
+) -> [f64; 2] {
     let at = |v: u32| shape.positions[v as usize];
     let (mut sum, mut n) = ([0.0; 2], 0.0);
     for [a, b] in pairs(ring, collapse.closed) {
@@ -368,7 +373,7 @@ fn bisector(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 fn improved_place(
     collapse: &Collapse,
     ring: &[u32],
-    shape: &Shape,
+    shape: &DiskShape,
     uv: &[[f64; 2]],
     place: [f64; 2],
     is_free: impl Fn([f64; 2]) -> bool,

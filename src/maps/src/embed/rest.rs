@@ -61,8 +61,8 @@ pub fn rest_shapes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RestShapes
         longest.max(length)
     });
     let relative = |t: &[u32; 3]| corners(t).map(|p| p.map(|x| x / longest));
-    let measures: Vec<Measure> = (triangles.iter().zip(longest_edges))
-        .map(|(t, (first, length))| Measure::along(relative(t), first, length / longest))
+    let measures: Vec<RestMeasure> = (triangles.iter().zip(longest_edges))
+        .map(|(t, (first, length))| RestMeasure::along(relative(t), first, length / longest))
         .collect();
     let aspect = least_aspect(&measures);
     let size = (measures.iter())
@@ -100,7 +100,7 @@ pub fn rest_shapes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RestShapes
 }
 
 /// Returns the aspect below which shapes get a substitute.
-fn least_aspect(triangles: &[Measure]) -> f64 {
+fn least_aspect(triangles: &[RestMeasure]) -> f64 {
     let (mut all, mut thin) = (0.0, 0.0);
     for triangle in triangles {
         all += triangle.area;
@@ -117,24 +117,24 @@ fn least_aspect(triangles: &[Measure]) -> f64 {
 
 /// Returns the rest shape of one triangle.
 pub(super) fn rest_shape(p: [[f64; 3]; 3], least: Least) -> RestShape {
-    Measure::of(p).rest_shape(p, least)
+    RestMeasure::of(p).rest_shape(p, least)
 }
 
 /// Returns whether a triangle is so thin that it gets a substitute in any chart: no map that is made here keeps its
 /// shape.
 pub fn is_needle(p: [[f64; 3]; 3]) -> bool {
-    Measure::of(p).is_thinner(THINNEST_ASPECT)
+    RestMeasure::of(p).is_thinner(THINNEST_ASPECT)
 }
 
 /// A triangle's longest edge and its area.
-struct Measure {
+struct RestMeasure {
     /// Corner at which the edge starts.
     first: usize,
     length: f64,
     area: f64,
 }
 
-impl Measure {
+impl RestMeasure {
     fn of(p: [[f64; 3]; 3]) -> Self {
         let (first, length) = longest_edge(p);
         Self::along(p, first, length)

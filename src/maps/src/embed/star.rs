@@ -45,7 +45,7 @@ impl Corners {
 
 /// A triangle with one free corner, given by the corners after it, counter-clockwise.
 #[derive(Clone, Copy, Debug)]
-struct Face {
+struct StarFace {
     ends: [[f64; 2]; 2],
     /// Factors of the edge between the ends, of the edge to the second and of that to the first.
     edges: [f64; 3],
@@ -55,7 +55,7 @@ struct Face {
 /// The triangles around a vertex.
 #[derive(Clone, Debug, Default)]
 pub struct Star {
-    faces: Vec<Face>,
+    faces: Vec<StarFace>,
 }
 
 impl Star {
@@ -67,7 +67,7 @@ impl Star {
     /// Adds a triangle whose corner number `corner` is the vertex; the two after it are at `ends`.
     pub fn push(&mut self, corners: &Corners, corner: usize, ends: [[f64; 2]; 2]) {
         let edge = |i: usize| corners.edges[(corner + i) % 3];
-        self.faces.push(Face {
+        self.faces.push(StarFace {
             ends,
             edges: [edge(0), edge(1), edge(2)],
             per_doubled_area: corners.per_doubled_area,
@@ -150,7 +150,7 @@ impl Star {
     }
 }
 
-impl Face {
+impl StarFace {
     /// Returns ½·weight·‖J‖² and det J.
     fn parts(&self, x: [f64; 2]) -> (f64, f64) {
         let [b, c] = self.ends;

@@ -68,7 +68,7 @@ const STEADY: usize = 16;
 
 /// Totals over a raster.
 #[derive(Clone, Copy, Default)]
-struct Coverage {
+struct CoverageTotals {
     pub covered: u64,
     pub covered_twice: u64,
     pub most_layers: u32,
@@ -78,7 +78,7 @@ struct Coverage {
 ///
 /// Half-open scan conversion in fixed point, exact once corners are rounded to 2⁻¹⁶ texel: in a triangulation without
 /// overlaps every center is counted exactly once, also on edges and vertices.
-fn coverage(uvs: &[CornerUvs], texels: u32, origin: [f64; 2], side: f64) -> Coverage {
+fn coverage(uvs: &[CornerUvs], texels: u32, origin: [f64; 2], side: f64) -> CoverageTotals {
     let scale = f64::from(texels) * ONE as f64;
     let fixed = |uv: [f64; 2]| {
         [0, 1].map(|axis| ((uv[axis] - origin[axis]) / side * scale).round_ties_even() as i64)
@@ -86,7 +86,7 @@ fn coverage(uvs: &[CornerUvs], texels: u32, origin: [f64; 2], side: f64) -> Cove
     let texels = texels as usize;
     let faces: Vec<[[i64; 2]; 3]> = uvs.iter().map(|corners| corners.map(fixed)).collect();
     let bands = faces_by_band(&faces, texels);
-    let mut coverage = Coverage::default();
+    let mut coverage = CoverageTotals::default();
     // Difference array of a band: at each column how many spans begin less how many end.
     let mut change = vec![0_i32; BAND * (texels + 1)];
     for (band, members) in bands.iter().enumerate() {
@@ -102,7 +102,7 @@ fn coverage(uvs: &[CornerUvs], texels: u32, origin: [f64; 2], side: f64) -> Cove
     coverage
 }
 
-impl Coverage {
+impl CoverageTotals {
     fn add_row(&mut self, change: &[i32]) {
         let mut layers = 0;
         let (mut covered, mut covered_twice, mut most) = (0_u32, 0_u32, 0);

@@ -54,14 +54,14 @@ impl Seams {
     }
 }
 
-struct Edge {
+struct SeamEdge {
     faces: usize,
     groups: usize,
     length: f64,
 }
 
-fn edges(topology: &UvTopology) -> Vec<Edge> {
-    let mut edges: Vec<Edge> = Vec::new();
+fn edges(topology: &UvTopology) -> Vec<SeamEdge> {
+    let mut edges: Vec<SeamEdge> = Vec::new();
     for (&corner, start) in topology.edges.order.iter().zip(&topology.edges.start) {
         match (start, edges.last_mut()) {
             (Start::Group, Some(edge)) => {
@@ -75,7 +75,7 @@ fn edges(topology: &UvTopology) -> Vec<Edge> {
                     .vertices
                     .map(|v| topology.points[v as usize]);
                 let along = sub(b, a);
-                edges.push(Edge {
+                edges.push(SeamEdge {
                     faces: 1,
                     groups: 1,
                     length: dot(along, along).sqrt(),

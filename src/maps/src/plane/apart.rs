@@ -12,7 +12,7 @@ const BETWEEN: f64 = 4.0;
 /// Returns whether no two edges of closed polygons, except consecutive ones, come nearer to each other than the share
 /// `part` of the extent of all. O(n log n) unless the edges lie in heaps.
 pub fn keep_apart(polygons: &[Vec<[f64; 2]>], part: f64) -> bool {
-    let edges: Vec<Edge> = (polygons.iter().enumerate())
+    let edges: Vec<PlaneEdge> = (polygons.iter().enumerate())
         .flat_map(|(polygon, vertices)| edges(polygon, vertices))
         .collect();
     let boxes: Vec<Bounds> = edges.iter().map(|edge| bounds_of(&edge.ends)).collect();
@@ -31,7 +31,7 @@ pub fn keep_apart(polygons: &[Vec<[f64; 2]>], part: f64) -> bool {
     })
 }
 
-struct Edge {
+struct PlaneEdge {
     ends: Segment,
     polygon: usize,
     /// Arc length of the polygon at each end.
@@ -39,7 +39,7 @@ struct Edge {
     length: f64,
 }
 
-impl Edge {
+impl PlaneEdge {
     /// Returns the length of the shorter path along the polygon to a later edge; infinite to another polygon.
     fn way_to(&self, later: &Self) -> f64 {
         if self.polygon != later.polygon {
@@ -51,7 +51,7 @@ impl Edge {
 }
 
 /// Returns the edges of a closed polygon.
-fn edges(polygon: usize, vertices: &[[f64; 2]]) -> Vec<Edge> {
+fn edges(polygon: usize, vertices: &[[f64; 2]]) -> Vec<PlaneEdge> {
     let after = vertices.iter().cycle().skip(1);
     let ends: Vec<Segment> = vertices.iter().zip(after).map(|(&p, &q)| [p, q]).collect();
     let mut at = vec![0.0];
@@ -60,7 +60,7 @@ fn edges(polygon: usize, vertices: &[[f64; 2]]) -> Vec<Edge> {
         at.push(at[at.len() - 1] + dot(along, along).sqrt());
     }
     (ends.iter().zip(at.windows(2)))
-        .map(|(&ends, of_ends)| Edge {
+        .map(|(&ends, of_ends)| PlaneEdge {
             ends,
             polygon,
             at: [of_ends[0], of_ends[1]],

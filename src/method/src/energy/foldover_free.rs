@@ -21,7 +21,7 @@ pub struct FoldoverFree {
 }
 
 /// A function of Δ with its first and second derivative.
-type Jet = [f64; 3];
+type DeterminantJet = [f64; 3];
 
 impl FoldoverFree {
     fn is_inside(&self, delta: f64) -> bool {
@@ -39,7 +39,7 @@ impl FoldoverFree {
         }
     }
 
-    fn chi(&self, delta: f64) -> Jet {
+    fn chi(&self, delta: f64) -> DeterminantJet {
         let root = self.epsilon.hypot(delta);
         let chi = self.regularized(delta);
         let ratio = self.epsilon / root;
@@ -47,7 +47,7 @@ impl FoldoverFree {
     }
 
     /// Returns the factor χ^{−2/D}/D of N.
-    fn shape<const D: usize>([chi, first, second]: Jet) -> Jet {
+    fn shape<const D: usize>([chi, first, second]: DeterminantJet) -> DeterminantJet {
         let p = 2.0 / D as f64;
         let value = chi.powf(-p) / D as f64;
         let (first, second) = (first / chi, second / chi);
@@ -59,7 +59,7 @@ impl FoldoverFree {
     }
 
     /// Returns λ(Δ² + 1)/(2χ).
-    fn size(&self, delta: f64, [chi, first, second]: Jet) -> Jet {
+    fn size(&self, delta: f64, [chi, first, second]: DeterminantJet) -> DeterminantJet {
         let half = 0.5 * self.lambda / chi;
         let value = half * (delta * delta + 1.0);
         let (first, second) = (first / chi, second / chi);

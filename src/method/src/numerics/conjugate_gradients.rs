@@ -44,7 +44,7 @@ impl ConjugateGradients {
         values: &[f64],
         x: &mut [f64],
     ) -> Result<(), NotPositiveDefinite> {
-        let matrix = Matrix { pattern, values };
+        let matrix = SymmetricMatrix { pattern, values };
         self.residual.copy_from_slice(x);
         x.fill(0.0);
         matrix.sweep(&self.residual, &mut self.swept)?;
@@ -78,12 +78,12 @@ impl ConjugateGradients {
 }
 
 /// A symmetric matrix, given by its lower triangle.
-struct Matrix<'a> {
+struct SymmetricMatrix<'a> {
     pattern: &'a SymmetricPattern,
     values: &'a [f64],
 }
 
-impl Matrix<'_> {
+impl SymmetricMatrix<'_> {
     /// Returns the diagonal entry of a column and the rows and values below it.
     fn column(&self, j: usize) -> (f64, impl Iterator<Item = (usize, f64)>) {
         let slots = self.pattern.col_ptr[j]..self.pattern.col_ptr[j + 1];

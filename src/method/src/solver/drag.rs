@@ -38,7 +38,7 @@ pub struct Drag<const D: usize> {
     vertices: Vec<u32>,
     phase: Phase,
     /// The last factorization, if it is worth keeping.
-    kept: Option<Kept>,
+    kept: Option<FactorUse>,
 }
 
 /// Next phase of a drag.
@@ -174,7 +174,7 @@ where
     ) -> Phase {
         let before = self.travel.s;
         let found = self.travel.iterate(objective, x);
-        self.kept = Kept::of(objective);
+        self.kept = FactorUse::of(objective);
         let stuck = if self.travel.s > before { 0 } else { stuck + 1 };
         if found.is_none() || self.travel.s >= 1.0 || stuck >= PATIENCE {
             Phase::Settle { from }
@@ -190,7 +190,7 @@ where
         let Some(decrement) = travel.find_newton_step(objective, x) else {
             return true;
         };
-        self.kept = Kept::of(objective);
+        self.kept = FactorUse::of(objective);
         let length = travel.relax(objective, x, decrement);
         travel.summary.iterations += 1;
         let unit = objective.reference(energy);
@@ -266,13 +266,13 @@ const MOST_ADVANCES: usize = 24;
 const WORN: f64 = 0.5;
 
 /// Use of a factorization since it was made.
-struct Kept {
+struct FactorUse {
     advances: usize,
     /// Norm of the last right-hand side.
     norm: f64,
 }
 
-impl Kept {
+impl FactorUse {
     /// Keeps the factorization that an objective has just made; returns `None` if making one is cheap.
     pub fn of(objective: &Objective) -> Option<Self> {
         let is_costly = objective.work().is_some_and(|work| work.flops > COSTLY);

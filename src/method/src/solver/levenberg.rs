@@ -72,7 +72,7 @@ pub fn levenberg(
             .constraints()
             .map_or(0.0, |c| c.residual(x, &destinations))
     };
-    let mut run = Run::new(objective.energy(x), x.len(), settings.alpha);
+    let mut run = LevenbergRun::new(objective.energy(x), x.len(), settings.alpha);
     if !run.summary.energy_first.is_finite() {
         return run.summary;
     }
@@ -121,7 +121,7 @@ pub fn levenberg(
     run.summary.ended(Status::IterationLimit)
 }
 
-struct Run {
+struct LevenbergRun {
     summary: Summary,
     mu: f64,
     sigma: f64,
@@ -130,7 +130,7 @@ struct Run {
     trial: Vec<f64>,
 }
 
-impl Run {
+impl LevenbergRun {
     fn new(energy: f64, n: usize, alpha: f64) -> Self {
         Self {
             summary: Summary::at_start(energy),

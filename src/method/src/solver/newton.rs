@@ -42,7 +42,7 @@ pub(super) fn minimize_with(
     watch: &dyn Watch,
 ) -> Summary {
     assert_eq!(x.len(), objective.n(), "coordinates of every vertex");
-    let mut directions = Directions::new(x.len());
+    let mut directions = DescentDirections::new(x.len());
     let mut trial = vec![0.0; x.len()];
     let mut summary = Summary::at_start(objective.value(x));
     if !summary.energy_first.is_finite() {
@@ -107,7 +107,7 @@ const ENOUGH_PRODUCTS: usize = 20;
 const LEAST_DIRECTIONS: usize = 3;
 
 /// Finds directions of descent and adapts to the steps taken along them.
-struct Directions {
+struct DescentDirections {
     pub direction: Vec<f64>,
     /// The trust region; `None` if every direction is Newton's.
     region: Option<TrustRegion>,
@@ -121,7 +121,7 @@ struct Directions {
     norm: f64,
 }
 
-impl Directions {
+impl DescentDirections {
     /// Creates the state for `n` unknowns; directions are Newton's until it is [prepared](Self::prepare).
     pub fn new(n: usize) -> Self {
         Self {

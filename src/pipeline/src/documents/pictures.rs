@@ -98,10 +98,10 @@ impl Pictures {
             let texture = self.texture;
             let [width, _] = texture.sides();
             let groups = self.uvs.groups.iter();
-            let pages: Vec<Faces> = groups
-                .flat_map(|group| Faces::new(group, texture).pages(width))
+            let pages: Vec<PictureFaces> = groups
+                .flat_map(|group| PictureFaces::new(group, texture).pages(width))
                 .collect();
-            let panels: Vec<Panel> = pages.iter().map(Faces::panel).collect();
+            let panels: Vec<Panel> = pages.iter().map(PictureFaces::panel).collect();
             match picture {
                 AtlasPicture::Layout => layout_png(&panels, SIDE, self.uvs.v_axis),
                 AtlasPicture::Heatmap => heatmap_png(&panels, self.shown, SIDE, self.uvs.v_axis),
@@ -127,14 +127,14 @@ fn weights(input: &Upload, options: &Options) -> Result<Vec<Vec<f64>>, PipelineE
 }
 
 /// Data of a panel: faces that share a page.
-struct Faces {
+struct PictureFaces {
     name: String,
     uvs: Vec<CornerUvs>,
     charts: Vec<u32>,
     distortion: Vec<FaceDistortion>,
 }
 
-impl Faces {
+impl PictureFaces {
     /// Scales the UVs of a group to the shape of the texture, whose longer side is the unit.
     fn new(group: &GroupUvs, texture: Resolution) -> Self {
         let [u, v] = texture.sides();

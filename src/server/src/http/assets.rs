@@ -20,11 +20,11 @@ const ASK: &str = "no-cache";
 pub(super) struct Asset {
     content_type: &'static str,
     content: &'static [u8],
-    made: OnceLock<Made>,
+    made: OnceLock<PreparedAsset>,
 }
 
 /// Data derived from a file on its first request.
-struct Made {
+struct PreparedAsset {
     /// First 16 hexadecimal digits of its SHA-256, which pages use as its version.
     version: String,
     gzip: Vec<u8>,
@@ -39,13 +39,13 @@ impl Asset {
         }
     }
 
-    fn made(&self) -> &Made {
+    fn made(&self) -> &PreparedAsset {
         self.made.get_or_init(|| {
             let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
             let written = encoder.write_all(self.content);
             let mut version = format!("{:x}", Sha256::digest(self.content));
             version.truncate(16);
-            Made {
+            PreparedAsset {
                 version,
                 gzip: written.and_then(|()| encoder.finish()).unwrap_or_default(),
             }

@@ -38,7 +38,7 @@ pub(super) async fn serve(
     limits: &Connections,
     stop: CancellationToken,
 ) {
-    let mut gate = Gate::new(listener, limits);
+    let mut gate = ConnectionGate::new(listener, limits);
     let open = TaskTracker::new();
     loop {
         let (stream, peer, place) = tokio::select! {
@@ -49,7 +49,7 @@ pub(super) async fn serve(
         let mut http1 = Builder::new();
         http1.timer(TokioTimer::new());
         http1.header_read_timeout(limits.header_time);
-        let stream = Held::new(stream, limits.silence, (place, Counted::new()));
+        let stream = HeldConnection::new(stream, limits.silence, (place, Counted::new()));
         let service = TowerToHyperService::new(router.clone());
         let service = service_fn(move |mut request: Request<Incoming>| {
             request.extensions_mut().insert(Peer(peer));
@@ -82,7 +82,7 @@ pub(super) async fn serve(
 const PAUSE: Duration = Duration::from_millis(200);
 
 /// Accepts connections within the limits.
-struct Gate {
+struct ConnectionGate {
     listener: TcpListener,
     places: Arc<Semaphore>,
     crowds: Arc<Crowds<IpAddr>>,
@@ -91,9 +91,9 @@ struct Gate {
 }
 
 /// Slots of a connection, global and of its address, until it is dropped.
-type Place = (Option<OwnedSemaphorePermit>, Seat<IpAddr>);
+type ConnectionPlace = (Option<OwnedSemaphorePermit>, Seat<IpAddr>);
 
-impl Gate {
+impl ConnectionGate {
     /// Creates a gate with these limits.
     pub fn new(listener: TcpListener, limits: &Connections) -> Self {
         Self {
@@ -107,7 +107,7 @@ impl Gate {
 
     /// Waits for the next connection that may stay. Connections of addresses that have too many are refused meanwhile
     /// and take no slot.
-    pub async fn next(&mut self) -> (TcpStream, IpAddr, Place) {
+    pub async fn next(&mut self) -> (TcpStream, IpAddr, ConnectionPlace) {
         // The semaphore is never closed.
         let place = Arc::clone(&self.places).acquire_owned().await.ok();
         loop {
@@ -199,12 +199,12 @@ impl Refused {
 // Connections that keep their slot until they are closed, even after an upgrade to a WebSocket.
 
 /// A connection together with its slot.
-struct Held<P> {
+struct HeldConnection<P> {
     stream: Pin<Box<TimeoutStream<TcpStream>>>,
     _place: P,
 }
 
-impl<P> Held<P> {
+impl<P> HeldConnection<P> {
     /// Creates a connection that fails if nothing can be written for the time `silence`.
     pub fn new(stream: TcpStream, silence: Duration, place: P) -> Self {
         let mut stream = TimeoutStream::new(stream);
@@ -216,7 +216,7 @@ impl<P> Held<P> {
     }
 }
 
-impl<P: Unpin> AsyncRead for Held<P> {
+impl<P: Unpin> AsyncRead for HeldConnection<P> {
     fn poll_read(
         mut self: Pin<&mut Self>,
         context: &mut Context<'_>,
@@ -226,7 +226,7 @@ impl<P: Unpin> AsyncRead for Held<P> {
     }
 }
 
-impl<P: Unpin> AsyncWrite for Held<P> {
+impl<P: Unpin> AsyncWrite for HeldConnection<P> {
     fn poll_write(
         mut self: Pin<&mut Self>,
         context: &mut Context<'_>,

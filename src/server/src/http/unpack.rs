@@ -35,7 +35,7 @@ pub(super) fn is_archive(path: &Path) -> io::Result<bool> {
 }
 
 /// An entry of an archive: its index and its name for the input.
-type Entry = (usize, String);
+type ArchiveEntry = (usize, String);
 
 /// Unpacks an archive of at most `limit` bytes into its folder: first the input of a kind, then the files that it
 /// references, named by the paths that it uses. Nothing else is unpacked.
@@ -74,7 +74,7 @@ pub(super) fn unpacked(
     let mut files = vec![unpacker.unpack(&input)?];
 
     // Unpack what the input references. Material files are unpacked early to read their own references.
-    let others: Vec<Entry> = entries.collect();
+    let others: Vec<ArchiveEntry> = entries.collect();
     let known = others.iter().map(|(_, name)| name.clone()).collect();
     let mut materials = Vec::new();
     let kept = referenced(
@@ -110,7 +110,7 @@ struct Unpacker {
 }
 
 impl Unpacker {
-    fn unpack(&mut self, (index, name): &Entry) -> Result<(InputFile, PathBuf), Problem> {
+    fn unpack(&mut self, (index, name): &ArchiveEntry) -> Result<(InputFile, PathBuf), Problem> {
         let entry = self.archive.by_index(*index).map_err(|e| invalid(&e))?;
         let place = self.folder.join(format!("unpacked-{index}"));
         let unpacked = unpack(entry, &place, self.left)?;
@@ -165,7 +165,10 @@ fn is_of_a_system(name: &str) -> bool {
 
 /// Moves the only file of a format that the kind reads to the front, and renames the others in its folder relative to
 /// it.
-fn with_input_first(mut entries: Vec<Entry>, kind: Kind) -> Result<Vec<Entry>, Problem> {
+fn with_input_first(
+    mut entries: Vec<ArchiveEntry>,
+    kind: Kind,
+) -> Result<Vec<ArchiveEntry>, Problem> {
     let names = entries.iter().map(|(_, name)| name.as_str());
     let inputs: Vec<&str> = names.filter(|name| framing::is_named(name, kind)).collect();
     let [input] = *inputs else {

@@ -20,10 +20,10 @@ pub(super) const LEFT: HeaderName = HeaderName::from_static("ratelimit");
 pub(super) struct Windows<K> {
     most: u32,
     began: Instant,
-    present: Mutex<Present<K>>,
+    present: Mutex<PresentWindow<K>>,
 }
 
-struct Present<K> {
+struct PresentWindow<K> {
     window: u64,
     counts: HashMap<K, u32>,
 }
@@ -44,7 +44,7 @@ impl<K: Eq + Hash> Windows<K> {
         Self {
             most,
             began: Instant::now(),
-            present: Present { window, counts }.into(),
+            present: PresentWindow { window, counts }.into(),
         }
     }
 

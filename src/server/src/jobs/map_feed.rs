@@ -12,12 +12,12 @@ use unwrapd_api::{MAPS, number_frame};
 pub(super) struct MapFeed {
     /// Notified when a listener waits for the next frame.
     pub asked: Arc<Notify>,
-    latest: watch::Sender<Frame>,
+    latest: watch::Sender<MapFrame>,
 }
 
 /// A numbered frame; number 0 means that there is none.
 #[derive(Clone, Default)]
-struct Frame {
+struct MapFrame {
     number: u64,
     bytes: Bytes,
 }
@@ -25,15 +25,15 @@ struct Frame {
 /// A listener for the next frame of an attempt. It does not keep the attempt alive.
 pub(super) struct MapListener {
     asked: Arc<Notify>,
-    latest: watch::Receiver<Frame>,
+    latest: watch::Receiver<MapFrame>,
 }
 
 impl MapFeed {
     /// Creates a feed whose frames have numbers above `before`.
     pub fn new(before: u64) -> Self {
-        let none = Frame {
+        let none = MapFrame {
             number: before,
-            ..Frame::default()
+            ..MapFrame::default()
         };
         Self {
             asked: Arc::default(),
@@ -56,7 +56,7 @@ impl MapFeed {
         };
         let next = self.latest.borrow().number + 1;
         if number_frame(&mut bytes, next) {
-            self.latest.send_replace(Frame {
+            self.latest.send_replace(MapFrame {
                 number: next,
                 bytes: bytes.into(),
             });
@@ -70,7 +70,7 @@ impl MapListener {
     pub async fn next(mut self, after: u64) -> Option<Bytes> {
         self.asked.notify_one();
         loop {
-            let Frame { number, bytes } = self.latest.borrow_and_update().clone();
+            let MapFrame { number, bytes } = self.latest.borrow_and_update().clone();
             if after < number && !bytes.is_empty() {
                 return Some(bytes);
             }

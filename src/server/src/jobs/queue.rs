@@ -33,7 +33,7 @@ pub struct Jobs {
     pub(super) blobs: Arc<dyn Blobs>,
     pub(super) settings: Settings,
     pub(super) worker: WorkerId,
-    pub(super) live: Live,
+    pub(super) live: LiveEvents,
     pub(super) running: Running,
     pub(super) wake: Notify,
     pub(super) wake_reserve: Notify,
@@ -64,7 +64,7 @@ impl Jobs {
             blobs,
             settings,
             worker: WorkerId::fresh(),
-            live: Live::default(),
+            live: LiveEvents::default(),
             running: Running::default(),
             wake: Notify::new(),
             wake_reserve: Notify::new(),
@@ -247,11 +247,11 @@ impl DrawingQueue {
 
 /// The newest event of each job with subscribers.
 #[derive(Default)]
-pub(super) struct Live {
+pub(super) struct LiveEvents {
     watched: Mutex<HashMap<JobId, watch::Sender<Option<Event>>>>,
 }
 
-impl Live {
+impl LiveEvents {
     fn watched(&self) -> MutexGuard<'_, HashMap<JobId, watch::Sender<Option<Event>>>> {
         self.watched.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -150,9 +150,9 @@ impl Session {
                     let _ = self.replies.send(bytes);
                 }
                 BAKED => {
-                    let said = serde_json::from_slice::<Outcome>(&bytes);
+                    let said = serde_json::from_slice::<BakeOutcome>(&bytes);
                     let said = said.map_err(|e| Failure::new("internal_error", e.to_string()));
-                    let _ = self.baked.try_send(said.and_then(Outcome::into_result));
+                    let _ = self.baked.try_send(said.and_then(BakeOutcome::into_result));
                 }
                 FAILED => return serde_json::from_slice(&bytes).ok(),
                 _ => {}
@@ -175,12 +175,12 @@ impl Session {
 
 /// A `Result` in JSON.
 #[derive(serde::Deserialize)]
-enum Outcome {
+enum BakeOutcome {
     Ok(Vec<Value>),
     Err(Failure),
 }
 
-impl Outcome {
+impl BakeOutcome {
     fn into_result(self) -> Result<Vec<Value>, Failure> {
         match self {
             Self::Ok(handles) => Ok(handles),

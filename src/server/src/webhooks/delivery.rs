@@ -100,7 +100,7 @@ struct Courier {
 }
 
 /// Outcome of a delivery.
-enum Answer {
+enum DeliveryAnswer {
     Heard,
     /// Reason for the failure.
     Unheard(String),
@@ -115,19 +115,19 @@ impl Courier {
         let (id, attempt) = (&*notice.id, notice.attempt);
         let retry = RETRIES.get(attempt.saturating_sub(1) as usize);
         let (result, settled) = match (self.post(notice).await, retry) {
-            (Answer::Heard, _) => {
+            (DeliveryAnswer::Heard, _) => {
                 tracing::info!(id, host, attempt, "webhook delivered");
                 ("delivered", self.outbox.settle(id).await)
             }
-            (Answer::Unheard(why), Some(&pause)) => {
+            (DeliveryAnswer::Unheard(why), Some(&pause)) => {
                 tracing::warn!(id, host, attempt, why, "webhook not delivered yet");
                 ("failed", self.outbox.defer(id, pause).await)
             }
-            (Answer::Unheard(why), None) => {
+            (DeliveryAnswer::Unheard(why), None) => {
                 tracing::error!(id, host, attempt, why, "webhook given up");
                 ("given_up", self.outbox.settle(id).await)
             }
-            (Answer::Gone, _) => {
+            (DeliveryAnswer::Gone, _) => {
                 tracing::warn!(id, host, attempt, "webhook refused for good");
                 ("given_up", self.outbox.settle(id).await)
             }
@@ -139,9 +139,9 @@ impl Courier {
         }
     }
 
-    async fn post(&self, notice: &Notice) -> Answer {
+    async fn post(&self, notice: &Notice) -> DeliveryAnswer {
         if let Err(refused) = check(&notice.webhook, self.settings.reachable) {
-            return Answer::Unheard(refused.to_string());
+            return DeliveryAnswer::Unheard(refused.to_string());
         }
         let time = Timestamp::now().0.div_euclid(1000);
         let signed = (&*notice.id, time, &*notice.body);
@@ -155,10 +155,10 @@ impl Courier {
             .header("webhook-signature", signature)
             .body(notice.body.clone());
         match request.send().await {
-            Ok(answer) if answer.status().is_success() => Answer::Heard,
-            Ok(answer) if answer.status() == StatusCode::GONE => Answer::Gone,
-            Ok(answer) => Answer::Unheard(format!("the answer is {}", answer.status())),
-            Err(error) => Answer::Unheard(text(&error.without_url())),
+            Ok(answer) if answer.status().is_success() => DeliveryAnswer::Heard,
+            Ok(answer) if answer.status() == StatusCode::GONE => DeliveryAnswer::Gone,
+            Ok(answer) => DeliveryAnswer::Unheard(format!("the answer is {}", answer.status())),
+            Err(error) => DeliveryAnswer::Unheard(text(&error.without_url())),
         }
     }
 }

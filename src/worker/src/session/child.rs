@@ -20,7 +20,7 @@ use unwrapd_pipeline::{Workers, in_pool, start_file};
 const MOST_WAITING: usize = 1024;
 
 /// A record from the server.
-enum Said {
+enum ServerRecord {
     Message(Result<Message, (u32, Failure)>),
     Bake,
 }
@@ -58,14 +58,14 @@ fn session(folder: &Path, out: &File) -> Result<(), Failure> {
 
 /// Starts the thread that listens to the server. The process exits when standard input ends, because the server is
 /// gone or closed the session.
-fn listen() -> std::io::Result<Receiver<Said>> {
+fn listen() -> std::io::Result<Receiver<ServerRecord>> {
     let (say, said) = sync_channel(MOST_WAITING);
     std::thread::Builder::new().spawn(move || {
         let mut stdin = std::io::stdin().lock();
         while let Ok((tag, bytes)) = pipe::read(&mut stdin) {
             let heard = match tag {
-                BAKE => Said::Bake,
-                _ => Said::Message(Message::read(&bytes)),
+                BAKE => ServerRecord::Bake,
+                _ => ServerRecord::Message(Message::read(&bytes)),
             };
             if say.send(heard).is_err() {
                 break;
@@ -77,7 +77,7 @@ fn listen() -> std::io::Result<Receiver<Said>> {
 }
 
 /// Handles messages as they arrive, iterates while the map moves, and sends a frame after each iteration.
-fn serve(mut course: Course, said: &Receiver<Said>, folder: &Path, out: &File) {
+fn serve(mut course: Course, said: &Receiver<ServerRecord>, folder: &Path, out: &File) {
     tell(out, MESH, &course.mesh());
     tell(out, FRAME, &course.frame());
     loop {
@@ -89,7 +89,7 @@ fn serve(mut course: Course, said: &Receiver<Said>, folder: &Path, out: &File) {
                 Err(_) => return,
             }
         };
-        let batch: Vec<Said> = first.into_iter().chain(said.try_iter()).collect();
+        let batch: Vec<ServerRecord> = first.into_iter().chain(said.try_iter()).collect();
         take(&mut course, batch, folder, out);
         course.step();
         tell(out, FRAME, &course.frame());
@@ -98,29 +98,29 @@ fn serve(mut course: Course, said: &Receiver<Said>, folder: &Path, out: &File) {
 
 /// Handles the records since the last iteration. Among moves of one handle with nothing but moves between them, only
 /// the last one has an effect, so outdated positions do not delay a drag.
-fn take(course: &mut Course, batch: Vec<Said>, folder: &Path, out: &File) {
+fn take(course: &mut Course, batch: Vec<ServerRecord>, folder: &Path, out: &File) {
     let is_late = superseded(&batch);
     for (said, is_late) in batch.into_iter().zip(is_late) {
         let reply = match said {
-            Said::Bake => {
+            ServerRecord::Bake => {
                 tell(out, BAKED, &json(&bake(course, folder)));
                 continue;
             }
-            Said::Message(Ok(message)) if is_late => course.supersede(message.n),
-            Said::Message(Ok(message)) => course.take(&message),
-            Said::Message(Err((n, error))) => course.refuse(n, error),
+            ServerRecord::Message(Ok(message)) if is_late => course.supersede(message.n),
+            ServerRecord::Message(Ok(message)) => course.take(&message),
+            ServerRecord::Message(Err((n, error))) => course.refuse(n, error),
         };
         tell(out, REPLY, &json(&reply));
     }
 }
 
 /// Returns which records are moves superseded by a later one.
-fn superseded(batch: &[Said]) -> Vec<bool> {
+fn superseded(batch: &[ServerRecord]) -> Vec<bool> {
     let mut moved_later = BTreeSet::new();
     let mut late = vec![false; batch.len()];
     for (said, is_late) in batch.iter().zip(&mut late).rev() {
         match said {
-            Said::Message(Ok(message)) => match message.moved() {
+            ServerRecord::Message(Ok(message)) => match message.moved() {
                 Some(name) => *is_late = !moved_later.insert(name),
                 None => moved_later.clear(),
             },

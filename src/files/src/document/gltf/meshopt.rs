@@ -32,7 +32,7 @@ pub(super) fn is_fallback(buffer: &Value) -> bool {
 }
 
 #[derive(Clone, Copy)]
-enum Mode {
+enum MeshoptMode {
     Attributes,
     Triangles,
     Indices,
@@ -61,9 +61,9 @@ pub(super) fn decode(extension: &Value, data: &[u8]) -> Result<Vec<u8>, Document
     let text = |key| extension.get(key).and_then(Value::as_str);
     // Check what the decoders require: mode, filter, count and stride.
     let mode = match text("mode") {
-        Some("ATTRIBUTES") => Mode::Attributes,
-        Some("TRIANGLES") => Mode::Triangles,
-        Some("INDICES") => Mode::Indices,
+        Some("ATTRIBUTES") => MeshoptMode::Attributes,
+        Some("TRIANGLES") => MeshoptMode::Triangles,
+        Some("INDICES") => MeshoptMode::Indices,
         _ => return Err(invalid("unknown meshopt `mode`")),
     };
     let filter = match text("filter") {
@@ -77,13 +77,13 @@ pub(super) fn decode(extension: &Value, data: &[u8]) -> Result<Vec<u8>, Document
     let count = required(extension, "count")?;
     let stride = required(extension, "byteStride")?;
     let fits = match (mode, filter) {
-        (Mode::Attributes, Filter::None | Filter::Exponential) => {
+        (MeshoptMode::Attributes, Filter::None | Filter::Exponential) => {
             (4..=256).contains(&stride) && stride % 4 == 0
         }
-        (Mode::Attributes, Filter::Octahedral | Filter::Color) => stride == 4 || stride == 8,
-        (Mode::Attributes, Filter::Quaternion) => stride == 8,
-        (Mode::Triangles, Filter::None) => (stride == 2 || stride == 4) && count % 3 == 0,
-        (Mode::Indices, Filter::None) => stride == 2 || stride == 4,
+        (MeshoptMode::Attributes, Filter::Octahedral | Filter::Color) => stride == 4 || stride == 8,
+        (MeshoptMode::Attributes, Filter::Quaternion) => stride == 8,
+        (MeshoptMode::Triangles, Filter::None) => (stride == 2 || stride == 4) && count % 3 == 0,
+        (MeshoptMode::Indices, Filter::None) => stride == 2 || stride == 4,
         _ => false,
     };
     if !fits {
@@ -114,7 +114,13 @@ pub(super) fn decode(extension: &Value, data: &[u8]) -> Result<Vec<u8>, Document
 
 /// Decodes into `words`, which must hold `count` elements of `stride` bytes; returns `false` if the data is damaged.
 #[allow(unsafe_code)]
-fn decode_into(words: &mut [u64], mode: Mode, count: usize, stride: usize, data: &[u8]) -> bool {
+fn decode_into(
+    words: &mut [u64],
+    mode: MeshoptMode,
+    count: usize,
+    stride: usize,
+    data: &[u8],
+) -> bool {
     assert!(count * stride <= size_of_val(words));
     let out = words.as_mut_ptr().cast::<c_void>();
     // SAFETY: `out` is valid for writes of count × stride bytes (asserted above) and aligned to 8; `data` is valid for
@@ -123,13 +129,13 @@ fn decode_into(words: &mut [u64], mode: Mode, count: usize, stride: usize, data:
     // from 4 to 256, index sizes 2 or 4, triangle counts multiples of 3. Any byte pattern is a valid u64.
     let status = unsafe {
         match mode {
-            Mode::Attributes => {
+            MeshoptMode::Attributes => {
                 ffi::meshopt_decodeVertexBuffer(out, count, stride, data.as_ptr(), data.len())
             }
-            Mode::Triangles => {
+            MeshoptMode::Triangles => {
                 ffi::meshopt_decodeIndexBuffer(out, count, stride, data.as_ptr(), data.len())
             }
-            Mode::Indices => {
+            MeshoptMode::Indices => {
                 ffi::meshopt_decodeIndexSequence(out, count, stride, data.as_ptr(), data.len())
             }
         }

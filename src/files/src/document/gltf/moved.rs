@@ -22,7 +22,7 @@ pub(super) fn move_surfaces(
     primitives: &[Primitive],
     map: &dyn SpaceMap,
 ) -> Result<(), DocumentError> {
-    let mut surfaces = Surfaces {
+    let mut surfaces = SurfaceMoves {
         positions: Positions::new(body)?,
         body,
         map,
@@ -35,7 +35,7 @@ pub(super) fn move_surfaces(
     Ok(())
 }
 
-struct Surfaces<'a> {
+struct SurfaceMoves<'a> {
     body: &'a mut Body,
     positions: Positions,
     map: &'a dyn SpaceMap,
@@ -45,7 +45,7 @@ struct Surfaces<'a> {
     done: HashMap<(usize, &'static str, usize), usize>,
 }
 
-impl Surfaces<'_> {
+impl SurfaceMoves<'_> {
     fn push(&mut self, primitive: &Primitive) -> Result<(), DocumentError> {
         let mesh = item(&self.body.json, "meshes", primitive.mesh)?;
         let attributes = items(mesh, "primitives")?

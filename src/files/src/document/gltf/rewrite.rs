@@ -16,7 +16,7 @@ use std::collections::HashMap;
 use std::hash::Hash;
 
 /// Attributes in which corners must agree to share a vertex: the bits of the UV, and of the tangent if it is new.
-type Key = ([u32; 2], [u32; 4]);
+type VertexKey = ([u32; 2], [u32; 4]);
 
 /// Writes the UVs of primitive `index`, v down, into `body`, a copy of the document's.
 pub(super) fn rewrite(
@@ -40,7 +40,7 @@ pub(super) fn rewrite(
         None
     };
     // Split vertices at the seams of the new set.
-    let vertices = Vertices::new(primitive, joined.as_ref());
+    let vertices = PrimitiveVertices::new(primitive, joined.as_ref());
     let split = split(
         vertices.kept.len(),
         &vertices.triangles,
@@ -101,14 +101,14 @@ pub(super) fn rewrite(
 }
 
 /// Vertices of a primitive before they are split.
-struct Vertices<'a> {
+struct PrimitiveVertices<'a> {
     /// Vertices of the file that remain.
     kept: Vec<u32>,
     /// Faces in terms of these.
     triangles: Cow<'a, [[u32; 3]]>,
 }
 
-impl<'a> Vertices<'a> {
+impl<'a> PrimitiveVertices<'a> {
     fn new(primitive: &'a Primitive, joined: Option<&Rejoined>) -> Self {
         match joined {
             None => Self {
@@ -159,7 +159,7 @@ fn new_tangents(
     Ok((tangents, note))
 }
 
-fn keys(corners: &[Corners], tangents: Option<&[CornerTangents]>) -> Vec<[Key; 3]> {
+fn keys(corners: &[Corners], tangents: Option<&[CornerTangents]>) -> Vec<[VertexKey; 3]> {
     let key = |face: usize, corner: usize| {
         let tangent = tangents.map_or([0; 4], |tangents| tangents[face][corner].map(f32::to_bits));
         (corners[face][corner].map(f32::to_bits), tangent)

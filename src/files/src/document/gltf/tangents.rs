@@ -31,7 +31,7 @@ pub fn tangents(
     uvs: &[[[f32; 2]; 3]],
 ) -> Option<Vec<CornerTangents>> {
     let tangents = vec![[[1.0, 0.0, 0.0, 1.0]; 3]; uvs.len()];
-    let mut shape = Shape {
+    let mut shape = TangentShape {
         primitive,
         normals,
         uvs,
@@ -41,14 +41,14 @@ pub fn tangents(
     generate_tangents(&mut shape).ok().map(|()| shape.tangents)
 }
 
-struct Shape<'a> {
+struct TangentShape<'a> {
     primitive: &'a Primitive,
     normals: &'a [[[f32; 3]; 3]],
     uvs: &'a [[[f32; 2]; 3]],
     tangents: Vec<CornerTangents>,
 }
 
-impl Geometry for Shape<'_> {
+impl Geometry for TangentShape<'_> {
     fn num_faces(&self) -> usize {
         self.uvs.len()
     }

@@ -60,7 +60,7 @@ impl MaterialTextures {
         if let Ok(object) = item(json, "materials", material) {
             let pointer = format!("/materials/{material}");
             let material = Some(material);
-            Place { material, pointer }.search(object, "", &mut uses);
+            TexturePlace { material, pointer }.search(object, "", &mut uses);
         }
         Self::new(uses)
     }
@@ -70,7 +70,7 @@ impl MaterialTextures {
         let mut uses = Vec::new();
         if let Some(extensions) = object.get("extensions") {
             let (mesh, primitive) = (primitive.mesh, primitive.primitive);
-            let place = Place {
+            let place = TexturePlace {
                 material: None,
                 pointer: format!("/meshes/{mesh}/primitives/{primitive}/extensions"),
             };
@@ -97,12 +97,12 @@ pub(super) fn materials(
 }
 
 /// Place at which texture infos are searched.
-struct Place {
+struct TexturePlace {
     material: Option<usize>,
     pointer: String,
 }
 
-impl Place {
+impl TexturePlace {
     /// Collects every texture info below `value`: an object with an `index`, under a name that ends in `texture`.
     fn search(&self, value: &Value, slot: &str, uses: &mut Vec<TextureUse>) {
         let children: Vec<(String, &Value)> = match value {

@@ -77,7 +77,7 @@ impl MaterialFiles {
     /// Returns a material, and the folder to which its maps are relative; adds keywords that are left out to `dropped`.
     pub fn material(&self, name: &str, dropped: &mut Dropped) -> Option<(Material, &str)> {
         let statements = self.statements.get(name)?;
-        let mut reader = Reader {
+        let mut reader = MtlReader {
             words: &statements.words,
             used: BTreeSet::new(),
             lost: BTreeSet::new(),
@@ -100,13 +100,13 @@ fn is_map(keyword: &str) -> bool {
 }
 
 /// Reads the statements of a material and records those it has used.
-struct Reader<'a> {
+struct MtlReader<'a> {
     words: &'a BTreeMap<String, String>,
     used: BTreeSet<&'static str>,
     lost: BTreeSet<String>,
 }
 
-impl Reader<'_> {
+impl MtlReader<'_> {
     fn material(&mut self, name: &str) -> Material {
         let new = Material::named(name);
         let color_map = self.map("map_kd");

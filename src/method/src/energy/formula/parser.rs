@@ -149,7 +149,7 @@ impl<'a> Parser<'a> {
         if let Some(i) = names[..self.n_sigma].iter().position(|&s| s == name) {
             return Ok(Expression::Sigma(i));
         }
-        let Some(function) = Function::named(name) else {
+        let Some(function) = FunctionName::named(name) else {
             return Err(FormulaError::UnknownName {
                 column: start,
                 name: name.to_owned(),
@@ -217,19 +217,19 @@ pub(super) enum Expression {
     /// The first expression raised to the power of the second.
     Exponential(Box<[Self; 2]>),
     Negative(Box<Self>),
-    Call(Function, Box<Self>),
+    Call(FunctionName, Box<Self>),
 }
 
 /// A function of one argument.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Function {
+pub(super) enum FunctionName {
     Sqrt,
     Exp,
     Log,
     Cosh,
 }
 
-impl Function {
+impl FunctionName {
     fn named(name: &str) -> Option<Self> {
         Some(match name {
             "sqrt" => Self::Sqrt,

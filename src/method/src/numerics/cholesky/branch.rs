@@ -68,7 +68,7 @@ impl Branch {
             panel.fill(0.0);
             plan.scatter.add(k as usize, values, panel, front.stride());
             for (child, update) in children() {
-                let mut target = Target {
+                let mut target = UpdatedColumns {
                     columns: 0..front.padded(),
                     values: &mut *panel,
                     stride: front.stride(),
@@ -86,7 +86,7 @@ impl Branch {
                 let own = &mut mine[place.update..place.update + front.update_len()];
                 write_update(front, panel, own);
                 for (child, update) in children() {
-                    let mut target = Target::update(front, own);
+                    let mut target = UpdatedColumns::update(front, own);
                     target.add(
                         update,
                         child.update_stride(),
@@ -109,7 +109,7 @@ impl Branch {
 }
 
 /// Columns of a front to which the updates of its children are added.
-struct Target<'a> {
+struct UpdatedColumns<'a> {
     /// The columns, as rows of the panel.
     columns: std::ops::Range<usize>,
     /// Values, starting at row and column `columns.start` or, for the panel, at row 0.
@@ -117,7 +117,7 @@ struct Target<'a> {
     stride: usize,
 }
 
-impl<'a> Target<'a> {
+impl<'a> UpdatedColumns<'a> {
     fn update(front: &Front, values: &'a mut [f64]) -> Self {
         Self {
             columns: front.padded()..usize::MAX,

@@ -39,7 +39,7 @@ impl WithSimd for FactorColumns<'_> {
         for first in (from..to).step_by(LANES) {
             let width = LANES.min(to - first);
             let (left, right) = panel.split_at_mut(first * stride);
-            let mut columns = Columns {
+            let mut columns = ColumnBlock {
                 left: &left[from * stride..],
                 right: &mut right[..width * stride],
                 stride,
@@ -79,7 +79,7 @@ fn for_strips<S: Simd>(simd: S, from: usize, to: usize, work: &mut impl Strips) 
 }
 
 /// Some columns of a panel, and those to their left.
-struct Columns<'a> {
+struct ColumnBlock<'a> {
     left: &'a [f64],
     right: &'a mut [f64],
     stride: usize,
@@ -126,7 +126,7 @@ fn products<S: Simd, const R: usize>(
     sums
 }
 
-impl Columns<'_> {
+impl ColumnBlock<'_> {
     /// Returns eight columns of a strip minus all products with columns to their left; zeros beyond `width`.
     #[inline(always)]
     fn reduced<S: Simd, const R: usize>(&self, simd: S, row: usize) -> [[S::f64s; R]; LANES] {
@@ -177,7 +177,7 @@ impl Columns<'_> {
 
 /// Solves for the rows below a factored tile.
 struct SolveStrips<'a> {
-    columns: Columns<'a>,
+    columns: ColumnBlock<'a>,
     tile: Tile,
 }
 

@@ -25,13 +25,13 @@ pub(super) struct Plan {
     /// Unknowns per vertex.
     pub block: usize,
     pub fronts: Fronts,
-    pub places: Vec<Place>,
+    pub places: Vec<EntryPlace>,
     pub scatter: Scatter,
 }
 
 /// Place of a front's numbers in its branch.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Place {
+pub(super) struct EntryPlace {
     pub branch: u32,
     pub panel: usize,
     pub update: usize,
@@ -63,12 +63,12 @@ impl Plan {
 }
 
 impl Plan {
-    pub fn front(&self, k: u32) -> (&Front, &Place) {
+    pub fn front(&self, k: u32) -> (&Front, &EntryPlace) {
         (&self.fronts.list[k as usize], &self.places[k as usize])
     }
 
     /// Returns the children of a front, whose updates it receives.
-    pub fn children(&self, front: &Front) -> impl Iterator<Item = (&Front, &Place)> {
+    pub fn children(&self, front: &Front) -> impl Iterator<Item = (&Front, &EntryPlace)> {
         let children = &self.fronts.children[front.children.clone()];
         children.iter().map(|&child| self.front(child))
     }
@@ -111,7 +111,7 @@ fn composed(first: &[u32], second: &[u32]) -> Vec<u32> {
 }
 
 /// Assigns each front its place in memory. The last branch is the trunk, on which the others grow.
-fn layout(fronts: &Fronts) -> (Vec<Place>, Vec<Extent>) {
+fn layout(fronts: &Fronts) -> (Vec<EntryPlace>, Vec<Extent>) {
     let branch_of = branches(fronts);
     let n_branches = branch_of.iter().max().map_or(1, |&b| b as usize + 1);
     let mut extents: Vec<Extent> = (0..n_branches).map(|_| Extent::default()).collect();
@@ -122,7 +122,7 @@ fn layout(fronts: &Fronts) -> (Vec<Place>, Vec<Extent>) {
         let branch = branch_of[k] as usize;
         let (extent, height) = (&mut extents[branch], &mut heights[branch]);
         let now = &mut height[front.depth % 2];
-        places.push(Place {
+        places.push(EntryPlace {
             branch: branch as u32,
             panel: extent.panels,
             update: *now,
@@ -258,11 +258,11 @@ struct Block {
     stride: u32,
     /// First entry in the panel.
     to: u32,
-    kind: Kind,
+    kind: FrontKind,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Kind {
+enum FrontKind {
     Diagonal,
     Straight,
     /// Block of two vertices, where the larger one is eliminated first.
@@ -301,7 +301,7 @@ impl Scatter {
                     from: pattern.col_ptr[size * own as usize] as u32,
                     stride: stride(graph, own, size),
                     to: (column * front.stride() + column) as u32,
-                    kind: Kind::Diagonal,
+                    kind: FrontKind::Diagonal,
                 });
                 for &i in reordered.of(j as u32).iter().filter(|&&i| i as usize > j) {
                     let row = front.row(i, size, &fronts.rows);
@@ -354,9 +354,9 @@ impl Block {
             stride: stride(graph, small, size),
             to,
             kind: if own < other {
-                Kind::Straight
+                FrontKind::Straight
             } else {
-                Kind::Transposed
+                FrontKind::Transposed
             },
         }
     }
@@ -384,14 +384,14 @@ fn add_blocks<const D: usize>(
         let (mut from, to) = (block.from as usize, block.to as usize);
         for c in 0..D {
             match block.kind {
-                Kind::Diagonal => {
+                FrontKind::Diagonal => {
                     for r in c..D {
                         panel[to + c * panel_stride + r] += values[from + r - c];
                     }
                     from += block.stride as usize + D - c;
                 }
-                Kind::Straight | Kind::Transposed => {
-                    let straight = matches!(block.kind, Kind::Straight);
+                FrontKind::Straight | FrontKind::Transposed => {
+                    let straight = matches!(block.kind, FrontKind::Straight);
                     for r in 0..D {
                         let (row, column) = if straight { (r, c) } else { (c, r) };
                         panel[to + column * panel_stride + row] += values[from + r];

@@ -49,7 +49,7 @@ impl WithSimd for Forward<'_> {
                 }
             }
             for first in (0..front.pivots).step_by(LANES) {
-                Tile::new(front, &panels[place.panel..], first).forward(simd, local);
+                SolveTile::new(front, &panels[place.panel..], first).forward(simd, local);
             }
             let (own, below) = local.split_at(front.padded());
             vectors.pivots[place.pivots..][..front.pivots].copy_from_slice(&own[..front.pivots]);
@@ -87,7 +87,7 @@ impl WithSimd for Backward<'_> {
             local[front.padded()..][..front.below]
                 .copy_from_slice(&vectors.below[place.below..][..front.below]);
             for first in (0..front.pivots).step_by(LANES).rev() {
-                Tile::new(front, &panels[place.panel..], first).backward(simd, local);
+                SolveTile::new(front, &panels[place.panel..], first).backward(simd, local);
             }
             pivots.copy_from_slice(&local[..front.pivots]);
             for (child, at) in plan.children(front) {
@@ -105,7 +105,7 @@ impl WithSimd for Backward<'_> {
 }
 
 /// Up to eight columns of a factored panel, whose diagonal holds reciprocals.
-struct Tile<'a> {
+struct SolveTile<'a> {
     columns: &'a [f64],
     stride: usize,
     width: usize,
@@ -113,7 +113,7 @@ struct Tile<'a> {
     first: usize,
 }
 
-impl<'a> Tile<'a> {
+impl<'a> SolveTile<'a> {
     fn new(front: &Front, panel: &'a [f64], first: usize) -> Self {
         let stride = front.stride();
         Self {

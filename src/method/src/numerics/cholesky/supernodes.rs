@@ -11,7 +11,7 @@ pub(super) struct Supernodes {
 
 /// Size of a group while others join it: its columns, and the rows that they reach together, its own included.
 #[derive(Clone, Copy)]
-struct Size {
+struct SupernodeSize {
     pivots: u32,
     rows: u32,
 }
@@ -24,8 +24,8 @@ pub(super) fn supernodes(parent: &[u32], counts: &[u32], block: usize) -> Supern
     for (k, window) in starts.windows(2).enumerate() {
         group_of[window[0] as usize..window[1] as usize].fill(k as u32);
     }
-    let mut sizes: Vec<Size> = (starts.windows(2))
-        .map(|w| Size {
+    let mut sizes: Vec<SupernodeSize> = (starts.windows(2))
+        .map(|w| SupernodeSize {
             pivots: w[1] - w[0],
             rows: counts[w[0] as usize],
         })
@@ -61,7 +61,7 @@ fn fundamental(parent: &[u32], counts: &[u32]) -> Vec<u32> {
 
 /// Estimates the time of a front in nanoseconds, from its size in unknowns: a constant, flops, adding its update to its
 /// parent, reading and writing its panel. Fitted on one core at about 25 Gflop/s; only the ratios matter.
-fn nanoseconds(size: Size, block: usize) -> f64 {
+fn nanoseconds(size: SupernodeSize, block: usize) -> f64 {
     let k = (block * size.pivots as usize) as f64;
     let m = (block * size.rows as usize) as f64;
     let flops = k * m * m - m * k * (k - 1.0) + (k - 1.0) * k * (2.0 * k - 1.0) / 6.0;
@@ -70,13 +70,13 @@ fn nanoseconds(size: Size, block: usize) -> f64 {
 
 /// Returns for each group the group that it has joined, or itself: from the leaves up, children join their parent as
 /// long as that saves time.
-fn amalgamate(parent: &[u32], sizes: &mut [Size], block: usize) -> Vec<u32> {
+fn amalgamate(parent: &[u32], sizes: &mut [SupernodeSize], block: usize) -> Vec<u32> {
     let n = parent.len();
     let mut joined: Vec<u32> = (0..n as u32).collect();
     let mut children: Vec<Vec<u32>> = vec![Vec::new(); n];
-    let saving = |sizes: &[Size], child: u32, p: usize| {
+    let saving = |sizes: &[SupernodeSize], child: u32, p: usize| {
         let (c, p) = (sizes[child as usize], sizes[p]);
-        let both = Size {
+        let both = SupernodeSize {
             pivots: p.pivots + c.pivots,
             rows: p.rows + c.pivots,
         };
