@@ -10,7 +10,7 @@ use unwrapd_worker::worth_of;
 /// The gates of a command.
 #[derive(clap::Args)]
 pub(super) struct Acceptance {
-    /// What the result must be for exit status 0, as a list with commas
+    /// Gates that the result must meet for exit status 0, as a list with commas
     ///
     /// Gates are certified, max_charts=N, max_distortion=E, max_stretch=S, max_seconds=T and
     /// written. Distortion and stretch are those of the worst atlas: the mean energy, and the 99th

@@ -41,7 +41,7 @@ pub(super) struct BulkArgs {
     /// shards; `auto/N` sets it. All shards need the same list.
     #[arg(long, value_name = "I/N|auto[/N]")]
     shard: Option<ShardChoice>,
-    /// What every asset must be for exit status 0, as a list with commas
+    /// Gates that every asset must meet for exit status 0, as a list with commas
     ///
     /// Gates are written, certified, max_charts=N, max_distortion=E, max_stretch=S and
     /// max_seconds=T. Distortion and stretch are those of the worst atlas of an asset: the mean

@@ -16,7 +16,7 @@ const MOST_CONNECTIONS: u64 = 4096;
 /// Number of open files reserved for everything else.
 const OTHER_FILES: u64 = 256;
 
-/// Who may use the service, and how long a client may be silent.
+/// Access to the service, and time limits for silent clients.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Connections")]
 pub(super) struct ExposureArgs {
@@ -24,7 +24,7 @@ pub(super) struct ExposureArgs {
     /// refused
     #[arg(long, env = "UNWRAPD_REQUIRE_KEYS", value_parser = BoolishValueParser::new())]
     require_keys: bool,
-    /// Start without API keys although others reach the service: whoever does may do everything.
+    /// Start without API keys although others reach the service: anyone who does may do everything.
     /// On loopback, and once a key was made, this changes nothing
     #[arg(long, env = "UNWRAPD_ALLOW_ANONYMOUS", value_parser = BoolishValueParser::new())]
     allow_anonymous: bool,

@@ -42,11 +42,11 @@ struct Create {
     /// Owner of what is made with the key: other owners do not see it. An owner may have several keys
     #[arg(long, value_name = "NAME")]
     owner: Owner,
-    /// What the key is good for: read, write or both. With admin, that is so for all owners, and for
+    /// Permissions of the key: read, write or both. With admin, they apply to all owners, and to
     /// /metrics, /v1/drain and /v1/pause; admin alone includes both
     #[arg(long, value_name = "SCOPES", default_value = "read,write")]
     scope: Scopes,
-    /// How long the key is valid, such as 90d or 12h [default: until it is revoked]
+    /// Time for which the key is valid, such as 90d or 12h [default: until it is revoked]
     #[arg(long, value_name = "TIME", value_parser = life)]
     expires: Option<Duration>,
     /// Note for those who list keys

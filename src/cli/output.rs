@@ -37,7 +37,7 @@ pub(super) struct Files<F: ValueEnum + Clone + Send + Sync + 'static> {
     pub(super) output: OutputArgs,
 }
 
-/// What is written where, and what is said.
+/// Output files and messages.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Files and messages")]
 pub(super) struct OutputArgs {
@@ -48,7 +48,7 @@ pub(super) struct OutputArgs {
     pub(super) talk: Talk,
 }
 
-/// How much is said.
+/// Amount of output.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Files and messages")]
 pub(super) struct Talk {

@@ -5,8 +5,8 @@ use std::time::Duration;
 use super::work_args::seconds;
 use unwrapd_server::jobs::OwnerQuotas;
 
-/// What one owner may have. All keys of an owner count as one, so that a key that replaces another brings no more. Without keys,
-/// all callers are one owner.
+/// Limits of one owner. All keys of an owner count as one, so a key that replaces another adds
+/// nothing. Without keys, all callers are one owner.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Limits of one owner")]
 #[expect(

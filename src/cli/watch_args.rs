@@ -13,12 +13,11 @@ use unwrapd_server::http::{Exposition, Measured, measure};
 use unwrapd_server::jobs::Jobs;
 use unwrapd_server::sessions::Sessions;
 
-/// What a process tells those who run it.
+/// Log and metrics of a process.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Log and metrics")]
 pub(super) struct WatchArgs {
-    /// What the log has: a level such as `warn`, or levels by part such as
-    /// `info,unwrapd::jobs=debug`
+    /// Level of the log, such as `warn`, or levels by part, such as `info,unwrapd::jobs=debug`
     #[arg(
         long,
         value_name = "LEVELS",
@@ -41,7 +40,7 @@ pub(super) struct WatchArgs {
     metrics_listen: Option<SocketAddr>,
 }
 
-/// How lines of the log look.
+/// Format of the log's lines.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum LogFormat {
     /// For people.

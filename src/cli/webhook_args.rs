@@ -4,7 +4,7 @@ use clap::builder::BoolishValueParser;
 
 use unwrapd_server::webhooks::{Reachable, Secrets, Settings};
 
-/// How the ends of jobs are told to others.
+/// Webhooks that announce the ends of jobs.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Webhooks")]
 pub(super) struct WebhookArgs {

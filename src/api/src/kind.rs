@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Content;
 
-/// What a job does with its file.
+/// Kind of job: the work that it does with its file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]

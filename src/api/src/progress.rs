@@ -51,9 +51,9 @@ impl Stage {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(default)]
 pub struct Progress {
-    /// What is being done, or was being done at a bad end; null before the start and after success.
+    /// Current stage, or the last one before a bad end; null before the start and after success.
     pub stage: Option<Stage>,
-    /// How much is done, from 0 to 1. It never falls.
+    /// Share of the work that is done, from 0 to 1. It never falls.
     #[cfg_attr(feature = "schema", schema(minimum = 0, maximum = 1))]
     pub fraction: f64,
     /// Charts mapped so far. Those that are cut again count again once they are mapped.

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct Warning {
     /// Stable snake_case word.
     pub code: Cow<'static, str>,
-    /// What happened and what to do, one or two sentences.
+    /// Explanation and advice, in one or two sentences.
     pub message: String,
 }
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use unwrapd_maps::mesh::{UsedVertices, boundary_edges};
 
-/// What becomes of the boundary of a map of the plane that is pulled.
+/// Treatment of the boundary of a map of the plane while handles pull it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]

@@ -23,7 +23,7 @@ const ROUNDING: f64 = 1e-12;
 /// Largest turn of a disc in degrees: a hundred turns, in 2400 stations.
 const MOST_DEGREES: f64 = 36_000.0;
 
-/// One handle; positions have as many coordinates as the body.
+/// One handle. Positions have the same number of coordinates as the body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(untagged, deny_unknown_fields)]

@@ -25,7 +25,7 @@ pub struct ProblemFile {
     /// Where rest shapes come from.
     #[serde(default)]
     pub rest: Rest,
-    /// What pulls: vertex ids, or handles in the form of all other kinds of jobs.
+    /// The pulled parts: vertex ids, or handles in the form of all other kinds of jobs.
     pub handles: ProblemHandles,
     /// Where vertices should come, one position each.
     #[serde(default, deserialize_with = "numbers::positions")]
@@ -45,10 +45,10 @@ pub struct ProblemFile {
     pub barrier_support: f64,
     /// ε; 1e-4 of the smallest rest determinant if absent.
     pub eps: Option<f64>,
-    /// Whether the boundary, too, is kept from crossing itself.
+    /// `true` to keep the boundary from crossing itself, too.
     #[serde(default)]
     pub bijective: bool,
-    /// What β, ε, tolerances and energies are measured in; the unit of the mesh if absent.
+    /// Unit of β, ε, tolerances and energies; the unit of the mesh if absent.
     #[serde(default = "given")]
     pub units: Units,
     /// Of `levenberg` only: do the targets retreat while the shift is large?
@@ -75,7 +75,7 @@ fn one() -> f64 {
     1.0
 }
 
-/// What an element is without distortion.
+/// Shape of an element without distortion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]

@@ -18,11 +18,11 @@ use unwrapd_method::solver::{Handles, LevenbergSettings, Settings, Status, Watch
 /// exactly on the target.
 const ARRIVED: f64 = 1e-9;
 
-/// How a map was pulled, and what that cost.
+/// Outcome and cost of pulling a map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PullSummary {
-    /// How it ended.
+    /// Status at the end.
     pub status: Status,
     /// Steps taken.
     pub iterations: usize,

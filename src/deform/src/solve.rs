@@ -14,7 +14,7 @@ use unwrapd_method::solver::{
     Continued, LevenbergSettings, Objective, Settings, Status, Summary, Watch, levenberg,
 };
 
-/// How a problem is solved.
+/// Solver of a problem.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]

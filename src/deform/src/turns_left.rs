@@ -25,9 +25,9 @@ use unwrapd_method::numerics::square::{Matrix, times, transposed};
 pub struct Turns {
     /// The handle's place in the list.
     pub handle: usize,
-    /// By how many turns its disc is turned beside the nearest other handle.
+    /// Turns of its disc relative to the nearest other handle.
     pub asked: f64,
-    /// How many of them the body between the two holds, as its twist. What is missing is in a coil, or lost.
+    /// Number of those turns that the body between the two holds as its twist. Missing turns are in a coil, or lost.
     pub left: f64,
 }
 

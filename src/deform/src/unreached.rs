@@ -21,7 +21,7 @@ const ARRIVED: f64 = 1e-6;
 pub struct Unreached {
     /// Its place in the list of handles, from 0.
     pub handle: usize,
-    /// How far it is from its target, in the unit of the mesh: of what it holds, what is farthest.
+    /// Distance from its target, in the unit of the mesh: the largest over everything that it holds.
     pub distance: f64,
 }
 

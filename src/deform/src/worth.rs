@@ -9,7 +9,7 @@ use unwrapd_method::barrier::Barrier;
 use unwrapd_method::energy::{Positional, Term};
 use unwrapd_method::solver::Handles;
 
-/// What a map is worth.
+/// Quality of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Worth {

@@ -1,7 +1,7 @@
 use super::{BakedTexture, KeptTexture, Warning};
 use serde::Serialize;
 
-/// What writing a new UV set did to a document.
+/// Changes that writing a new UV set made to a document.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct WriteNotes {
@@ -20,12 +20,12 @@ pub struct WriteNotes {
     /// For each triangle over all primitives written its number among those of the document; `None` where none has changed.
     #[serde(skip)]
     pub faces: Option<Vec<u32>>,
-    /// What else users should know; reports have it among their own warnings.
+    /// Further warnings for users; reports list them among their own.
     #[serde(skip)]
     pub warnings: Vec<Warning>,
 }
 
-/// What happened to one primitive.
+/// Changes to one primitive.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PrimitiveNote {
@@ -35,24 +35,24 @@ pub struct PrimitiveNote {
     pub primitive: usize,
     /// n of the `TEXCOORD_n` written.
     pub texcoord: u32,
-    /// Whether the primitive had that set before.
+    /// `true` if the primitive had that set before.
     pub replaced: bool,
     /// Vertices before.
     pub vertices_before: usize,
     /// Vertices now: a vertex whose corners have different UVs was split.
     pub vertices_after: usize,
-    /// Whether the indices needed a wider integer type.
+    /// `true` if the indices needed a wider integer type.
     pub indices_widened: bool,
-    /// Whether a strip or fan became a triangle list.
+    /// `true` if a strip or fan became a triangle list.
     pub converted_to_triangles: bool,
-    /// What became of the tangents.
+    /// Treatment of the tangents.
     pub tangents: TangentsNote,
     /// For each vertex now its number before, as elements of the accessors are counted; `None` where each is what it was.
     #[serde(skip)]
     pub sources: Option<Vec<u32>>,
 }
 
-/// What became of the tangents of a primitive.
+/// Treatment of the tangents of a primitive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "kebab-case")]

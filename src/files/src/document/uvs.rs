@@ -67,7 +67,7 @@ impl NewUvs {
     }
 }
 
-/// What kind of file to write.
+/// Format of the file to write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]

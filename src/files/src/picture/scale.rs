@@ -4,7 +4,7 @@ use super::panel::Panel;
 use serde::{Deserialize, Serialize};
 use unwrapd_maps::measure::FaceDistortion;
 
-/// What a heat map shows.
+/// Distortion shown in a heat map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]

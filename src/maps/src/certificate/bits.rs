@@ -8,7 +8,7 @@ use super::separation::doubtful_pairs;
 use super::topology::UvTopology;
 use serde::Serialize;
 
-/// Whether a map stays bijective if each coordinate moves by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶, decided in integers.
+/// Verdict on the bijectivity of a map whose coordinates move by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶ each, decided in integers.
 ///
 /// This covers every quantizer that rounds to i/(2ᵇ−1) and stores 16 bits, over the unit square or a
 /// smaller box.
@@ -17,7 +17,7 @@ use serde::Serialize;
 pub struct BitsVerdict {
     /// The requested bits b.
     pub asked: u32,
-    /// Whether that is proven: the map is bijective, and every orientation and separation is kept.
+    /// `true` if it is proven that the map is bijective and that every orientation and separation is kept.
     pub hold: bool,
     /// Faces whose orientation is in doubt.
     pub faces_in_doubt: usize,

@@ -3,7 +3,7 @@
 use crate::mesh::{Resolution, VAxis};
 use serde::{Deserialize, Serialize};
 
-/// Whether faces are tested against each other.
+/// Tests of faces against each other.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]

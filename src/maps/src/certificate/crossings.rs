@@ -17,7 +17,7 @@ pub struct Crossings {
     pub pairs: u64,
     /// The first few of them.
     pub named: Vec<[u32; 2]>,
-    /// Whether the search stopped at its limit, so that there may be more.
+    /// `true` if the search stopped at its limit, so that there may be more.
     pub truncated: bool,
 }
 

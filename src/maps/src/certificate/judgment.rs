@@ -14,7 +14,7 @@ use super::topology::UvTopology;
 use crate::mesh::CornerUvs;
 use serde::Serialize;
 
-/// What is proven about the UVs of a mesh, by exact predicates on the numbers of the file.
+/// Certificate of the UVs of a mesh: facts proven by exact predicates on the numbers of the file.
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Certificate {
@@ -40,7 +40,7 @@ pub struct Certificate {
     pub overlapping_pairs_same_chart: Option<u64>,
     /// Those of them that lie in two charts.
     pub overlapping_pairs_between_charts: Option<u64>,
-    /// Whether the search for pairs stopped at its limit, so that there may be more.
+    /// `true` if the search for pairs stopped at its limit, so that there may be more.
     pub overlap_truncated: bool,
     /// The coarsest of 23, 16, 14 and 12 bits at which every orientation is kept; null when the map is not locally injective, or
     /// only its full precision is. 23: UVs rounded to multiples of 2⁻²³ (the grid written here) keep it. 16, 14, 12: it
@@ -49,13 +49,13 @@ pub struct Certificate {
     /// The coarsest of 16, 14 and 12 bits b at which the map provably stays bijective: each coordinate may
     /// move by up to 1/(2(2ᵇ−1)) + 2⁻¹⁶. Null if there is none, or overlaps were not tested.
     pub safe_bits: Option<u32>,
-    /// Whether charts keep the requested distance; null if not requested or overlaps were not tested.
+    /// Verdict on the requested distance between charts; null if not requested or overlaps were not tested.
     pub padding: Option<PaddingVerdict>,
     /// Charts whose bounding rectangle does not end on texel borders; null if not requested.
     pub unaligned_charts: Option<usize>,
-    /// Whether every chart lies on one of the requested pages; null if not requested.
+    /// Verdict on the requested pages; null if not requested.
     pub pages: Option<PagesVerdict>,
-    /// Whether the map holds at the requested bits; null if not requested or overlaps were not tested.
+    /// Verdict on the requested bits; null if not requested or overlaps were not tested.
     pub bits: Option<BitsVerdict>,
     /// The first few mirrored charts; charts are numbered in the order of their first faces.
     pub mirrored: Vec<u32>,

@@ -13,7 +13,7 @@ use serde::Serialize;
 /// Coordinates from here on are not judged: their products would not fit.
 const LIMIT: f64 = 1024.0;
 
-/// Whether all charts keep the requested distance from each other, decided in integers.
+/// Verdict on the requested distance between charts, decided in integers.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PaddingVerdict {
@@ -21,7 +21,7 @@ pub struct PaddingVerdict {
     pub asked_texels: u32,
     /// The texture of the unit square.
     pub resolution: Resolution,
-    /// Whether it is proven that no two charts are closer. Coordinates of 1024 or more are not judged.
+    /// `true` if it is proven that no two charts are closer. Coordinates of 1024 or more are not judged.
     pub kept: bool,
     /// The smallest distance between two charts in texels, rounded. Null if there is only one chart, or the
     /// search stopped at its limit.

@@ -4,14 +4,14 @@ use super::alignment::chart_bounds;
 use super::topology::UvTopology;
 use serde::Serialize;
 
-/// Whether every chart lies on one of the pages, decided exactly. Page k covers u from k to k + 1 and v
-/// from 0 to 1, borders included.
+/// Verdict on the placement of every chart on one of the pages, decided exactly. Page k covers u from k to k + 1 and
+/// v from 0 to 1, borders included.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PagesVerdict {
     /// The requested number of pages.
     pub asked: u32,
-    /// Whether every chart lies on one of them.
+    /// `true` if every chart lies on one of them.
     pub kept: bool,
     /// Pages that hold a chart.
     pub used: usize,

@@ -6,7 +6,7 @@ use crate::mesh::CornerUvs;
 use serde::Serialize;
 use unwrapd_method::numerics::predicates::orient2d_sign;
 
-/// What is proven about triangles in the plane, by exact predicates on their coordinates.
+/// Certificate of triangles in the plane: facts proven by exact predicates on their coordinates.
 #[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PlanarCertificate {
@@ -20,7 +20,7 @@ pub struct PlanarCertificate {
     pub nonfinite: usize,
     /// Pairs of triangles whose interiors intersect.
     pub overlapping_pairs: u64,
-    /// Whether the search for pairs stopped at its limit, so that there may be more.
+    /// `true` if the search for pairs stopped at its limit, so that there may be more.
     pub overlap_truncated: bool,
 }
 

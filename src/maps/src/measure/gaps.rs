@@ -12,15 +12,15 @@ use serde::Serialize;
 pub struct Gaps {
     /// The smallest distance between two charts.
     pub gap_uv: Option<f64>,
-    /// The same in texels of a 1024² texture.
+    /// The smallest distance in texels of a 1024² texture.
     pub gap_texels_1024: Option<f64>,
-    /// The same in texels of a 4096² texture.
+    /// The smallest distance in texels of a 4096² texture.
     pub gap_texels_4096: Option<f64>,
     /// Charts less than a texel of a 1024² texture away from another.
     pub charts_gap_lt_1texel_1024: Option<usize>,
     /// Charts less than a texel of a 4096² texture away from another.
     pub charts_gap_lt_1texel_4096: Option<usize>,
-    /// Whether the search stopped at its limit.
+    /// `true` if the search stopped at its limit.
     pub gap_truncated: bool,
 }
 

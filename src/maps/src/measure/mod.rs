@@ -89,7 +89,7 @@ pub struct Measures {
     /// Flips, mirrored charts and faces without UV area.
     #[serde(flatten)]
     pub validity: Validity,
-    /// How far the map is from an isometry.
+    /// Deviation of the map from an isometry.
     #[serde(flatten)]
     pub distortion: Distortion,
     /// Texels per length, chart against chart.

@@ -21,7 +21,7 @@ pub struct Overlaps {
     pub overlap_pairs_between_charts: Option<u64>,
     /// Faces in such pairs.
     pub overlap_faces: Option<u64>,
-    /// Whether the search stopped at its limit, so that there may be more.
+    /// `true` if the search stopped at its limit, so that there may be more.
     pub overlap_search_truncated: Option<bool>,
 }
 

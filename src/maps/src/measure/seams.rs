@@ -25,7 +25,7 @@ pub struct Seams {
     pub charts: usize,
     /// Charts of one or two faces.
     pub charts_le2_faces: usize,
-    /// How many of the largest charts hold 90 % of the surface area.
+    /// Smallest number of charts that hold 90 % of the surface area.
     pub charts_for_90pct_area: usize,
     /// Charts whose winding contradicts itself.
     pub nonorientable_charts: usize,

@@ -13,7 +13,7 @@ pub struct Size {
     pub faces: usize,
     /// Vertices that faces refer to, as the file has them.
     pub vertices: usize,
-    /// The same after equal positions were welded.
+    /// Vertices after welding equal positions.
     pub vertices_welded: usize,
     /// Faces with a UV that is not finite (or without UVs or vertices).
     pub uv_nonfinite_faces: usize,
@@ -31,7 +31,7 @@ pub struct Size {
     pub uv_max: [f64; 2],
     /// Width and height of the UV bounding box.
     pub uv_bbox: [f64; 2],
-    /// Whether all UVs lie in the unit square, to 1e-6.
+    /// `true` if all UVs lie in the unit square, to 1e-6.
     pub uv_in_unit_square: bool,
 }
 

@@ -22,8 +22,8 @@ use crate::numerics::square::{Matrix, Square};
 /// Every station is settled before the next, as if the handles moved slowly. Otherwise a long body lags behind the
 /// handle that drives it, and a bar twisted at one end gathers its twist there and loses turns early. Settling is
 /// cheap, as the true Hessian is definite at a minimum: used for the next advance too, it gives the tangent of the
-/// curve of minima, which leads so near to the next minimum that three or four factorizations settle it. The projected
-/// Hessian gives no tangent where elements are strongly compressed, and took twice as many.
+/// curve of minima, which leads so near to the next minimum that three or four factorizations settle it. The
+/// projected Hessian gives no tangent where elements are strongly compressed, and took twice the factorizations.
 ///
 /// Points inside elements are the soft constraints of an [`Objective::constrained`] made of [`Handles::points`]. Their
 /// strength is relative to the energy's curvature and grows once the targets are reached, with one short minimization

@@ -72,7 +72,7 @@ pub enum Projection {
     PositiveSemidefinite,
 }
 
-/// How a minimization ended. The map is valid in every case.
+/// Outcome of a minimization. The map is valid in every case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "kebab-case")]
@@ -89,11 +89,11 @@ pub enum Status {
     Stopped,
 }
 
-/// What a minimization did.
+/// Summary of a minimization.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Summary {
-    /// How it ended.
+    /// Status at the end.
     pub status: Status,
     /// Steps taken.
     pub iterations: usize,

@@ -7,20 +7,20 @@ use super::seams::Seams;
 use unwrapd_maps::mesh::Surface;
 use unwrapd_method::numerics::vec3::{cross, dot, norm, sub};
 
-/// How far numbers of f32 may be off after a motion, in units of the largest coordinate: a few roundings of 2⁻²⁴.
+/// Error of f32 coordinates after a motion, in units of the largest coordinate: a few roundings of 2⁻²⁴.
 const ROUNDINGS: f64 = 8.0 / 16_777_216.0;
-/// What that may be of a mesh's radius: one that lies farther from its origin shows too little of its shape.
+/// Largest such error, as a share of a mesh's radius: a mesh farther from its origin shows too little of its shape.
 const MOST_BLURRED: f64 = 1e-5;
 
-/// The mesh that stands for all of a shape, and the size of this one over that one's.
+/// The first mesh of a shape, and the size of this mesh relative to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Alike {
     pub first: usize,
     pub size: f64,
 }
 
-/// For each surface, which is cut along its seams, the first of its shape. Triangles and seams have to be the same, number for
-/// number, positions up to a rigid motion and a scale.
+/// Returns for each surface, cut along its seams, the first one of its shape. Triangles and seams must be equal,
+/// number for number; positions may differ by a rigid motion and a scale.
 pub fn alike(surfaces: &[&Surface], seams: &[&Seams]) -> Vec<Alike> {
     // By everything but positions, then by a number that motions and scales keep.
     let mut firsts: BTreeMap<(u64, u64), Vec<usize>> = BTreeMap::new();
@@ -57,14 +57,14 @@ fn hash(surface: &Surface) -> u64 {
     hasher.finish()
 }
 
-/// What of a mesh shows its place and size.
+/// Place and size of a mesh.
 struct Shape {
     origin: [f64; 3],
-    /// The distance from there to the farthest vertex.
+    /// Distance from the origin to the farthest vertex.
     radius: f64,
-    /// The mean distance over the largest.
+    /// Mean distance over the largest.
     roundness: f64,
-    /// What positions may be off by rounding, over the radius.
+    /// Rounding error of positions, over the radius.
     blur: f64,
 }
 
@@ -93,7 +93,8 @@ impl Shape {
     }
 }
 
-/// The size of a surface over another's with the same triangles, where they are equal but for a rigid motion and that.
+/// Returns the size of a surface relative to another with the same triangles if they are equal up to a rigid motion
+/// and a scale.
 fn size_over(surface: &Surface, other: &Surface) -> Option<f64> {
     let is_used = |&v: &u32| (surface.positions[v as usize], other.positions[v as usize]);
     if (surface.triangles.as_flattened().iter().map(is_used)).all(|(p, q)| p == q) {
@@ -118,8 +119,8 @@ fn size_over(surface: &Surface, other: &Surface) -> Option<f64> {
         .then_some(size)
 }
 
-/// Two corners that with the first one span a triangle as large as can be had simply: the farthest from it, and the farthest
-/// from the line through both.
+/// Returns two corners that span a large triangle with the first one: the farthest from it, and the farthest from the
+/// line through both.
 fn landmarks(surface: &Surface) -> Option<[u32; 2]> {
     let vertices = surface.triangles.as_flattened();
     let origin = surface.positions[*vertices.first()? as usize];
@@ -142,7 +143,7 @@ struct Frame {
 }
 
 impl Frame {
-    /// `None` where the landmarks lie on a line.
+    /// Creates the frame; returns `None` if the landmarks lie on a line.
     fn new(surface: &Surface, origin: [f64; 3], landmarks: [u32; 2]) -> Option<Self> {
         let [a, b] = landmarks.map(|v| sub(surface.positions[v as usize], origin));
         let unit = |v: [f64; 3]| {

@@ -1,4 +1,4 @@
-//! The charts of one mesh in an atlas in which some stay where they are put.
+//! Packing of the charts of one mesh around islands that stay where they are put.
 
 use super::chart_maps::chart_maps;
 use super::packing::atlas_options;
@@ -14,7 +14,7 @@ use unwrapd_layout::charts::MappedChart;
 use unwrapd_maps::mesh::{CornerUvs, Resolution};
 use unwrapd_method::numerics::bounds::bounds_of;
 
-/// The charts around those that `placed` says where to put: first those that are packed, then those that stay.
+/// Packs charts around those of the islands in `placed`. Returns the packed charts first, then those that stay.
 pub fn arranged(
     charts: Vec<MappedChart>,
     mesh: &Soup,
@@ -64,7 +64,7 @@ pub fn arranged(
     Ok((charts, atlas))
 }
 
-/// Puts the charts of an island where they shall lie, from where the file has them.
+/// Moves the charts of an island from their position in the file to their placement.
 fn put(island: &mut [MappedChart], placement: &Placement, uvs: &[CornerUvs], texture: Resolution) {
     for chart in island.iter_mut() {
         let of_chart = chart.chart.disk.triangles.iter().zip(&chart.chart.corners);

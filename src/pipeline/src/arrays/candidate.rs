@@ -1,4 +1,4 @@
-//! Charts to choose from, and the search for the fullest layout of any.
+//! Candidate charts of an atlas, and the search for the one with the fullest layout.
 
 use super::chart_maps::chart_maps;
 use rayon::prelude::*;
@@ -6,24 +6,24 @@ use std::sync::Arc;
 use unwrapd_layout::atlas::{AtlasError, AtlasOptions, Draft, Look, OnRead};
 use unwrapd_layout::charts::MappedChart;
 
-/// What cuts may cost at most, as a share of the square.
+/// Maximum cost of cuts, as a share of the square.
 pub const MOST_COST: f64 = 1.0;
-/// What a layout may be less full whose charts are all upright that can be.
+/// Loss of fill that is accepted for upright charts, as a share of the square.
 const STRAIGHT: f64 = 0.01;
-/// How candidates are looked at, one look after the other, and how many of the best.
+/// Looks at candidates, one after another, each with the number of best candidates that get it.
 pub const LOOKS: [(Look, usize); 3] = [
     (Look::First, usize::MAX),
     (Look::Second, 4),
     (Look::Last, 2),
 ];
-/// The same where charts were cut for fewer pages before.
+/// [`LOOKS`] for charts that were cut for fewer pages before.
 pub const LOOKS_FURTHER: [(Look, usize); 3] = [
     (Look::First, usize::MAX),
     (Look::Second, 4),
     (Look::Last, 1),
 ];
 
-/// By how much a layout has to exceed the scale that was reached on fewer pages to be worth looking for.
+/// Least factor over the scale reached on fewer pages at which a layout is worth looking for.
 const WORTHWHILE: f64 = 1.005;
 
 /// Charts after some cuts.
@@ -31,15 +31,15 @@ const WORTHWHILE: f64 = 1.005;
 pub struct Candidate {
     pub charts: Vec<Arc<MappedChart>>,
     pub draft: Draft,
-    /// What the cuts cost, as a share of the square.
+    /// Cost of the cuts, as a share of the square.
     pub cost: f64,
-    /// The share of the square that they have to fill, where a scale is given.
+    /// Share of the square that the charts must fill, if a scale is given.
     pub wanted: Option<f64>,
 }
 
 impl Candidate {
-    /// The share of the square that is filled, less what the cuts cost. Where a scale is given what is filled beyond that is worth
-    /// nothing, and charts that fill it are worth more than any that do not.
+    /// Returns the share of the square that is filled, minus the cost of the cuts. If a scale is given, fill beyond
+    /// the wanted share is worth nothing, and charts that reach that share are worth more than any that do not.
     fn value(&self) -> f64 {
         let fill = self.draft.fill();
         match self.wanted {
@@ -49,12 +49,12 @@ impl Candidate {
         }
     }
 
-    /// Whether its charts may be larger than at this scale by what is worth looking for.
+    /// Returns whether the charts may exceed `scale` by the worthwhile factor.
     fn may_exceed(&self, scale: f64) -> bool {
         self.draft.most_scale() >= WORTHWHILE * scale
     }
 
-    /// With the parts of some charts in place of them, the last first, at this cost each.
+    /// Replaces charts by their parts, at `cost` each; `parted` lists the last chart first.
     pub fn cut(
         &self,
         parted: Vec<(usize, Vec<MappedChart>)>,
@@ -82,7 +82,7 @@ pub struct Cut {
     pub replaced: Vec<usize>,
 }
 
-/// A search for the candidate of most value.
+/// A search for the most valuable candidate.
 ///
 /// All are looked at briefly, the best of them again, and the best of those for long.
 /// From: Karnin, Koren, Somekh 2013, Almost Optimal Exploration in Multi-Armed Bandits (successive halving).
@@ -90,14 +90,15 @@ pub struct Search<'a> {
     pub options: &'a AtlasOptions,
     pub on_read: &'a OnRead<'a>,
     looks: &'static [(Look, usize)],
-    /// The scale that was reached before.
+    /// Scale that was reached before.
     reached: f64,
-    /// The multiple of the words that looks usually read.
+    /// Multiple of the words that looks usually read.
     effort: f64,
 }
 
 impl<'a> Search<'a> {
-    /// For so many charts, which are cut so often at most, the looks that there are going to be, and a scale that was reached before.
+    /// Creates a search that starts from `n_charts` charts and allows `most_cuts` cuts. `looks` are the looks to
+    /// take, and `reached` is the scale that was reached before.
     pub fn new(
         (n_charts, most_cuts): (usize, usize),
         (looks, reached): (&'static [(Look, usize)], f64),
@@ -123,7 +124,8 @@ impl<'a> Search<'a> {
         candidate.draft.improve(look, words as u64, self.on_read);
     }
 
-    /// Looks at some candidates for the first time, but for those that cannot exceed the scale that was reached; the value of the best.
+    /// Removes candidates that cannot exceed the scale reached before and takes the first look at the others. Returns
+    /// the best value.
     pub fn most_valued(&self, candidates: &mut Vec<Candidate>) -> f64 {
         candidates.retain(|candidate| candidate.may_exceed(self.reached));
         let each = candidates.par_iter_mut().with_max_len(1);
@@ -132,7 +134,8 @@ impl<'a> Search<'a> {
         values.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The candidate of most value of some that were looked at once, and a full layout of it; none of none.
+    /// Returns the most valuable of the candidates, which have had their first look, with a full layout of it; `None`
+    /// if there are no candidates.
     pub fn fullest(&self, mut candidates: Vec<Candidate>) -> Option<Candidate> {
         let by_value = |a: &Candidate, b: &Candidate| b.value().total_cmp(&a.value());
         candidates.sort_by(by_value);
@@ -148,7 +151,7 @@ impl<'a> Search<'a> {
         Some(straight.unwrap_or(best))
     }
 
-    /// The same charts with those upright that lean, if that leaves the layout as full, about.
+    /// Returns the candidate with leaning charts turned upright, if the layout stays about as full.
     fn straightened(&self, best: &Candidate) -> Option<Candidate> {
         let mut straight = Candidate {
             draft: best.draft.straightened()?,
@@ -161,7 +164,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The words that looks at candidates of so many charts read, those with most charts being the best.
+/// Returns the number of words that looks at candidates with these numbers of charts read, if those with the most
+/// charts are the best.
 pub fn wanted_words(numbers: &[usize], looks: &[(Look, usize)]) -> u64 {
     let words = |&(look, n): &(Look, usize)| -> u64 {
         let best = &numbers[numbers.len().saturating_sub(n)..];

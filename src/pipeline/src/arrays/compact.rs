@@ -7,31 +7,33 @@ use std::sync::Arc;
 use unwrapd_layout::atlas::{AtlasError, AtlasOptions, Draft, Look, OnRead, Scale, Texture};
 use unwrapd_layout::charts::MappedChart;
 
-/// Candidates at most for each page beside the charts as they are, in all and for each chart that there was. There are as many in
-/// all where the charts were cut for one page less before.
+/// Maximum number of candidates besides the uncut charts, per page: in all, and per original chart. For charts that
+/// were cut for one page less before, `MOST_CANDIDATES` is the maximum over all pages.
 const MOST_CANDIDATES: usize = 18;
 const MOST_CANDIDATES_PER_CHART: usize = 14;
-/// Charts at most that are cut, several small ones counted as one.
+/// Maximum number of charts to cut, several small ones counted as one.
 pub const MOST_CHARTS: usize = 512;
-/// Cuts that are made before any of them is looked at, and how often in a row, for each page, none of them may be better.
+/// Cuts between looks at the candidates, and number of such batches in a row, per page, that may bring nothing
+/// better.
 const BATCH: usize = 4;
 const MOST_IDLE: usize = 2;
 
-/// So many cuts further nothing better must be expected before the search for more cuts ends.
+/// Number of further cuts without an expected improvement after which the search for cuts ends.
 const MOST_LATER: usize = 8;
 
-/// So many charts are few: what they fill is a matter of how they fit each other, which a search finds soon and no sum tells.
+/// Number of charts up to which the fill depends on how they fit each other, which a search finds soon and a sum does
+/// not show.
 const FEW: usize = 6;
 
-/// What a number of cuts has to be worth more, as a share of the square, to be better than another: what is expected and what a
-/// search finds differ by as much where nothing but rounding does.
+/// Advantage that one number of cuts needs over another, as a share of the square. Expected and found values differ
+/// by this much even where only rounding differs.
 const LEEWAY: f64 = 0.005;
 
-/// What charts were cut for before.
+/// Number of pages for which charts were cut before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Before {
     Nothing,
-    /// Fewer pages, on which they reached this scale; 0 where they do not fit there at one that is given.
+    /// Fewer pages, on which they reached this scale; 0 if they do not fit there at the given scale.
     FewerPages(f64),
 }
 
@@ -48,13 +50,15 @@ impl Drafted {
     }
 }
 
-/// The charts after as many cuts as pay: what they gain of the square is more than their length costs.
+/// Cuts charts as long as it pays: as long as a cut gains more of the square than its length costs.
 ///
-/// The cut that is worth most by the hulls and sizes of its parts is made first. These say well where to cut, but only roughly when to
-/// stop. That a search for full layouts decides: one cut less, one more and the expected number compete; where the fill cannot
-/// be told from the charts, all numbers do. Maps stay as they are.
-/// `seam_price` multiplies the price of a seam: with 0 all cuts that gain anything are made. The
-/// charts may become as many as `most_charts`. None where no number of cuts leads beyond the scale that was reached on fewer pages.
+/// Makes the most valuable cut first, by the hulls and sizes of its parts. These estimates tell well where to cut,
+/// but only roughly when to stop. A search for full layouts decides that: the expected number of cuts competes with
+/// one cut less and one more; where the fill cannot be foreseen from the charts, all numbers compete. Maps stay as
+/// they are.
+///
+/// `seam_price` multiplies the price of a seam: 0 makes all cuts that gain anything. `most_charts` is the maximum
+/// number of charts. Returns `None` if no number of cuts can exceed the scale that was reached on fewer pages.
 pub fn compacted(
     (charts, before): (Vec<MappedChart>, Before),
     options: &AtlasOptions,
@@ -89,14 +93,15 @@ pub fn compacted(
     }))
 }
 
-/// Whether the fill can be told from the charts, unless they are a crowd: on one square page, at no given scale.
+/// Returns whether the fill can be foreseen from the charts, unless they are a crowd: on one square page, without a
+/// given scale.
 fn is_foreseeable(options: &AtlasOptions) -> bool {
     let Texture { resolution, pages } = options.texture;
     let is_square = resolution.shorter() == resolution.longer();
     pages == 1 && is_square && options.scale == Scale::Largest
 }
 
-/// The looks that candidates get, and the scale that they have to exceed.
+/// Returns the looks that candidates get, and the scale that they must exceed.
 fn looks(is_foreseeable: bool, before: Before) -> (&'static [(Look, usize)], f64) {
     match before {
         Before::Nothing => (&LOOKS[usize::from(is_foreseeable)..], 0.0),
@@ -104,7 +109,7 @@ fn looks(is_foreseeable: bool, before: Before) -> (&'static [(Look, usize)], f64
     }
 }
 
-/// Candidates of so many charts at most, beside the charts as they are.
+/// Returns the maximum number of candidates for `n_charts` charts, besides the uncut charts.
 fn most_candidates(n_charts: usize, options: &AtlasOptions, before: Before) -> usize {
     let pages = options.texture.pages as usize;
     match before {
@@ -113,7 +118,8 @@ fn most_candidates(n_charts: usize, options: &AtlasOptions, before: Before) -> u
     }
 }
 
-/// The words that are read where so many charts are cut for one page and a quarter of the cuts are made, about.
+/// Returns the approximate number of words that are read if `n_charts` charts are cut for one page and a quarter of
+/// the cuts are made.
 pub fn expected_words(n_charts: usize, options: &AtlasOptions) -> u64 {
     let candidates = MOST_CANDIDATES.min(MOST_CANDIDATES_PER_CHART * n_charts) / 4;
     let numbers: Vec<usize> = (n_charts..=n_charts + candidates).collect();
@@ -122,8 +128,9 @@ pub fn expected_words(n_charts: usize, options: &AtlasOptions) -> u64 {
     WORDS_PER_CUT * candidates as u64 + words.min(options.search_words)
 }
 
-/// The charts as they are, after the cut that is worth most, after another, and so on, all looked at once; of many charts, after
-/// several cuts each. The end is where many in a row bring nothing; of a crowd, whose value is a matter of luck, where there are enough.
+/// Returns the uncut charts, the charts after the most valuable cut, after another, and so on, each looked at once;
+/// if there are many charts, after several cuts each. Ends after several batches in a row without gain; for a crowd,
+/// whose value is a matter of luck, at the maximum number of candidates.
 fn candidates(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasError> {
     let search = cutter.search;
     let mut candidates = vec![cutter.candidate.clone()];
@@ -150,8 +157,9 @@ fn candidates(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasEr
     Ok(candidates)
 }
 
-/// The charts after the fewest cuts that are expected to be worth most, within [`LEEWAY`], and after one cut less and one more, which
-/// have to be better by that. Where these are [`FEW`] charts all smaller numbers of cuts compete, too, after a look at each.
+/// Returns the charts after the fewest cuts whose expected value is the largest, within [`LEEWAY`], and after one cut
+/// less and one more, which must be better by that. If the former are at most [`FEW`] charts, all smaller numbers of
+/// cuts compete, too, after a look at each.
 ///
 /// The expected fill follows from the shapes of the charts alone, while what a short search finds is partly luck: charts of the same
 /// shapes get the same cuts.

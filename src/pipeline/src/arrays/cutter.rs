@@ -1,4 +1,4 @@
-//! Charts cut one by one, where that makes their atlas fuller.
+//! Cutting of charts one by one, where that makes their atlas fuller.
 
 use super::candidate::{Candidate, MOST_COST, Search};
 use super::expected_fill::{Extent, expected_fill};
@@ -8,29 +8,30 @@ use unwrapd_layout::atlas::{AtlasError, Draft, OnRead, Scale, Texture};
 use unwrapd_layout::charts::{MappedChart, Split, parted_alike, seam_length};
 use unwrapd_method::solver::Control;
 
-/// The share of a page that new seams must gain if they are as long as those there are. Where those are shorter than the square
-/// root of the surface's area, that counts as their length.
+/// Share of a page that new seams must gain if they are as long as the existing ones. Existing seams count as at
+/// least the square root of the surface's area.
 const PRICE: f64 = 0.04;
-/// A further chart costs as much as a seam of this length, in sides of the surface's square.
+/// Length of the seam that costs the same as a further chart, in sides of the surface's square.
 const PER_CHART: f64 = 0.4;
-/// Candidates differ by one cut, and one more for so many charts beyond so many: of those one cut changes little.
+/// Candidates differ by one cut, plus one per `CHARTS_PER_CUT` charts beyond `CHARTS_OF_ONE_CUT`: among many charts,
+/// one cut changes little.
 const CHARTS_PER_CUT: usize = 16;
 const CHARTS_OF_ONE_CUT: usize = 64;
-/// The words that looking for one more cut counts for.
+/// Number of words that the search for one more cut counts for.
 pub const WORDS_PER_CUT: u64 = 1_000_000;
 
 /// Cuts charts one by one.
 pub struct Cutter<'a> {
     pub search: &'a Search<'a>,
-    /// The charts as they are by now.
+    /// The current charts.
     pub candidate: Candidate,
-    /// For each chart the cut that is worth most.
+    /// Most valuable cut of each chart.
     splits: Vec<Option<Split>>,
     /// The extent of each chart.
     extents: Vec<Extent>,
     /// The square root of a page's area.
     of_page: f64,
-    /// What a length of seam costs, as a share of the square, and what a chart costs as a length.
+    /// Cost per length of seam, as a share of the square. `per_chart` is the seam length that a further chart costs.
     price: f64,
     per_chart: f64,
     most_charts: usize,
@@ -73,12 +74,12 @@ impl<'a> Cutter<'a> {
         }
     }
 
-    /// The share of the square that is expected to be filled, less what the cuts cost.
+    /// Returns the share of the square that is expected to be filled, minus the cost of the cuts.
     pub fn expected_value(&self) -> f64 {
         expected_fill(&self.extents) - self.candidate.cost
     }
 
-    /// The charts after some more cuts, those that are worth most; none where no chart can be cut, or none is worth it.
+    /// Makes the next most valuable cuts and returns the charts; `None` if no chart can be cut or no cut is worth it.
     pub fn next(&mut self) -> Result<Option<Candidate>, AtlasError> {
         let n_charts = self.candidate.draft.n_charts();
         let n_cuts = 1 + n_charts.saturating_sub(CHARTS_OF_ONE_CUT) / CHARTS_PER_CUT;
@@ -90,7 +91,7 @@ impl<'a> Cutter<'a> {
         Ok(Some(self.candidate.clone()))
     }
 
-    /// Makes the cut that is worth most; false where there is none.
+    /// Makes the most valuable cut; returns `false` if there is none.
     fn cut(&mut self) -> Result<bool, AtlasError> {
         let on_read = self.search.on_read;
         let candidate = &mut self.candidate;
@@ -124,7 +125,7 @@ fn best_splits(charts: &[Arc<MappedChart>], unit: f64, on_read: &OnRead) -> Vec<
         .collect()
 }
 
-/// The chart that a cut is worth most for, the first of equals, and the cut.
+/// Returns the chart with the most valuable cut, the first of equals, and the cut.
 fn most_worth(splits: &[Option<Split>]) -> Option<(usize, &Split)> {
     let cuts = splits.iter().enumerate().rev();
     let cuts = cuts.filter_map(|(chart, split)| Some((chart, split.as_ref()?)));

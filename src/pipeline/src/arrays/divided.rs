@@ -1,4 +1,4 @@
-//! Meshes divided into pieces, of which each shape is mapped once.
+//! Division of meshes into pieces; pieces of one shape are mapped once.
 
 use std::ops::Range;
 
@@ -15,7 +15,7 @@ use crate::tracker::Tracker;
 use unwrapd_layout::charts::MappedChart;
 use unwrapd_maps::mesh::{Defects, Surface, canonical_order};
 
-/// How much a size may differ from 1 where a density is given.
+/// Largest difference of a size from 1 if a density is given.
 const SAME_SIZE: f64 = 1e-6;
 
 /// The pieces of several meshes.
@@ -29,7 +29,7 @@ pub struct Divided<'a> {
 
 impl<'a> Divided<'a> {
     pub fn new(meshes: &[Soup<'a>], plan: &Plan) -> Result<Self, PipelineError> {
-        // So many charts are allowed for an atlas, not for a piece.
+        // The maximum number of charts applies to an atlas, not to a piece.
         let is_one = plan.most_charts.is_some();
         let pieces: Vec<Vec<Piece>> = meshes
             .par_iter()
@@ -68,7 +68,8 @@ impl<'a> Divided<'a> {
         })
     }
 
-    /// The charts of those meshes that are `wanted`, with corners `3 f + c` of their faces: of each shape the first piece is mapped.
+    /// Returns the charts of the `wanted` meshes, with corners `3 f + c` of their faces; only the first piece of each
+    /// shape is mapped.
     pub fn charts(&self, wanted: &[bool], plan: &Plan, tracker: &Tracker) -> Vec<Vec<MappedChart>> {
         let mut mapped = self.mapped(plan, tracker);
         let meshes = || (0..wanted.len()).filter(|&mesh| wanted[mesh]);
@@ -92,7 +93,7 @@ impl<'a> Divided<'a> {
         charts
     }
 
-    /// A chart of the first of a shape as one of a piece.
+    /// Converts a chart of the first piece of a shape to a chart of `piece`.
     fn placed(&self, mut chart: MappedChart, piece: usize, size: f64) -> MappedChart {
         chart.scale(size);
         for corner in chart.chart.corners.as_flattened_mut() {
@@ -101,7 +102,8 @@ impl<'a> Divided<'a> {
         chart
     }
 
-    /// The charts of the first piece of each shape, cut and mapped in canonical order; none of the others.
+    /// Returns the charts of the first piece of each shape, cut and mapped in canonical order, and no charts for
+    /// other pieces.
     fn mapped(&self, plan: &Plan, tracker: &Tracker) -> Vec<Vec<MappedChart>> {
         let is_first = |&piece: &usize| self.shapes[piece].first == piece;
         let firsts: Vec<usize> = (0..self.pieces.len()).filter(is_first).collect();
@@ -129,12 +131,12 @@ impl<'a> Divided<'a> {
         mapped
     }
 
-    /// The face of its mesh that a triangle of the surface of a piece is.
+    /// Returns the face of the mesh for a triangle of a piece's surface.
     fn face(&self, piece: usize, triangle: u32) -> u32 {
         self.pieces[piece].face(self.surfaces[piece].faces[triangle as usize])
     }
 
-    /// Triangles of the pieces that are mapped.
+    /// Returns the number of triangles in the pieces that are mapped.
     pub fn n_mapped_faces(&self) -> usize {
         let is_first = |&piece: &usize| self.shapes[piece].first == piece;
         let firsts = (0..self.pieces.len()).filter(is_first);
@@ -143,7 +145,7 @@ impl<'a> Divided<'a> {
             .sum()
     }
 
-    /// Triangles of a mesh that are in charts.
+    /// Returns the number of triangles of a mesh that are in charts.
     pub fn n_faces(&self, mesh: usize) -> usize {
         let pieces = self.of_mesh[mesh].clone();
         pieces
@@ -151,7 +153,7 @@ impl<'a> Divided<'a> {
             .sum()
     }
 
-    /// The faces of a mesh that are in charts, ascending.
+    /// Returns the faces of a mesh that are in charts, in ascending order.
     pub fn faces(&self, mesh: usize) -> Vec<u32> {
         let of_piece = |piece: usize| {
             let triangles = 0..self.surfaces[piece].triangles.len() as u32;
@@ -162,7 +164,7 @@ impl<'a> Divided<'a> {
         faces
     }
 
-    /// An earlier mesh whose atlas is right for this one, and the size of this one over that one's.
+    /// Returns an earlier mesh whose atlas also fits this mesh, and the size of this mesh relative to it.
     pub fn same_mesh(&self, mesh: usize, settings: &Settings) -> Option<(usize, f64)> {
         let whole = |mesh: usize| {
             let piece = self.of_mesh[mesh].start;
@@ -175,7 +177,7 @@ impl<'a> Divided<'a> {
         is_same.then_some((other, size))
     }
 
-    /// What is wrong with a mesh.
+    /// Returns the defects of a mesh.
     pub fn defects(&self, mesh: usize, soup: &Soup) -> Result<Defects, PipelineError> {
         let first = self.of_mesh[mesh].start;
         if self.pieces[first].is_whole() {

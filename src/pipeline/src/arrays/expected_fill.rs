@@ -1,11 +1,11 @@
-//! How full an atlas is going to be, told by its charts alone.
+//! Expected fill of an atlas, from its charts alone.
 
 use unwrapd_layout::charts::MappedChart;
 use unwrapd_method::numerics::support::{Directions, Support};
 
-/// The fill changes with the area of the hulls; with the excess of the largest square around a chart over a limit; and with the root of
-/// the sum of squared areas and the sum of areas to the power 3/2, which are small where charts are many and alike. All areas are
-/// shares of the area of all charts.
+/// Coefficients of the fill: per area of the hulls; per excess of the largest square around a chart over a limit; and
+/// per root of the sum of squared areas and per sum of areas to the power 3/2, which are small if charts are many and
+/// alike. All areas are shares of the area of all charts.
 ///
 /// Fitted by least squares to 903 layouts of the charts of 58 meshes, to differences within each mesh: the root mean square
 /// error is 0.028, part of it the luck of a short search.
@@ -15,7 +15,7 @@ const LARGEST_SQUARE: f64 = 1.2;
 const PER_ROOT_OF_SQUARES: f64 = 1.569;
 const PER_SUM_OF_POWERS: f64 = -1.906;
 
-/// The area of a chart, of its convex hull and of the smallest square around it.
+/// Area of a chart, of its convex hull and of the smallest square around it.
 #[derive(Clone, Copy, Debug)]
 pub struct Extent {
     area: f64,
@@ -38,7 +38,8 @@ impl Extent {
     }
 }
 
-/// The share of a square page that a layout of such charts fills, but for a constant that is the same however they are cut.
+/// Returns the share of a square page that a layout of these charts fills, up to a constant that does not depend on
+/// the cuts.
 pub fn expected_fill(extents: &[Extent]) -> f64 {
     let sum = |of: &dyn Fn(&Extent) -> f64| extents.iter().map(of).sum::<f64>();
     let area = sum(&|e| e.area).max(f64::MIN_POSITIVE);

@@ -13,10 +13,10 @@ use unwrapd_layout::charts::{
 };
 use unwrapd_maps::mesh::{CornerUvs, Resolution, Surface};
 
-/// What UVs were made for of which that is not known.
+/// Texture of UVs for which no texture is known.
 const SQUARE: Resolution = Resolution::square(1);
 
-/// The charts of every surface with their maps.
+/// Cuts every surface and maps its charts.
 pub fn mapped_charts(
     surfaces: &[Surface],
     seams: &[&Seams],
@@ -56,11 +56,11 @@ pub fn mapped_charts(
         .collect()
 }
 
-/// The charts of a surface under the bound, or under a looser one where they would be more than are allowed; at last one for each
-/// component, should that be fewer.
+/// Returns the charts of a surface under the bound, or under a looser one if they exceed the maximum number of
+/// charts; finally one chart per component, if that gives fewer.
 ///
-/// The bound on the stretch yields first, then the one on the mean: where the number of charts decides, a bound on the stretch
-/// gives the charts that there are without it.
+/// The bound on the stretch yields first, then the one on the mean: if the number of charts decides, a bound on the
+/// stretch gives the same charts as none.
 fn under_bound(surface: &Surface, plan: &Plan, observer: &dyn Observer) -> Vec<MappedChart> {
     let most = plan.most_charts.map_or(usize::MAX, |n| n as usize);
     let mut bound = plan.bound;
@@ -99,8 +99,8 @@ fn under_bound(surface: &Surface, plan: &Plan, observer: &dyn Observer) -> Vec<M
     fewest
 }
 
-/// The given UVs at the vertices of a chart, along both axes in longer sides of the texture. Corners whose UVs are not finite get
-/// those of another corner of their face: the face has no area then, and is counted.
+/// Returns the given UVs at the vertices of a chart, along both axes in longer sides of the texture. Corners whose
+/// UVs are not finite get those of another corner of their face: the face then has no area, and is counted.
 fn uvs_of(
     chart: &Chart,
     surface: &Surface,

@@ -1,4 +1,4 @@
-//! The charts of one mesh in an atlas, cut and opened as it takes.
+//! Packing of the charts of one mesh, which are cut and opened as needed.
 
 use rayon::prelude::*;
 
@@ -13,26 +13,27 @@ use unwrapd_layout::atlas::{
 use unwrapd_layout::charts::{Folds, MappedChart};
 use unwrapd_method::solver::Control;
 
-/// Atlases packed at most because rounding made a chart overlap itself. One that was cut there does so again only where
-/// another scale rounds it differently.
+/// Maximum number of packings because rounding made a chart overlap itself. A chart that was cut for this overlaps
+/// itself again only if another scale rounds it differently.
 const PACKINGS: usize = 8;
 
-/// Times that charts are opened for rounding at most: what is opened takes room, at a smaller scale more is too thin.
+/// Maximum number of openings for rounding: opened places take room, and at the smaller scale more places are too
+/// thin.
 const OPENINGS: usize = 4;
 
 /// Texels along the longer side of the largest texture.
 const LARGEST: u32 = 65_536;
 
-/// The share of pages that charts are hoped to fill at a scale that is given.
+/// Share of the pages that charts are expected to fill at a given scale.
 const HOPE: f64 = 0.85;
-/// The search for a layout on more than one page may read such a part of what the one on a single page may: there is one for each
-/// number of pages.
+/// Divisor of the search budget for layouts on more than one page, compared with a single page: each number of pages
+/// has a search of its own.
 const PER_PAGE: u64 = 4;
 
-/// The charts of one mesh in an atlas, at a scale that is given on as few pages as were found to do.
+/// Packs the charts of one mesh into an atlas; at a given scale, on the smallest number of pages found to be enough.
 ///
-/// Each number of pages is tried in turn, and begins with the charts that were cut for the one before. What is tried does not
-/// depend on how many there may be, so more pages never give less.
+/// Tries each number of pages in turn, beginning with the charts that were cut for the one before. The attempts do
+/// not depend on the maximum number of pages, so a larger maximum never gives less.
 pub fn packed(
     mut charts: Vec<MappedChart>,
     options: &AtlasOptions,
@@ -48,7 +49,7 @@ pub fn packed(
     }
 }
 
-/// The largest layout on any number of pages.
+/// Returns the largest layout on any number of pages.
 fn largest(
     charts: Vec<MappedChart>,
     (options, plan): (&AtlasOptions, &Plan),
@@ -87,7 +88,7 @@ fn largest(
     best
 }
 
-/// A layout on the fewest pages on which one is found at a scale that is given.
+/// Returns a layout on the smallest number of pages on which one is found at a given scale.
 fn fewest(
     charts: Vec<MappedChart>,
     texels: f64,
@@ -130,7 +131,7 @@ fn fewest(
     Err(PipelineError::TextureTooSmall(enough))
 }
 
-/// How to pack on so many pages.
+/// Returns the options for packing on this number of pages.
 fn on_pages(pages: u32, options: &AtlasOptions) -> AtlasOptions {
     let mut on = options.clone();
     on.texture.pages = pages;
@@ -140,7 +141,7 @@ fn on_pages(pages: u32, options: &AtlasOptions) -> AtlasOptions {
     on
 }
 
-/// The least number of pages that could do.
+/// Returns the least number of pages that could be enough.
 fn least_pages(charts: &[MappedChart], texels: f64, options: &AtlasOptions) -> u32 {
     let area: f64 = charts.iter().map(MappedChart::area).sum();
     let resolution = options.texture.resolution;
@@ -149,7 +150,8 @@ fn least_pages(charts: &[MappedChart], texels: f64, options: &AtlasOptions) -> u
     ((texels * texels * area / page).min(f64::from(most)) as u32 + 1).min(most)
 }
 
-/// Cut where that makes the atlas fuller; none where no cut leads beyond the scale that was reached before.
+/// Cuts charts where that makes the atlas fuller; returns `None` if no cut can exceed the scale that was reached
+/// before.
 fn drafted(
     charts: (Vec<MappedChart>, Before),
     options: &AtlasOptions,
@@ -162,8 +164,8 @@ fn drafted(
     }
 }
 
-/// Where rounding to the grid made a chart overlap itself it is cut once more, where one is too thin for the bits it shall be safe at
-/// it is opened, and all are packed again.
+/// Packs the charts. If rounding to the grid makes a chart overlap itself, it is cut once more; if a chart is too
+/// thin for the requested bits, it is opened; then all are packed again.
 fn settled(
     drafted: Drafted,
     options: &AtlasOptions,

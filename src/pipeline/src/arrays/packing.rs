@@ -1,4 +1,4 @@
-//! How charts are packed, from the settings.
+//! Packing options, from the settings.
 
 use super::clearance::texels_apart;
 use super::compact::{self, MOST_CHARTS};
@@ -7,21 +7,23 @@ use super::settings::Settings;
 use unwrapd_layout::atlas::{AtlasOptions, Look, Scale, Texture};
 use unwrapd_layout::charts::MappedChart;
 
-/// Words that packing all meshes of a document may read, and the least and most of one: a hundred meshes shall not take a hundred times
-/// as long.
+/// Number of words that packing all meshes of a document may read, and the least and most for one mesh: a hundred
+/// meshes must not take a hundred times as long.
 const SEARCH_WORDS: u64 = 1_500_000_000;
 const SEARCH_WORDS_OF_MESH: [u64; 2] = [20_000_000, 600_000_000];
-/// The same of a mesh that is cut fast.
+/// Number of words that packing a mesh may read if it is cut fast.
 const SEARCH_WORDS_IF_FAST: u64 = 10_000_000;
-/// What packing is thought to read for each face while the charts are not known, at least and at most.
+/// Estimate of the words that packing reads per face while the charts are not known, and its minimum and maximum per
+/// mesh.
 const LIKELY_WORDS_PER_FACE: u64 = 25_000;
 const LIKELY_WORDS: [u64; 2] = [1_000_000, 100_000_000];
-/// All meshes together read so many at most: those of crowds are placed once, and on the coarser a raster the more there are.
+/// Maximum number of words for all meshes together: meshes of crowds are placed once, on a raster that is coarser the
+/// more there are.
 const SEARCH_WORDS_OF_ALL: u64 = 16_000_000_000;
 const WORDS_PER_CELL: u64 = 16;
 const LEAST_CELLS: u32 = 128;
 
-/// How to pack the charts of one of so many meshes.
+/// Returns the options for packing the charts of one of `n_meshes` meshes.
 pub fn atlas_options(
     (settings, plan): (&Settings, &Plan),
     n_meshes: usize,
@@ -49,7 +51,7 @@ pub fn atlas_options(
     }
 }
 
-/// Words that packing one of so many meshes may read.
+/// Returns the number of words that packing one of `n_meshes` meshes may read.
 fn search_words((settings, plan): (&Settings, &Plan), n_meshes: usize) -> u64 {
     let [least, most] = SEARCH_WORDS_OF_MESH;
     let words = match plan.search {
@@ -59,14 +61,14 @@ fn search_words((settings, plan): (&Settings, &Plan), n_meshes: usize) -> u64 {
     settings.layout.packing.passes() * words.min(SEARCH_WORDS_OF_ALL / n_meshes as u64)
 }
 
-/// Words that packing one of so many meshes is likely to read, which has so many faces.
+/// Returns the number of words that packing one of `n_meshes` meshes with `n_faces` faces is likely to read.
 pub fn likely_words(of: (&Settings, &Plan), n_meshes: usize, n_faces: usize) -> u64 {
     let [least, most] = LIKELY_WORDS;
     let words = (LIKELY_WORDS_PER_FACE * n_faces as u64).clamp(least, most);
     (of.0.layout.packing.passes() * words).min(search_words(of, n_meshes))
 }
 
-/// About how many words packing so many charts reads.
+/// Returns the approximate number of words that packing `n_charts` charts reads.
 pub fn expected_words(plan: &Plan, options: &AtlasOptions, n_charts: usize) -> u64 {
     let of_page = if plan.compaction.is_some() && n_charts <= MOST_CHARTS {
         compact::expected_words(n_charts, options)
@@ -77,7 +79,8 @@ pub fn expected_words(plan: &Plan, options: &AtlasOptions, n_charts: usize) -> u
     u64::from(options.texture.pages) * of_page
 }
 
-/// The padding asked for, or what keeps charts apart when UVs are rounded.
+/// Returns the requested padding, or the least padding that keeps charts apart when UVs are rounded, if that is
+/// larger.
 fn padding_texels(settings: &Settings, plan: &Plan) -> u32 {
     let least = plan.safe_bits.map_or(0, |bits| {
         texels_apart(bits, settings.layout.resolution.longer())
@@ -85,7 +88,7 @@ fn padding_texels(settings: &Settings, plan: &Plan) -> u32 {
     settings.layout.padding.max(least)
 }
 
-/// Length in the maps over length on the surface: the root of the ratio of the areas.
+/// Returns the ratio of lengths in the maps to lengths on the surface: the root of the ratio of the areas.
 fn density(charts: &[MappedChart]) -> f64 {
     let total = |area: fn(&MappedChart) -> f64| charts.iter().map(area).sum::<f64>();
     let density = (total(MappedChart::area) / total(MappedChart::surface_area)).sqrt();

@@ -1,21 +1,21 @@
-//! Which faces belong to islands that stay.
+//! Faces of islands that stay where they are put.
 
 use super::placement::Placement;
 use super::seams::Seams;
 use crate::island_error::IslandError;
 use unwrapd_maps::certificate::chart_ids;
 
-/// Which faces belong to islands that stay.
+/// Faces of islands that stay where they are put.
 pub struct PlacedFaces<'a> {
     placed: &'a [Placement],
-    /// The island of each face.
+    /// Island of each face.
     island: Vec<u32>,
-    /// For each island the place of its placement in the list.
+    /// Index of each island's placement in the list.
     of_island: Vec<Option<usize>>,
 }
 
 impl<'a> PlacedFaces<'a> {
-    /// Finds the islands that are named; none where none is.
+    /// Finds the placed islands; returns `None` without UVs or without placements.
     pub fn new(
         positions: &[[f64; 3]],
         triangles: &[[u32; 3]],
@@ -42,12 +42,12 @@ impl<'a> PlacedFaces<'a> {
         }))
     }
 
-    /// The place in the list of what is said of the island of a face.
+    /// Returns the index of the placement of a face's island.
     pub fn index_of(&self, face: u32) -> Option<usize> {
         self.of_island[self.island[face as usize] as usize]
     }
 
-    /// The faces of islands that stay where they are, ascending.
+    /// Returns the faces of islands that stay where they are, in ascending order.
     pub fn still(&self) -> Vec<u32> {
         let is_still = |face: &u32| {
             let index = self.index_of(*face);

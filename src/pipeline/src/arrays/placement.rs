@@ -5,27 +5,28 @@ use unwrapd_maps::mesh::Resolution;
 /// An island of given UVs that stays where it is put: it is moved, turned and scaled, and the others are packed around it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    /// What errors call it.
+    /// Number of the island in errors.
     pub number: usize,
-    /// A face of it.
+    /// One of its faces.
     pub face: u32,
-    /// The way that it moves, in UV.
+    /// Translation, in UV.
     pub shift: [f64; 2],
-    /// The angle that it turns by about the pivot, in radians, counter-clockwise where v is up. Texels are square.
+    /// Turn about the pivot, in radians, counter-clockwise where v is up. Texels are square.
     pub turn: f64,
-    /// The factor of its size, positive.
+    /// Scale factor about the pivot, positive.
     pub scale: f64,
-    /// What it is turned and scaled about, in UV; the middle of its bounding rectangle if absent.
+    /// Pivot of the turn and the scale, in UV; the middle of its bounding rectangle if absent.
     pub pivot: Option<[f64; 2]>,
 }
 
 impl Placement {
-    /// Whether the island stays where it is.
+    /// Returns whether the island stays where it is.
     pub fn is_still(&self) -> bool {
         self.shift == [0.0; 2] && self.turn == 0.0 && self.scale == 1.0
     }
 
-    /// Where a point of the island comes to lie, in longer sides of a page of such a texture; `middle` is that of the island.
+    /// Returns the new position of a point of the island, in longer sides of a page of `texture`; `middle` is the
+    /// middle of the island.
     pub fn place(&self, uv: [f64; 2], middle: [f64; 2], texture: Resolution) -> [f64; 2] {
         let sides = texture.sides();
         let on_page = |uv: [f64; 2]| [uv[0] * sides[0], uv[1] * sides[1]];

@@ -8,41 +8,41 @@ use unwrapd_maps::embed::{self, Pins};
 use unwrapd_method::barrier::BarrierKind;
 use unwrapd_method::solver;
 
-/// What happens to charts from the first cut to the layout. Computed once from the options; no
-/// later stage asks where to cut or whether there is a barrier.
+/// Treatment of charts from the first cut to the layout. Computed once from the options; no later stage asks where to
+/// cut or whether there is a barrier.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
     /// Where a surface is cut first.
     pub cut: Cut,
-    /// What a chart's map begins with.
+    /// Start of a chart's map.
     pub start: Start,
-    /// How charts are mapped.
+    /// Options of chart mapping.
     pub embedding: embed::Options,
-    /// Whether the result must be valid.
+    /// `true` if the result must be valid.
     pub is_promised: bool,
-    /// The distortion that charts may have.
+    /// Bound on the distortion of charts.
     pub bound: Bound,
-    /// The same, if the report says whether it is kept.
+    /// Bound that the report judges, if it judges one.
     pub reported_bound: Option<Bound>,
-    /// Whether both sides of a mirror plane are cut alike.
+    /// Symmetric cuts on both sides of a mirror plane.
     pub symmetry: Symmetry,
-    /// What happens to charts beyond their first cut.
+    /// Treatment of charts after their first cut.
     pub refinement: Refinement,
-    /// Charts of one atlas at most.
+    /// Maximum number of charts in one atlas.
     pub most_charts: Option<u32>,
-    /// What becomes of charts that overlap themselves.
+    /// Treatment of charts that overlap themselves.
     pub folds: Folds,
     /// Price of seams that only make the atlas fuller; `None` if no chart is cut for that.
     pub compaction: Option<f64>,
-    /// How long layouts are searched for.
+    /// Effort of the search for layouts.
     pub search: Search,
-    /// How charts may be turned.
+    /// Permitted turns of charts.
     pub turns: Turns,
     /// Bits per coordinate at which the map must stay bijective.
     pub safe_bits: Option<u32>,
 }
 
-/// What a chart's map begins with.
+/// Start of a chart's map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// A map of its own.
@@ -53,7 +53,7 @@ pub enum Start {
     Final,
 }
 
-/// What happens to charts beyond their first cut.
+/// Treatment of charts after their first cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refinement {
     /// They are cut until they keep the bound, and small ones are given back to their neighbors.
@@ -64,7 +64,7 @@ pub enum Refinement {
     None,
 }
 
-/// How long layouts are searched for.
+/// Effort of the search for layouts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Search {
     /// As long as pays.
@@ -74,7 +74,7 @@ pub enum Search {
 }
 
 impl Plan {
-    /// The plan that follows from the settings.
+    /// Derives the plan from the settings.
     pub fn new(settings: &Settings) -> Self {
         let Settings {
             cutting, mapping, ..
@@ -87,7 +87,7 @@ impl Plan {
         };
         let has_barrier = mapping.barrier != BarrierKind::None;
         let is_promised = has_barrier && start != Start::Final;
-        // Whoever asks for one chart per component wants no other seams.
+        // A request for one chart per component excludes further seams.
         let may_cut_again = is_promised && cut != Cut::Disk;
         let seam_price = cutting.seam_weight * cutting.quality.seam_price();
         Self {
@@ -122,7 +122,7 @@ impl Plan {
         }
     }
 
-    /// Whether the present UVs are read.
+    /// Returns whether the present UVs are read.
     pub fn reads_uvs(&self) -> bool {
         self.start != Start::New
     }

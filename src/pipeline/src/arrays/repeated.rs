@@ -1,10 +1,11 @@
-//! Faces that name a position twice: they can have no area in the plane, so they lie on an edge of a neighbor.
+//! Faces that name a position twice: they cannot have an area in the plane, so they lie on an edge of a neighbor.
 
 use std::collections::HashMap;
 
 use super::position_key::{PositionKey, position_key};
 
-/// The corner of a face on the integer grid of 2⁻ᵏ, v up, with k = [`atlas::GRID_BITS`](unwrapd_layout::atlas::GRID_BITS); on page n of several u is from n to n + 1.
+/// The corners of a face on the integer grid of 2⁻ᵏ, v up, with k =
+/// [`atlas::GRID_BITS`](unwrapd_layout::atlas::GRID_BITS); on page n, u is from n to n + 1.
 pub type GridCorners = [[i32; 2]; 3];
 
 /// Gives every face that is not in `placed` (ascending) corners at which its positions lie in some placed face:

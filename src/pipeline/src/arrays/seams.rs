@@ -1,4 +1,4 @@
-//! Where a caller wants a mesh to be cut.
+//! Edges at which a caller wants a mesh to be cut.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -13,8 +13,8 @@ use unwrapd_method::numerics::vec3::dot;
 /// Cosine of the least angle between normals on the two sides of a hard edge: 1°.
 const SOFT: f64 = 0.999_85;
 
-/// Edges that a mesh shall be cut along, by what its faces have at their corners. Each list of those is absent or has an entry per
-/// face.
+/// Edges to cut a mesh along, determined by attributes of its faces and corners. Each list of attributes is absent or
+/// has an entry per face.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seams {
     /// UVs, v up: an edge at which those of two faces differ is a seam. With [`Cut::Keep`](unwrapd_layout::charts::Cut::Keep) maps begin here.
@@ -27,8 +27,8 @@ pub struct Seams {
     pub normals: Option<Vec<[[f64; 3]; 3]>>,
     /// Labels, as of materials: an edge between faces of different labels is a seam.
     pub labels: Option<Vec<u32>>,
-    /// Texel densities against each other: an edge between faces of different ones is a seam, and charts get so many times as many
-    /// texels along a line.
+    /// Relative texel densities: an edge between faces of different ones is a seam, and a chart gets that multiple of
+    /// the texels along a line.
     pub weights: Option<Vec<f64>>,
     /// Pairs of positions, by the indices of the mesh: an edge between two such positions is a seam, unless it is alone inside the
     /// surface, where it would open nothing.
@@ -58,7 +58,7 @@ impl Seams {
         }
     }
 
-    /// What of it concerns some faces, and positions that are counted from the first of a range.
+    /// Restricts the seams to some faces, and to positions that are counted from the first of a range.
     pub(crate) fn restricted(&self, faces: &[u32], vertices: Range<u32>) -> Self {
         fn of<T: Copy>(all: Option<&Vec<T>>, faces: &[u32]) -> Option<Vec<T>> {
             let all = all?;
@@ -80,7 +80,7 @@ impl Seams {
         }
     }
 
-    /// Refuses pairs that are not the ends of an edge of some triangle: nothing would be cut there.
+    /// Rejects pairs that are not the ends of an edge of some triangle: nothing would be cut there.
     pub(crate) fn check_edges(
         edges: &[[u32; 2]],
         positions: &[[f64; 3]],
@@ -111,7 +111,7 @@ impl Seams {
         )))
     }
 
-    /// Cuts a surface, which was made of these positions, along its seams.
+    /// Cuts a surface that was made of these positions along its seams.
     pub(crate) fn cut(&self, surface: &mut Surface, positions: &[[f64; 3]]) {
         let key = |v: u32| position_key(positions[v as usize]);
         let edges = self.edges.iter().flatten();
@@ -156,8 +156,8 @@ impl Seams {
     }
 }
 
-/// Takes out edges that would open nothing: at neither end do other seams or a boundary go on, so that the faces at both sides keep
-/// both vertices in common.
+/// Removes edges that would open nothing: no other seams or boundaries continue at either end, so the faces on both
+/// sides keep both vertices in common.
 fn keep_what_opens(surface: &Surface, seams: &mut HashSet<(u32, u32)>) {
     let mut twin = surface.adjacency().twin.clone();
     for &(h, t) in &*seams {

@@ -1,29 +1,29 @@
-//! How a mesh given as arrays is unwrapped.
+//! Settings for unwrapping a mesh given as arrays.
 
 use crate::options::{Budget, Cutting, Layout, Mapping, Workers};
 use unwrapd_api::options::OptionSet;
 use unwrapd_layout::atlas::Borders;
 
-/// How a mesh given as arrays is unwrapped.
+/// Settings for unwrapping a mesh given as arrays.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settings {
     /// Where to cut.
     pub cutting: Cutting,
-    /// How charts are mapped.
+    /// Mapping of the charts.
     pub mapping: Mapping,
-    /// How charts are laid out on a texture.
+    /// Layout of the charts on a texture.
     pub layout: Layout,
     /// Where charts may end; on borders of texels only where the sides of the texture are powers of
     /// two.
     pub borders: Borders,
-    /// What works.
+    /// Number of threads.
     pub workers: Workers,
-    /// How long it may take.
+    /// Time limit.
     pub budget: Budget,
 }
 
 impl Settings {
-    /// Checks every number against its range, and what goes with what; the text names the option.
+    /// Checks the range of every number and the dependencies between options; the error names the option.
     pub fn validate(&self) -> Result<(), String> {
         self.layout.check()?;
         self.cutting.check_ranges()?;

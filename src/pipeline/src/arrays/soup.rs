@@ -20,11 +20,11 @@ pub struct Soup<'a> {
     pub positions: &'a [[f64; 3]],
     pub triangles: &'a [[u32; 3]],
     pub seams: &'a Seams,
-    /// The meshes of a document that it was put together from; none if that is not known.
+    /// Meshes of a document from which it was put together; empty if they are not known.
     pub parts: &'a [Part],
 }
 
-/// A mesh of a document in what several were put together to.
+/// A mesh of a document within a mesh that was put together from several.
 #[derive(Clone, Debug)]
 pub struct Part {
     pub vertices: Range<u32>,
@@ -42,12 +42,12 @@ pub struct Piece<'a> {
     positions: Cow<'a, [[f64; 3]]>,
     triangles: Cow<'a, [[u32; 3]]>,
     pub seams: Cow<'a, Seams>,
-    /// For each triangle its face in the mesh; absent in a piece that is the whole of it.
+    /// Face in the mesh for each triangle; absent if the piece is the whole mesh.
     faces: Option<Vec<u32>>,
 }
 
 impl Piece<'_> {
-    /// The surface, cut along its seams, and where its winding changes unless the present charts are kept.
+    /// Returns the surface, cut along its seams, and where its winding changes unless the present charts are kept.
     pub fn surface(&self, plan: &Plan) -> Result<Surface, PipelineError> {
         let mut surface = Surface::new(&self.positions, &self.triangles)?;
         self.seams.cut(&mut surface, &self.positions);
@@ -57,19 +57,19 @@ impl Piece<'_> {
         Ok(surface)
     }
 
-    /// The face of the mesh that a triangle is.
+    /// Returns the face of the mesh for a triangle.
     pub fn face(&self, triangle: u32) -> u32 {
         (self.faces.as_ref()).map_or(triangle, |faces| faces[triangle as usize])
     }
 
-    /// Whether it is all of the mesh.
+    /// Returns whether the piece is the whole mesh.
     pub fn is_whole(&self) -> bool {
         self.faces.is_none()
     }
 }
 
 impl<'a> Soup<'a> {
-    /// All of it.
+    /// Returns the whole mesh as one piece.
     pub fn whole(&self) -> Result<Vec<Piece<'a>>, PipelineError> {
         self.seams.check(self.positions, self.triangles)?;
         Ok(vec![Piece {
@@ -80,9 +80,10 @@ impl<'a> Soup<'a> {
         }])
     }
 
-    /// Each part that occurs again, and all others as one piece.
+    /// Returns each part that occurs more than once as a piece, and all others as one piece.
     ///
-    /// A part that touches another, but for exact copies in the same place, may belong together with it, and stays there.
+    /// A part that touches another one, except for exact copies in the same place, may belong to it and stays with
+    /// the others.
     pub fn pieces(&self, plan: &Plan) -> Result<Vec<Piece<'a>>, PipelineError> {
         self.seams.check(self.positions, self.triangles)?;
         let repeated: Vec<&Part> = self.repeated_parts(plan);
@@ -131,7 +132,7 @@ impl<'a> Soup<'a> {
         let candidates: Vec<&Part> = (self.parts.iter())
             .filter(|part| of_size[&part.size()] > 1)
             .collect();
-        // What is no surface is reported where the whole mesh is made one.
+        // Parts that are not surfaces are reported when the whole mesh is made a surface.
         let surfaces: Vec<(&Part, Piece, Surface)> = (candidates.into_par_iter())
             .filter_map(|part| {
                 let piece = self.piece(part);
@@ -154,7 +155,7 @@ impl<'a> Soup<'a> {
         self.standing_apart(found)
     }
 
-    /// Those parts that share no position with another one that is not the same, number for number.
+    /// Returns the parts that share no position with another part, except for parts that are equal number for number.
     fn standing_apart(&self, parts: Vec<&'a Part>) -> Vec<&'a Part> {
         if parts.is_empty() {
             return parts;

@@ -26,15 +26,15 @@ use unwrapd_method::solver::Summary;
 /// An unwrapped mesh.
 #[derive(Clone, Debug)]
 pub struct Unwrapped {
-    /// For every face of the input its corners on the grid.
+    /// Corners of every face of the input, on the grid.
     pub grid: Vec<GridCorners>,
-    /// What happened to each chart.
+    /// Record of each chart.
     pub charts: Vec<ChartRecord>,
-    /// What was found to be wrong with the mesh.
+    /// Defects of the mesh.
     pub defects: Defects,
     /// UV length of one unit of length of the mesh, along the longer side of the texture.
     pub scale: f64,
-    /// The mesh of which it is the atlas too, where several are unwrapped and that one has the same shape.
+    /// Earlier mesh of the same shape that has the same atlas, if several meshes are unwrapped.
     pub same_as: Option<usize>,
     /// Faces of islands that stay where they are: their UVs are those that were given.
     pub still: Vec<u32>,
@@ -42,19 +42,19 @@ pub struct Unwrapped {
     pub padding_texels: f64,
 }
 
-/// How a chart was mapped.
+/// Record of mapping a chart.
 #[derive(Clone, Debug)]
 pub struct ChartRecord {
     /// Triangles of the chart.
     pub faces: usize,
-    /// How the optimization went.
+    /// Summary of the optimization.
     pub summary: Summary,
     /// Seconds of the observer's clock from the chart's start to its end.
     pub seconds: f64,
 }
 
 impl Unwrapped {
-    /// The UVs of every corner of every face, v up, exact in f32.
+    /// Returns the UVs of every corner of every face, v up, exact in f32.
     pub fn corner_uvs(&self) -> Vec<[[f64; 2]; 3]> {
         let unit = 1.0 / f64::from(1_u32 << atlas::GRID_BITS);
         let uv = |p: [i32; 2]| [f64::from(p[0]) * unit, f64::from(p[1]) * unit];
@@ -75,8 +75,9 @@ pub fn unwrap<T: Copy + Into<f64>>(
     unwrap_along(positions, triangles, &Seams::default(), settings, observer)
 }
 
-/// The same with edges along which the mesh is cut in any case; with [`Cut::Seams`](unwrapd_layout::charts::Cut::Seams) and
-/// [`Cut::Keep`](unwrapd_layout::charts::Cut::Keep) along no others than it takes to open what they enclose.
+/// Like [`unwrap`], but cuts the mesh along `seams` in any case; with
+/// [`Cut::Seams`](unwrapd_layout::charts::Cut::Seams) and [`Cut::Keep`](unwrapd_layout::charts::Cut::Keep), along no
+/// other edges than are needed to open what they enclose.
 pub fn unwrap_along<T: Copy + Into<f64>>(
     positions: &[[T; 3]],
     triangles: &[[u32; 3]],
@@ -97,7 +98,7 @@ pub fn unwrap_along<T: Copy + Into<f64>>(
     atlases.pop().ok_or(PipelineError::NoTriangles)
 }
 
-/// Runs `work` with so many threads; nothing of it touches rayon's global pool.
+/// Runs `work` on a thread pool of its own; nothing of it touches rayon's global pool.
 pub fn in_pool<T: Send>(
     workers: Workers,
     work: impl FnOnce() -> T + Send,
@@ -109,8 +110,8 @@ pub fn in_pool<T: Send>(
     Ok(pool.install(work))
 }
 
-/// Unwraps every mesh into its own atlas; the charts of all of them are mapped from one queue. What has the same shape is mapped
-/// once, and packed once where it has an atlas to itself.
+/// Unwraps every mesh into its own atlas; the charts of all meshes are mapped from one queue. Meshes of equal shape
+/// are mapped once, and packed once if each has its own atlas.
 pub fn unwrap_all(
     meshes: &[Soup],
     settings: &Settings,
@@ -166,7 +167,7 @@ pub fn unwrap_all(
         .collect()
 }
 
-/// Which faces belong to islands that stay where they are put, if any do.
+/// Returns the faces of islands that stay where they are put, if there are any.
 fn placed_faces<'a>(
     mesh: &Soup<'a>,
     plan: &Plan,
@@ -182,7 +183,7 @@ fn placed_faces<'a>(
     }
 }
 
-/// The charts enlarged by the weights of their faces.
+/// Enlarges charts by the weights of their faces.
 fn weighted(mut charts: Vec<MappedChart>, seams: &Seams) -> Vec<MappedChart> {
     let Some(weights) = &seams.weights else {
         return charts;
@@ -191,7 +192,7 @@ fn weighted(mut charts: Vec<MappedChart>, seams: &Seams) -> Vec<MappedChart> {
         chart, embedding, ..
     } in &mut charts
     {
-        // All faces of a chart have one weight: where two meet there is a seam.
+        // All faces of a chart have one weight, as edges between different weights are seams.
         if let Some([corner, ..]) = chart.corners.first() {
             let weight = weights[*corner as usize / 3];
             for p in &mut embedding.uv {
@@ -212,7 +213,7 @@ impl ChartRecord {
     }
 }
 
-/// For every face of the input its corners in the atlas; `faces` are those that charts have.
+/// Returns the corners of every face of the input in the atlas; `faces` are the faces in charts.
 fn face_corners(
     mesh: Soup,
     faces: &[u32],

@@ -4,7 +4,7 @@ use serde::Serialize;
 use unwrapd_files::document::Warning;
 use unwrapd_maps::certificate::Crossings;
 
-/// What a cage is and what deforming it did to the surfaces in it.
+/// A cage, and the effect of deforming it on the surfaces in it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct CageReport {
@@ -22,7 +22,7 @@ pub struct CageReport {
     pub crossings_before: Crossings,
     /// Where they do in the file written.
     pub crossings_after: Crossings,
-    /// What users should know of the files; reports have it among their own warnings.
+    /// Warnings about the files; reports list them among their own.
     #[serde(skip)]
     pub warnings: Vec<Warning>,
 }

@@ -7,7 +7,7 @@ use unwrapd_deform::Problem;
 use unwrapd_files::document::OutputFormat;
 use unwrapd_files::io::{ElementFormat, Elements, Format, text_positions, vtu};
 
-/// What a deformed body is written as.
+/// File format of a deformed body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]

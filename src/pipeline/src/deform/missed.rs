@@ -9,7 +9,7 @@ use unwrapd_method::solver::Status;
 /// Maximum number of handles named in a warning.
 const NAMED: usize = 8;
 
-/// How much was done of what was asked for.
+/// Degree to which a request was completed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "kebab-case")]

@@ -5,18 +5,18 @@ use serde::Serialize;
 use unwrapd_deform::PullSummary;
 use unwrapd_maps::certificate::PlanarCertificate;
 
-/// What a map that was pulled is worth.
+/// Report on a map that handles pulled.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PullReport {
-    /// How it was pulled.
+    /// Outcome and cost of pulling it.
     #[serde(flatten)]
     pub summary: PullSummary,
     /// Pairs of boundary edges that cross or touch, exactly, before the map is rounded for a file.
     pub crossings: u64,
-    /// Whether every triangle is positive and no two overlap: the certificate's conclusion.
+    /// `true` if every triangle is positive and no two overlap: the certificate's conclusion.
     pub bijective: bool,
-    /// What is proven about the result by exact predicates.
+    /// Facts about the result, proven by exact predicates.
     #[serde(flatten)]
     pub certificate: PlanarCertificate,
 }

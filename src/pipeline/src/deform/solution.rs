@@ -27,28 +27,28 @@ pub struct Deformed {
     pub trace: String,
 }
 
-/// What a deformation is worth and how it was found.
+/// Report on a deformation: the quality of the map and the work of the solver.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct DeformReport {
-    /// How it was solved.
+    /// Solver that was used.
     pub method: Method,
-    /// What the solver did.
+    /// Summary of the solver.
     #[serde(flatten)]
     pub summary: Summary,
-    /// What the map is worth.
+    /// Quality of the map.
     #[serde(flatten)]
     pub worth: Worth,
-    /// How much was done of what was asked for.
+    /// Degree to which the request was completed.
     pub completion: Completion,
     /// The handles that did not come to their targets, and how far from them they are.
     pub unreached: Vec<Unreached>,
-    /// What its energies are measured in.
+    /// Unit of its energies.
     pub units: Units,
     /// Pairs of boundary edges that cross or touch, exactly; of a body of the plane only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crossings: Option<u64>,
-    /// Turns of handles, and how many of them the map holds, of each that makes half a turn or more.
+    /// Turns that handles ask for, and those that the map holds, of each handle that makes half a turn or more.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub turns: Vec<Turns>,
     /// Elements of the supplied start that were inverted and had to be untangled.
@@ -62,7 +62,7 @@ pub struct DeformReport {
     pub setup_seconds: f64,
     /// Seconds of everything after that, but for writing.
     pub solve_seconds: f64,
-    /// What users should know of the files.
+    /// Warnings about the files.
     pub warnings: Vec<Warning>,
     /// The cage and the surfaces in it, if that is what was deformed.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]

@@ -27,15 +27,16 @@ pub struct WarpedPicture {
     pub report: WarpReport,
 }
 
-/// What a warp of a picture is worth.
+/// Report on a warped picture.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct WarpReport {
-    /// Whether the map is proven to have no inverted triangle and, with a fixed border or if asked for, to be bijective.
+    /// `true` if the map is proven to have no inverted triangle and, with a fixed border or on request, to be
+    /// bijective.
     pub certified: bool,
-    /// How much was done of what was asked for.
+    /// Degree to which the request was completed.
     pub completion: Completion,
-    /// What users should know of the picture and of the map.
+    /// Warnings about the picture and the map.
     pub warnings: Vec<Warning>,
     /// Where the upper left corner of the result lies, in pixels of the original.
     pub origin: [i64; 2],

@@ -9,22 +9,22 @@ use unwrapd_deform::Unreached;
 use unwrapd_deform::uv::{EditedUvs, UvRest};
 use unwrapd_files::document::Warning;
 
-/// What was done to the UVs of a document.
+/// Report on the edited UVs of a document.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct EditReport {
-    /// Whether the whole UV set is proven in the bytes written: no face is flipped or degenerate, and no two faces that share
-    /// a UV space overlap, whether their charts have anchors or not. Warnings name what is missing.
+    /// `true` if the whole UV set is proven in the bytes written: no face is flipped or degenerate, and no two faces
+    /// that share a UV space overlap, whether their charts have anchors or not. Warnings name what is missing.
     pub certified: bool,
-    /// Whether the whole UV set is bijective in the bytes written.
+    /// `true` if the whole UV set is bijective in the bytes written.
     pub bijective: bool,
-    /// What is lacking, in words.
+    /// Properties that are missing, in words.
     pub lacking: Vec<&'static str>,
-    /// What is proven of the whole UV set.
+    /// Proven properties of the whole UV set.
     pub proven: Proven,
-    /// How much was done of what was asked for.
+    /// Degree to which the request was completed.
     pub completion: Completion,
-    /// What users should know of the file that was read, of the work and of the file that was written.
+    /// Warnings about the input file, the work and the written file.
     pub warnings: Vec<Warning>,
     /// The shapes that were kept.
     pub rest: UvRest,
@@ -32,15 +32,15 @@ pub struct EditReport {
     pub charts: Vec<ChartEditReport>,
 }
 
-/// What was done to a chart.
+/// Report on an edited chart.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ChartEditReport {
     /// Its number among the charts of the document, in the order of their first faces.
     pub chart: u32,
-    /// How many of its faces were flipped or empty and had to be untangled first.
+    /// Number of its faces that were flipped or empty and had to be untangled first.
     pub untangled: usize,
-    /// What the map is worth; the certificate is about the bytes written.
+    /// Quality of the map; the certificate is about the bytes written.
     #[serde(flatten)]
     pub map: PullReport,
 }

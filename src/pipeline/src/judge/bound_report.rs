@@ -26,9 +26,10 @@ pub struct BoundReport {
     /// The mean symmetric Dirichlet energy of the written map and its surface, both smoothed; absent unless that is bounded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub smoothed_distortion: Option<f64>,
-    /// What is bounded: the surface, or, where it is rough and neither bound was asked for, the smoothed one.
+    /// Surface that is bounded: the surface as it is, or the smoothed one where it is rough and neither bound was
+    /// requested.
     pub of: Bounded,
-    /// Whether what is bounded keeps both bounds.
+    /// `true` if that surface keeps both bounds.
     pub kept: bool,
     /// The most charts that were asked for; bounds on the distortion yield to it.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -7,7 +7,7 @@ use serde::Serialize;
 use unwrapd_maps::certificate::{Certificate, Overlap};
 use unwrapd_maps::mesh::Resolution;
 
-/// What is proven about the UVs of all groups, beside what was requested.
+/// Proven properties of the UVs of all groups, next to the requested ones.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Proven {
@@ -19,9 +19,9 @@ pub struct Proven {
     pub unmirrored: bool,
     /// The distance between charts; null if none was requested.
     pub padding: Option<ProvenPadding>,
-    /// Whether charts end on texel borders; null if not requested.
+    /// `true` if charts end on texel borders; null if not requested.
     pub aligned: Option<bool>,
-    /// Whether every chart lies on one page; null if not requested.
+    /// Pages, requested and used; null if not requested.
     pub pages: Option<ProvenPages>,
     /// The coarsest of 16, 14 and 12 bits b at which every group stays bijective if each coordinate moves by
     /// up to 1/(2(2ᵇ−1)) + 2⁻¹⁶. Null if there is none.
@@ -30,7 +30,7 @@ pub struct Proven {
     pub bits: Option<ProvenBits>,
 }
 
-/// Whether charts keep a distance.
+/// Distance between charts, requested and reached.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ProvenPadding {
@@ -38,13 +38,13 @@ pub struct ProvenPadding {
     pub asked_texels: u32,
     /// The texture of the unit square.
     pub resolution: Resolution,
-    /// Whether no two charts of a group are closer.
+    /// `true` if no two charts of a group are closer.
     pub kept: bool,
     /// The smallest distance between two charts, rounded; null if each group has one chart.
     pub reached_texels: Option<f64>,
 }
 
-/// Whether every chart lies on one page.
+/// Pages, requested and used.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ProvenPages {
@@ -52,17 +52,17 @@ pub struct ProvenPages {
     pub asked: u32,
     /// The most pages that the charts of a group lie on.
     pub used: usize,
-    /// Whether every chart lies on one of the requested pages.
+    /// `true` if every chart lies on one of the requested pages.
     pub kept: bool,
 }
 
-/// Whether the map holds at the requested bits.
+/// Requested bits, and whether the map holds at them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ProvenBits {
     /// The requested bits.
     pub asked: u32,
-    /// Whether every group holds at them.
+    /// `true` if every group holds at them.
     pub hold: bool,
     /// Faces whose orientation is in doubt, plus pairs of chart edges whose separation is.
     pub in_doubt: u64,

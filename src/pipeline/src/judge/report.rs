@@ -31,16 +31,16 @@ pub struct Report {
     /// The limits that applied; absent if existing UVs were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limits: Option<Limits>,
-    /// Whether everything requested is proven on the written bytes: no face is flipped or degenerate, no
-    /// chart is mirrored, no two faces overlap, and padding, pages, alignment and bits are as requested.
-    /// The warnings name what is missing. A missed distortion bound is only a warning.
+    /// `true` if everything requested is proven on the written bytes: no face is flipped or degenerate, no chart is
+    /// mirrored, no two faces overlap, and padding, pages, alignment and bits are as requested. The warnings name
+    /// what is missing. A missed distortion bound is only a warning.
     pub certified: bool,
-    /// Whether the work ended before it was done, at its time limit or on request. The result is no less certified.
+    /// `true` if the work ended before it was done, at its time limit or on request. The result is no less certified.
     pub ended_early: bool,
-    /// Whether only a part of what was asked for was done: textures or colors that `rebake` should resample were not. The
+    /// `true` if only a part of the request was done: textures or colors that `rebake` should resample were not. The
     /// warnings name them.
     pub partly_done: bool,
-    /// What is proven on the written bytes, beside what was requested.
+    /// Proven properties of the written bytes, next to the requested ones.
     pub proven: Proven,
     /// Warnings about the input file, the work and the written file.
     pub warnings: Vec<Warning>,
@@ -72,12 +72,12 @@ pub struct GroupReport {
     /// Defects of the mesh; absent if existing UVs were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub defects: Option<Defects>,
-    /// How the atlas was made; absent if existing UVs were measured.
+    /// Details of the atlas; absent if existing UVs were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub atlas: Option<AtlasReport>,
 }
 
-/// How an atlas was made.
+/// Details of an atlas that was made.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct AtlasReport {
@@ -95,13 +95,13 @@ pub struct AtlasReport {
     pub charts: Vec<ChartReport>,
 }
 
-/// How a chart was mapped.
+/// Details of mapping a chart.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ChartReport {
     /// Triangles of the chart.
     pub faces: usize,
-    /// How the optimization ended.
+    /// Status at the end of the optimization.
     pub status: Status,
     /// Newton iterations.
     pub iterations: usize,

@@ -19,11 +19,11 @@ use unwrapd_maps::certificate::{Certificate, Overlap};
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Verified {
-    /// Whether everything requested holds.
+    /// `true` if everything requested holds.
     pub certified: bool,
-    /// What is requested and does not hold, in words.
+    /// Requested properties that do not hold, in words.
     pub lacking: Vec<&'static str>,
-    /// What holds of all groups.
+    /// Proven properties of all groups.
     pub proven: Proven,
     /// Which UVs were judged.
     pub judged: Judged,
@@ -32,7 +32,7 @@ pub struct Verified {
     /// The record in the document, if it fits the UVs: what it requires was judged, too.
     #[cfg_attr(feature = "schema", schema(value_type = Option<Object>))]
     pub mark: Option<Mark>,
-    /// What users should know of the file that was read.
+    /// Warnings about the file that was read.
     pub warnings: Vec<Warning>,
 }
 
@@ -43,7 +43,7 @@ pub struct Judged {
     /// The UV set, or one for each triangle primitive in file order.
     #[cfg_attr(feature = "schema", schema(value_type = Object))]
     pub texcoord: Sets,
-    /// What shares a UV space.
+    /// Parts of the document that share a UV space.
     pub group_by: GroupBy,
     /// Faces that name a position twice, which need no UV area.
     pub exempt_faces: usize,
@@ -79,9 +79,9 @@ impl fmt::Display for Judged {
 pub struct VerifiedGroup {
     /// `mesh0`, `mesh0/prim0`, `material0` or `scene`.
     pub name: String,
-    /// What the file calls it, for people: the name of the mesh or the material, else `mesh 0` or `material 0`.
+    /// Name for display: the name of the mesh or material, otherwise `mesh 0`, `material 0` or `Whole scene`.
     pub label: String,
-    /// What is proven of it.
+    /// Certificate of its UVs.
     pub certificate: Certificate,
 }
 

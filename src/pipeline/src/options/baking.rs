@@ -4,7 +4,7 @@ use crate::rebake::{ImageFormat, MOST_SIDE};
 use unwrapd_api::options::options;
 
 options! {
-    /// Whether textures are resampled, and into what.
+    /// Resampling of textures.
     #[derive(Copy)]
     pub struct Baking under "UV sets and textures" {
         /// Resample the textures for the new UVs, which then replace set 0 unless `texcoord` names

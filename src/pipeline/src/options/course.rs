@@ -6,7 +6,7 @@ use unwrapd_deform::Method;
 use unwrapd_method::solver::Settings;
 
 options! {
-    /// What the solver does besides one minimization.
+    /// Additional steps and tolerance of the solver.
     #[derive(Copy)]
     pub struct Course under "Course of the solver" {
         /// Lower the barrier strength as long as the energy without the barrier falls.

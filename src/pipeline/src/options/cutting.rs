@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use unwrapd_api::options::options;
 use unwrapd_layout::charts::{Bound, Bounded, Cut, Quality, Symmetry};
 
-/// What happens to the maps of islands that are kept.
+/// Treatment of the maps of kept islands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
@@ -30,7 +30,7 @@ options! {
         /// Where a surface is rough, as a noisy scan is, the bound is one on the smoothed surface,
         /// unless `max_distortion` or `max_stretch` is given. The report says so.
         pub quality: Quality = Quality::Balanced, arg(help_heading = None::<&'static str>);
-        /// What `cut` keep does with the map of each island.
+        /// Treatment of the map of each island with `cut` keep.
         pub kept_maps: KeptMaps = KeptMaps::Optimized;
         /// Maximum number of charts that `cut` auto makes per atlas. If more are needed, it allows
         /// more distortion, up to one chart per component.
@@ -48,8 +48,8 @@ options! {
         /// Price of seams that are cut only to fill the atlas better. With 0 every gain is taken; a
         /// large number prevents such cuts.
         pub seam_weight: f64 = 1.0, in 0..=1e6, value "W";
-        /// Whether `cut` auto cuts both sides of a mirror plane alike. auto: where a surface is its
-        /// own mirror image, exactly or nearly. off: nowhere.
+        /// Let `cut` auto cut both sides of a mirror plane alike. auto: where a surface is its own
+        /// mirror image, exactly or nearly. off: nowhere.
         pub symmetry: Symmetry = Symmetry::Auto;
     }
 }

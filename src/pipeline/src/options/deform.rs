@@ -10,8 +10,8 @@ use unwrapd_deform::{Handle, Method, Model};
 use unwrapd_method::barrier::BarrierKind;
 
 options! {
-    /// What is deformed and how. The command line's long names in snake case; a file of handles is
-    /// one with the handles only.
+    /// Options of deformation. They have the command line's long names in snake case. A file of
+    /// handles has only the handles.
     pub struct DeformOptions {
         /// Approximate number of triangles to fill an outline with.
         pub triangles: usize = TRIANGLES, value "N", schema(minimum = 1);
@@ -40,17 +40,17 @@ options! {
     groups {
         /// Energy and barrier.
         pub model: Model;
-        /// What the solver does besides one minimization.
+        /// Additional steps and tolerance of the solver.
         pub course: Course;
-        /// Which ways handles go.
+        /// Paths of handles to their targets.
         pub pulling: Pulling;
-        /// What works.
+        /// Number of threads.
         pub workers: Workers;
-        /// How long it may take.
+        /// Time limit.
         pub budget: Budget;
     }
     untold {
-        /// What the code that deforms says.
+        /// Settings of the caller.
         pub caller: Caller;
     }
 }

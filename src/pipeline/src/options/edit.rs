@@ -17,13 +17,13 @@ pub enum Editing {
 }
 
 options! {
-    /// How the UVs of a document are edited. The command line's long names in snake case; a file of
-    /// anchors is one with the anchors only.
+    /// Options of UV editing. They have the command line's long names in snake case. A file of
+    /// anchors has only the anchors.
     pub struct EditOptions {
         /// The UV set to read and write.
         pub texcoord: u32 = 0, value "N";
-        /// Whether the boundaries of charts stay fixed. The default is fixed when a surface is
-        /// aligned with a texture, free when UVs are edited.
+        /// Treatment of chart boundaries. The default is fixed when a surface is aligned with a
+        /// texture, free when UVs are edited.
         pub boundary: Option<Boundary>;
         /// Which triangle shapes to preserve. The default is the shapes on the surface when it is
         /// aligned with a texture, the present UV shapes when UVs are edited.
@@ -40,15 +40,15 @@ options! {
     groups {
         /// Energy and barrier, for a mean triangle area of 1.
         pub model: Model;
-        /// Which ways handles go.
+        /// Paths of handles to their targets.
         pub pulling: Pulling;
-        /// What works.
+        /// Number of threads.
         pub workers: Workers;
-        /// How long it may take.
+        /// Time limit.
         pub budget: Budget;
     }
     untold {
-        /// What the code that edits says.
+        /// Settings of the caller.
         pub caller: Caller;
     }
 }

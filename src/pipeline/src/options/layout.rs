@@ -6,7 +6,7 @@ use unwrapd_api::options::{options, within};
 use unwrapd_layout::atlas::Texture;
 use unwrapd_maps::mesh::Resolution;
 
-/// How long to search for the fullest layout.
+/// Search budget for the fullest layout.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
@@ -29,7 +29,7 @@ impl PackingMode {
 }
 
 options! {
-    /// How charts are laid out on a texture.
+    /// Layout of the charts on a texture.
     #[derive(Copy)]
     pub struct Layout under "Atlas" {
         /// Texture size that `padding` refers to: the side in texels, or width and height. The
@@ -47,7 +47,7 @@ options! {
         /// Mean number of texels per unit of length of the mesh. The default is the highest density
         /// that fits. A texture that is too small is an error.
         pub texels_per_unit: Option<f64>, in 1e-9..=1e9, value "T";
-        /// How long to search for the fullest layout.
+        /// Search budget for the fullest layout.
         pub packing: PackingMode = PackingMode::Fast;
     }
 }

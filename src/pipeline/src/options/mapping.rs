@@ -6,7 +6,7 @@ use unwrapd_method::barrier::BarrierKind;
 use unwrapd_method::energy::EnergyKind;
 
 options! {
-    /// How charts are mapped.
+    /// Mapping of the charts.
     #[derive(Copy)]
     pub struct Mapping under "Energy and barrier" {
         /// Distortion energy to minimize.

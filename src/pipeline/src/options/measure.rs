@@ -18,9 +18,9 @@ options! {
         /// The UV set. By default the file tells: unwrapd records the set it wrote and its options.
         /// Without such a record, or if the UVs changed since, it is set 0.
         pub texcoord: Option<u32>, value "N";
-        /// What shares an atlas. By default the file's materials tell, as for `unwrap`: one atlas
-        /// per material, and a mesh without a material has its own; an OBJ, OFF, PLY or STL is one
-        /// atlas.
+        /// Parts of the document that share an atlas. By default, the file's materials decide, as
+        /// for `unwrap`: one atlas per material, and a mesh without a material has its own; an OBJ,
+        /// OFF, PLY or STL is one atlas.
         pub group_by: Option<GroupBy>;
         /// Judge each node that shows a mesh separately, with its transform in the scene. Nodes
         /// that share a mesh share its UVs.
@@ -48,11 +48,11 @@ options! {
         pub bits: Option<u32>, in 8..=16, value "B";
     }
     groups {
-        /// What works.
+        /// Number of threads.
         pub workers: Workers;
     }
     untold {
-        /// What the code that measures says.
+        /// Settings of the caller.
         pub caller: Caller;
     }
 }

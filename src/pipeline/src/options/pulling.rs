@@ -3,7 +3,7 @@
 use unwrapd_api::options::options;
 
 options! {
-    /// Which ways handles go.
+    /// Paths of handles to their targets.
     #[derive(Copy)]
     pub struct Pulling under "Ways to the targets" {
         /// Try all bent ways to the targets, even if the straight ones lead there, and keep the map

@@ -7,31 +7,31 @@ use unwrapd_files::document::{GroupBy, OutputFormat};
 use unwrapd_layout::charts::Cut;
 
 options! {
-    /// How the UVs of a document are packed. The command line's long names in snake case.
+    /// Options of repacking. They have the command line's long names in snake case.
     pub struct RepackOptions {
-        /// What shares an atlas.
+        /// Parts of the document that share an atlas.
         pub group_by: GroupBy = GroupBy::Scene;
     }
     files {
         /// Islands that stay where they are put, around which the others are packed: {"islands":
         /// [{"primitive": i, "face": f, "move": [u, v], "turn": degrees, "scale": s, "pivot": [u,
-        /// v]}, …]}. Each is named by one of its faces and is moved, turned and scaled from where it
-        /// is, all of which may be absent. UVs and faces are those of the result; in glTF, v points
-        /// down, and `turn` goes from the direction of u to that of v.
+        /// v]}, …]}. Each is named by one of its faces and is moved, turned and scaled from where
+        /// it is; `move`, `turn`, `scale` and `pivot` may be absent. UVs and faces are those of the
+        /// result; in glTF, v points down, and `turn` goes from the direction of u to that of v.
         pub islands: Vec<Island>;
         /// Format of the result.
         pub format: OutputFormat = OutputFormat::Glb;
     }
     groups {
-        /// How islands are laid out on a texture.
+        /// Layout of the islands on a texture.
         pub layout: Layout;
-        /// Which UV sets are read and written.
+        /// UV sets to read and write.
         pub sets: Sets;
-        /// What works.
+        /// Number of threads.
         pub workers: Workers;
     }
     untold {
-        /// What the code that packs says.
+        /// Settings of the caller.
         pub caller: Caller;
     }
 }

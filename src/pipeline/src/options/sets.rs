@@ -3,7 +3,7 @@
 use unwrapd_api::options::options;
 
 options! {
-    /// Which UV sets are read and written.
+    /// UV sets to read and write.
     #[derive(Copy)]
     pub struct Sets under "UV sets and textures" {
         /// The UV set that provides the islands. The default is 0.

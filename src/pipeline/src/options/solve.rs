@@ -8,7 +8,7 @@ use unwrapd_api::options::{OptionSet, options};
 use unwrapd_deform::Method;
 
 options! {
-    /// How a problem file is solved. The command line's long names in snake case.
+    /// Options of solving a problem file. They have the command line's long names in snake case.
     pub struct SolveOptions {
         /// Solver: projected Newton with advancing targets, or the iteration of the paper.
         pub method: Method = Method::Projected;
@@ -21,17 +21,17 @@ options! {
         pub format: BodyFormat = BodyFormat::Txt;
     }
     groups {
-        /// What the solver does besides one minimization.
+        /// Additional steps and tolerance of the solver.
         pub course: Course;
-        /// Which ways handles go.
+        /// Paths of handles to their targets.
         pub pulling: Pulling;
-        /// What works.
+        /// Number of threads.
         pub workers: Workers;
-        /// How long it may take.
+        /// Time limit.
         pub budget: Budget;
     }
     untold {
-        /// What the code that solves says.
+        /// Settings of the caller.
         pub caller: Caller;
     }
 }

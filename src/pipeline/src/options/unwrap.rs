@@ -34,13 +34,14 @@ pub enum NamedSeams {
 }
 
 options! {
-    /// How a document is unwrapped: what [`Settings`] consist of, and what concerns the file. The
-    /// command line's long names in snake case.
+    /// Options of unwrapping a document: its [`Settings`], and the options that concern the file.
+    /// They have the command line's long names in snake case.
     pub struct Options under "Atlas" {
         /// Purpose of the UVs.
         pub preset: Preset = Preset::Material;
-        /// What shares an atlas and a texel density. The default for glTF is one atlas per
-        /// material; a mesh without a material has its own. Other files have one atlas.
+        /// Parts of the document that share an atlas and a texel density. The default for glTF is
+        /// one atlas per material; a mesh without a material has its own. Other files have one
+        /// atlas.
         ///
         /// A lightmap and an OBJ file always have one atlas for the scene.
         pub group_by: Option<GroupBy>;
@@ -56,7 +57,7 @@ options! {
         pub mips: Option<u32>, in 0..=12, value "N";
         /// Also cut along the borders between materials.
         pub material_borders: bool, arg(help_heading = "Where to cut");
-        /// What the heat map shows.
+        /// Distortion to show in the heat map.
         pub heatmap_measure: HeatmapMeasure = HeatmapMeasure::SymmetricDirichlet,
             arg(help_heading = "Files and messages", requires = "heatmap");
     }
@@ -70,21 +71,21 @@ options! {
     groups {
         /// Where to cut.
         pub cutting: Cutting;
-        /// How charts are laid out on a texture.
+        /// Layout of the charts on a texture.
         pub layout: Layout;
-        /// Which UV sets are read and written.
+        /// UV sets to read and write.
         pub sets: Sets;
-        /// Whether textures are resampled, and into what.
+        /// Resampling of textures.
         pub baking: Baking;
-        /// How charts are mapped.
+        /// Mapping of the charts.
         pub mapping: Mapping;
-        /// What works.
+        /// Number of threads.
         pub workers: Workers;
-        /// How long it may take.
+        /// Time limit.
         pub budget: Budget;
     }
     untold {
-        /// What the code that unwraps says.
+        /// Settings of the caller.
         pub caller: Caller;
     }
 }

@@ -5,7 +5,7 @@ use crate::PipelineError;
 use unwrapd_api::options::options;
 
 options! {
-    /// What to prove of the UVs of a document.
+    /// Options of verifying the UVs of a document.
     pub struct VerifyOptions {
         /// Also prove that no two faces overlap.
         pub bijective: bool;
@@ -13,7 +13,7 @@ options! {
         pub unmirrored: bool;
     }
     groups {
-        /// Which UVs, and what of them.
+        /// The UVs to judge, and further properties to prove.
         pub judged: MeasureOptions;
     }
 }

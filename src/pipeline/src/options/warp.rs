@@ -7,8 +7,8 @@ use unwrapd_deform::warp::{self, PictureHandle};
 use unwrapd_deform::{Boundary, Model};
 
 options! {
-    /// How a picture is warped. The command line's long names in snake case; a file of handles is
-    /// one with the handles only.
+    /// Options of warping a picture. They have the command line's long names in snake case. A file
+    /// of handles has only the handles.
     pub struct WarpOptions {
         /// Number of grid cells along the longer side of the picture.
         pub grid: usize = warp::WarpOptions::default().grid, value "N", schema(minimum = 1, maximum = 512);
@@ -27,15 +27,15 @@ options! {
     groups {
         /// Energy and barrier, for a mean triangle area between ½ and 2.
         pub model: Model;
-        /// Which ways handles go.
+        /// Paths of handles to their targets.
         pub pulling: Pulling;
-        /// What works.
+        /// Number of threads.
         pub workers: Workers;
-        /// How long it may take.
+        /// Time limit.
         pub budget: Budget;
     }
     untold {
-        /// What the code that warps says.
+        /// Settings of the caller.
         pub caller: Caller;
     }
 }

@@ -3,7 +3,7 @@
 use unwrapd_api::options::options;
 
 options! {
-    /// What works.
+    /// Number of threads.
     #[derive(Copy)]
     pub struct Workers under "Time" {
         /// Number of threads. The default is all that are allowed. The result does not depend on
@@ -13,7 +13,7 @@ options! {
 }
 
 options! {
-    /// How long the work may take.
+    /// Time limit.
     #[derive(Copy)]
     pub struct Budget under "Time" {
         /// Time limit in seconds. When it is reached, the current map, which is valid, becomes the

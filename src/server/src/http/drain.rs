@@ -6,10 +6,10 @@ use serde::Serialize;
 
 use super::app::{App, Shared};
 
-/// Whether this process takes in jobs, and what it still has to do.
+/// State of draining, and the work that is left.
 #[derive(Serialize, utoipa::ToSchema)]
 pub(super) struct Drain {
-    /// Whether it refuses new jobs and starts no waiting ones.
+    /// `true` if the process refuses new jobs and starts no waiting ones.
     draining: bool,
     /// Number of jobs that it computes now.
     running: usize,

@@ -15,7 +15,7 @@ use super::view::JobView;
 use crate::jobs::access::{Caller, Reach};
 use crate::jobs::{Changed, Ended, Job, JobId, Reason, Refusal, Wish};
 
-/// How to look at a job.
+/// Query for a job.
 #[derive(Deserialize, utoipa::IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]

@@ -18,7 +18,7 @@ use unwrapd_api::Kind;
 const DEFAULT_PAGE: u32 = 50;
 const MAX_PAGE: u32 = 200;
 
-/// What to list.
+/// Query for a list of jobs.
 #[derive(Deserialize, utoipa::IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
@@ -47,7 +47,7 @@ pub(super) struct ListQuery {
     cursor: Option<String>,
 }
 
-/// Which failed jobs to try again.
+/// Query for failed jobs to try again.
 #[derive(Deserialize, utoipa::IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
@@ -74,7 +74,7 @@ pub(super) struct RetryQuery {
 /// Failed jobs that are queued again.
 #[derive(Serialize, utoipa::ToSchema)]
 pub(super) struct RetriedJobs {
-    /// How many there are.
+    /// Number of jobs.
     retried: usize,
     /// Their ids, the oldest first.
     #[schema(value_type = Vec<String>)]

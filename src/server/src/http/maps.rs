@@ -29,10 +29,10 @@ pub(super) struct MapsQuery {
 /// Watch charts relax.
 ///
 /// The answer is one frame with the charts that moved since the former one, as the solver has them.
-/// It is sent as soon as there is one; whoever asks again with its number in `after` sees about ten
-/// frames a second, and fewer where they are large. Frames are made only while somebody asks, by
-/// jobs of the kind `unwrap`. A slow client misses frames in between. `live.md` beside this document
-/// describes the bytes.
+/// It is sent as soon as there is one; a client that asks again with its number in `after` sees
+/// about ten frames a second, and fewer where they are large. Frames are made only while somebody
+/// asks, by jobs of the kind `unwrap`. A slow client misses frames in between. `live.md` beside
+/// this document describes the bytes.
 #[utoipa::path(
     get, path = "/v1/jobs/{id}/maps", operation_id = "watchMaps", tag = "jobs",
     params(("id" = String, Path, format = "uuid", description = "The job"), MapsQuery),

@@ -7,10 +7,10 @@ use serde::Serialize;
 use super::app::{App, Shared};
 use super::problem::Problem;
 
-/// Whether waiting jobs are started, by any process.
+/// State of the queue for all processes.
 #[derive(Serialize, utoipa::ToSchema)]
 pub(super) struct Pause {
-    /// Whether they stay where they are.
+    /// `true` if no process starts waiting jobs.
     paused: bool,
 }
 

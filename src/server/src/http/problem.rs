@@ -14,7 +14,7 @@ use unwrapd_api::Failure;
 /// Challenge of responses that need a key (RFC 6750).
 const CHALLENGE: &str = "Bearer realm=\"unwrapd\"";
 
-/// What went wrong (RFC 9457). `code` is stable and meant for programs, `detail` is for people.
+/// Problem details (RFC 9457). `code` is stable and meant for programs, `detail` is for people.
 #[derive(Clone, Debug, Serialize, utoipa::ToSchema)]
 pub(super) struct Problem {
     /// Where the code is explained.
@@ -25,7 +25,7 @@ pub(super) struct Problem {
     title: String,
     /// The HTTP status.
     status: u16,
-    /// What went wrong in this case, in one line.
+    /// Description of this case, in one line.
     detail: String,
     /// Stable code in snake_case.
     code: String,

@@ -17,14 +17,14 @@ use crate::jobs::access::Caller;
 use crate::jobs::{Handling, Job, JobId, Scratch, State};
 use unwrapd_api::{InputFile, Kind};
 
-/// What of a job a session takes.
+/// File of a job that a session opens.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum JobFile {
-    /// What it made.
+    /// The result of the job.
     #[default]
     Result,
-    /// What it was made of.
+    /// The input of the job.
     Input,
 }
 

@@ -12,16 +12,16 @@ use super::problem::{Code, Problem};
 use crate::jobs::Timestamp;
 use crate::jobs::access::{Caller, Scopes, Signed};
 
-/// Who calls.
+/// Identity and permissions of the caller.
 #[derive(Serialize, utoipa::ToSchema)]
 #[schema(as = Caller)]
 pub(super) struct CallerView {
     /// Owner of what the caller makes; null for a caller without a key.
     owner: Option<String>,
-    /// What the caller may do: `read`, `write`, `admin`.
+    /// Permissions of the caller: `read`, `write`, `admin`.
     #[schema(value_type = Vec<crate::jobs::access::Scope>)]
     scopes: Scopes,
-    /// Whether the caller is a page that signed in.
+    /// `true` if the caller is a page that signed in.
     signed_in: bool,
     /// Time after which the key is refused; null if it has no end.
     #[schema(value_type = Option<String>, format = DateTime)]

@@ -29,7 +29,7 @@ pub(super) struct JobView {
     options: Value,
     /// Of the waiting jobs of one owner, those of higher priority start first.
     priority: i32,
-    /// What the client noted of the job.
+    /// Metadata that the client set.
     #[schema(value_type = Object)]
     metadata: Metadata,
     /// The gates that the result has to meet, if any.
@@ -39,7 +39,7 @@ pub(super) struct JobView {
     webhook: Option<String>,
     /// Number of times the job was started.
     attempt: u32,
-    /// Whether the result is a copy of that of an earlier job with equal kind, options and input.
+    /// `true` if the result is a copy of that of an earlier job with equal kind, options and input.
     cached: bool,
     /// Time of acceptance.
     #[schema(value_type = String, format = DateTime)]
@@ -53,14 +53,15 @@ pub(super) struct JobView {
     /// Time after which the job and its files are removed; null until the final state.
     #[schema(value_type = Option<String>, format = DateTime)]
     expires_at: Option<Timestamp>,
-    /// Whether everything requested is proven on the bytes written. Null until the job succeeded, and
-    /// for kinds that prove nothing. If false there is a result, and `warnings` name what is missing.
+    /// `true` if everything requested is proven on the bytes written. Null until the job succeeded,
+    /// and for kinds that prove nothing. If false there is a result, and `warnings` name what is
+    /// missing.
     certified: Option<bool>,
-    /// Whether the distortion keeps the bound of `quality` or `max_distortion`. Null until the job
-    /// succeeded, and where there is no bound.
+    /// `true` if the distortion keeps the bound of `quality` or `max_distortion`. Null until the
+    /// job succeeded, and where there is no bound.
     within_bound: Option<bool>,
-    /// Whether the result meets the gates of `accept`. Null without gates, and until the job has ended; a
-    /// failed job meets none.
+    /// `true` if the result meets the gates of `accept`. Null without gates, and until the job has
+    /// ended; a failed job meets none.
     accepted: Option<bool>,
     /// Warnings about the input, the work and the result; empty until the job succeeded.
     warnings: Vec<Warning>,

@@ -21,9 +21,9 @@ pub struct Saying {
 pub struct Event {
     /// Rises with every event of a job, with gaps.
     pub seq: u64,
-    /// Where the job stands.
+    /// State of the job.
     pub state: State,
-    /// How far it is.
+    /// Progress of the attempt.
     #[serde(flatten)]
     pub progress: Progress,
     /// Milliseconds since the present attempt started.
