@@ -16,7 +16,8 @@ use unwrapd_files::document::OutputFormat;
 /// # Errors
 /// Fails if a line is invalid, the manifest is empty, or outputs conflict.
 pub fn assets_of(
-    (name, bytes): (&str, &[u8]),
+    name: &str,
+    bytes: &[u8],
     root: &Path,
     to: &Path,
     format: OutputFormat,

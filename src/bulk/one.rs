@@ -43,8 +43,8 @@ pub(super) async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) ->
     }
     // Do the work, and record how it ended.
     let attempt = same.map_or(0, Record::next_attempt);
-    let work = (&upload, digest.as_str(), attempt);
-    let made = done(order, worker, index, work, old.as_ref()).await;
+    let old = old.as_ref();
+    let made = done(order, worker, index, &upload, &digest, attempt, old).await;
     let (status, files) = match made {
         Ok((figures, files)) => (Status::Written(figures), files),
         Err(failure) => (failure.into(), Vec::new()),
@@ -67,7 +67,9 @@ async fn done<W: Worker>(
     order: &Order,
     worker: &W,
     index: usize,
-    (upload, digest, attempt): (&Upload, &str, u32),
+    upload: &Upload,
+    digest: &str,
+    attempt: u32,
     old: Option<&Record>,
 ) -> Result<Published, Failure> {
     let folder = order.scratch.folder(index);
@@ -80,7 +82,7 @@ async fn done<W: Worker>(
     };
     let made = worker.work(task).await.and_then(|made| {
         let asset = &order.assets[index];
-        block_in_place(|| published(order, asset, (&folder, &made), old))
+        block_in_place(|| published(order, asset, &folder, &made, old))
     });
     // What stays there takes space only until the end of the run.
     let _ = fs::remove_dir_all(&folder);
@@ -122,7 +124,8 @@ type Published = (Figures, Vec<(PathBuf, u64)>);
 fn published(
     order: &Order,
     asset: &Asset,
-    (folder, made): (&Path, &[String]),
+    folder: &Path,
+    made: &[String],
     old: Option<&Record>,
 ) -> Result<Published, Failure> {
     // A record holds for files as it lists them: from here on they change.

@@ -117,14 +117,15 @@ pub(super) fn run_with<W: Worker>(
     // Summarize.
     let totals = Totals::of(&rows, &args.accept);
     display.finish(&totals);
-    conclude(args, &place, (&rows, &totals), &summary)
+    conclude(args, &place, &rows, &totals, &summary)
 }
 
 /// Writes the summary, and fails if assets are not accepted.
 fn conclude(
     args: &BulkArgs,
     place: &Place,
-    (rows, totals): (&[Row], &Totals),
+    rows: &[Row],
+    totals: &Totals,
     summary: &str,
 ) -> Result<(), Failure> {
     let table = bulk::csv(rows, &args.accept);

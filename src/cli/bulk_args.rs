@@ -145,7 +145,7 @@ impl BulkArgs {
             let bytes = read_file(manifest)?;
             let name = manifest.display().to_string();
             let root = folder(manifest);
-            return Ok(bulk::assets_of((&name, &bytes), &root, to, format)?);
+            return Ok(bulk::assets_of(&name, &bytes, &root, to, format)?);
         }
         let folder = self.folder.as_deref().unwrap_or(Path::new("."));
         let listing = bulk::assets_in(folder, to, format)?;

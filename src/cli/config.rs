@@ -55,7 +55,10 @@ pub(super) fn run(args: &Args, program: &clap::Command, typed: &ArgMatches) -> R
         .filter(|option| option.get_env().is_some())
         .map(|option| SettingRow::of(option, typed, &derived))
         .collect();
-    let rows: Vec<SettingRow> = rows.into_iter().chain(S3.map(SettingRow::of_s3)).collect();
+    let rows: Vec<SettingRow> = rows
+        .into_iter()
+        .chain(S3.map(|(name, is_secret)| SettingRow::of_s3(name, is_secret)))
+        .collect();
     for variable in unknown(program) {
         warn_of(format!("no option reads {variable}"));
     }
@@ -76,7 +79,7 @@ pub(super) fn run(args: &Args, program: &clap::Command, typed: &ArgMatches) -> R
 
 impl SettingRow {
     /// Creates the row of an environment variable without an option.
-    fn of_s3((name, is_secret): (&str, bool)) -> Self {
+    fn of_s3(name: &str, is_secret: bool) -> Self {
         let value = std::env::var(name).ok();
         Self {
             option: name.to_owned(),

@@ -39,7 +39,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let options = options.map_err(|error| Failure::other(error.to_string()))?;
     let runtime = runtime()?;
     let remote = Remote::connect(
-        (&args.server, args.key.as_deref()),
+        &args.server,
+        args.key.as_deref(),
         &options,
         args.bulk.extras(),
     );

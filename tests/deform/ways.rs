@@ -117,14 +117,12 @@ fn a_journey_that_pauses_arrives_when_it_goes_on() {
         window: 1,
         gain: 1.0,
     };
-    let course = (&settings, pace);
-    (journey.go_on(&mut objective, &mut x, course, &go_on)).expect("fitting handles");
+    (journey.go_on(&mut objective, &mut x, &settings, pace, &go_on)).expect("fitting handles");
     assert!(journey.is_paused());
     assert!(0.0 < journey.share() && journey.share() < 1.0);
     assert_eq!(journey.summary().status, Status::TargetsUnreachable);
     let before = journey.summary().iterations;
-    let course = (&settings, Pace::ANY);
-    (journey.go_on(&mut objective, &mut x, course, &go_on)).expect("fitting handles");
+    (journey.go_on(&mut objective, &mut x, &settings, Pace::ANY, &go_on)).expect("fitting handles");
     assert!(!journey.is_paused());
     assert_eq!(journey.share(), 1.0);
     assert!(journey.summary().iterations > before);

@@ -44,7 +44,8 @@ impl Remote {
     /// # Errors
     /// Fails if the address or the key is invalid, or no service responds.
     pub async fn connect(
-        (server, key): (&str, Option<&str>),
+        server: &str,
+        key: Option<&str>,
         options: &serde_json::Value,
         extras: Vec<Extra>,
     ) -> Result<Self, RemoteError> {

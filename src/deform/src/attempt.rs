@@ -55,7 +55,8 @@ where
     pub fn new(
         trial: &mut Trial,
         x: Vec<f64>,
-        (stations, max_iterations): (Vec<Handles>, usize),
+        stations: Vec<Handles>,
+        max_iterations: usize,
     ) -> Result<Self, ProblemError> {
         let settings = Settings {
             max_iterations,
@@ -79,8 +80,13 @@ where
             bends: bends.to_vec(),
             ..handles.clone()
         });
-        let course = (stations.collect(), trial.settings.max_iterations);
-        Self::new(trial, start.to_vec(), course)
+        let stations = stations.collect();
+        Self::new(
+            trial,
+            start.to_vec(),
+            stations,
+            trial.settings.max_iterations,
+        )
     }
 
     /// Continues as long as it keeps the pace.
@@ -90,8 +96,8 @@ where
             watch: trial.watch,
             before: trial.total.iterations - before.iterations,
         };
-        let course = (&self.settings, pace);
-        (self.journey).go_on(&mut trial.objective, &mut self.x, course, &watch)?;
+        let (objective, settings) = (&mut trial.objective, &self.settings);
+        (self.journey).go_on(objective, &mut self.x, settings, pace, &watch)?;
         let now = self.journey.summary();
         trial.add(&Summary {
             iterations: now.iterations - before.iterations,

@@ -58,7 +58,8 @@ where
 pub(super) fn stations<const D: usize>(
     last: Handles,
     of_vertex: &dyn Fn(u32) -> usize,
-    (ways, point_ways): (&[Way<D>], &[Way<D>]),
+    ways: &[Way<D>],
+    point_ways: &[Way<D>],
     turns: &[Turned],
 ) -> Vec<Handles>
 where

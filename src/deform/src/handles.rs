@@ -144,9 +144,9 @@ where
         let point_targets = self.point_ways.iter().flat_map(|way| way.at(1.0));
         let last = with_points(bound, self.points, point_targets.collect())?;
         let way_of: HashMap<u32, usize> = self.vertices.iter().copied().zip(0..).collect();
-        let ways = (&*self.ways, &*self.point_ways);
+        let way_of = |vertex| way_of[&vertex];
         Ok(Bound {
-            stations: stations(last, &|vertex| way_of[&vertex], ways, &self.turns),
+            stations: stations(last, &way_of, &self.ways, &self.point_ways, &self.turns),
             turns: self.turns,
             aims: self.aims,
         })

@@ -45,7 +45,7 @@ where
     Matrix<D>: Square<D> + Rotation<D>,
 {
     /// Finds the missing handles of the map `x`, which has this energy and began at `start`.
-    pub fn new(problem: &'a Problem, start: &[f64], (x, energy): (Vec<f64>, f64)) -> Self {
+    pub fn new(problem: &'a Problem, start: &[f64], x: Vec<f64>, energy: f64) -> Self {
         let parts = problem.parts();
         let away = |x: &[f64]| away(problem, &parts, x, problem.least_gap(), f64::INFINITY);
         Self {
@@ -143,7 +143,7 @@ where
             }
             let station = self.only(set, side);
             let x = std::mem::take(&mut self.x);
-            let mut attempt = Attempt::<D>::new(trial, x, (vec![station], most))?;
+            let mut attempt = Attempt::<D>::new(trial, x, vec![station], most)?;
             attempt.go_on(trial, Pace::BRISK)?;
             let has_arrived = attempt.has_arrived();
             self.is_stopped = attempt.is_stopped();

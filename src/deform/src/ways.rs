@@ -135,7 +135,7 @@ where
     let mut x = start.to_vec();
     flow_to(trial, &trial.problem.stations[0], &mut x);
     let energy = trial.total.energy_last;
-    let mut missing = Missing::new(trial.problem, start, (x, energy));
+    let mut missing = Missing::new(trial.problem, start, x, energy);
     missing.together(trial)?;
     if missing.share() <= FEW {
         missing.alone(trial)?;

@@ -32,7 +32,8 @@ pub(super) fn place(x: &[f64], vertex: u32) -> [f64; 2] {
 /// Boundaries are closed, so that each vertex is the first of an edge; one at which several meet is visited for each.
 pub(super) fn near_pairs(
     edges: &[[u32; 2]],
-    (x, to): (&[f64], &[f64]),
+    x: &[f64],
+    to: &[f64],
     radius: f64,
     mut visit: impl FnMut(Pair),
 ) {

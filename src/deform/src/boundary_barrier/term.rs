@@ -74,7 +74,7 @@ impl BoundaryBarrier {
 
     /// Visits the pairs that are nearer at `x` than `times` their support.
     fn near(&self, x: &[f64], times: f64, mut visit: impl FnMut(Pair, &InverseSpline, Gap)) {
-        near_pairs(&self.edges, (x, x), times * self.support, |pair| {
+        near_pairs(&self.edges, x, x, times * self.support, |pair| {
             let gap = Gap::new(pair.places(x));
             if gap.distance < times * self.support {
                 let spline = self.spline(&pair);
@@ -132,7 +132,7 @@ impl Term for BoundaryBarrier {
             let spline = self.spline(pair);
             if gap.distance < spline.s {
                 let derivatives = spline.derivatives(gap.distance, 1.0);
-                add(pair, stencil, (&gap, derivatives, tau), assembly);
+                add(pair, stencil, &gap, derivatives, tau, assembly);
             }
         }
     }
@@ -146,7 +146,9 @@ impl Term for BoundaryBarrier {
 fn add(
     pair: &Pair,
     stencil: usize,
-    (gap, derivatives, tau): (&Gap, [f64; 2], f64),
+    gap: &Gap,
+    derivatives: [f64; 2],
+    tau: f64,
     assembly: &mut Assembly,
 ) {
     let vertices = pair.vertices();
@@ -208,7 +210,7 @@ fn time_of_contact(edges: &[[u32; 2]], x: &[f64], direction: &[f64], reach: f64)
             .collect();
         let mut first = horizon;
         // The boxes are a little larger than the way, so that rounding hides no contact.
-        near_pairs(edges, (x, &to), 1e-6 * reach, |pair| {
+        near_pairs(edges, x, &to, 1e-6 * reach, |pair| {
             first = contact_before(first, pair.places(x), pair.places(&motion));
         });
         if first < horizon {

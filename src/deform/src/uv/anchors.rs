@@ -93,7 +93,7 @@ pub(super) fn hold(
         }
         let (spot, to) = match *which {
             Anchor::Vertex { vertex, to } => {
-                let vertex = only_vertex(mesh, map, vertices, (anchor, vertex))?;
+                let vertex = only_vertex(mesh, map, vertices, anchor, vertex)?;
                 (Spot::Vertex(vertex), to)
             }
             Anchor::Place { at, to } => {
@@ -114,7 +114,8 @@ fn only_vertex(
     mesh: &UvMesh,
     map: &UvMap,
     vertices: &UvVertices,
-    (anchor, vertex): (usize, u32),
+    anchor: usize,
+    vertex: u32,
 ) -> Result<u32, EditError> {
     let corners = mesh.triangles.as_flattened().iter().enumerate();
     let mut found = corners

@@ -202,8 +202,13 @@ fn warp_grid(
         if !handle.to.iter().all(|x| x.abs() <= FARTHEST) {
             return Err(WarpError::BadTarget(index));
         }
-        let way = (to_unit(handle.at), to_unit(handle.to));
-        take_hold(&mut holds, &body, index, way)?;
+        take_hold(
+            &mut holds,
+            &body,
+            index,
+            to_unit(handle.at),
+            to_unit(handle.to),
+        )?;
     }
     let how = How {
         model: &options.model,
@@ -225,7 +230,8 @@ fn take_hold(
     holds: &mut Holds,
     body: &Body,
     handle: usize,
-    (at, to): ([f64; 2], [f64; 2]),
+    at: [f64; 2],
+    to: [f64; 2],
 ) -> Result<(), WarpError> {
     let vertices: &[[f64; 2]] = body.rest.as_chunks().0;
     let nearest = || nearest(vertices, |v| !holds.is_fixed(v), at).ok_or(WarpError::NothingInside);

@@ -262,7 +262,8 @@ impl NumberedPolygon<'_> {
 
     fn whole(&self) -> Option<Piece> {
         let mut number_of = vec![None; self.n_corners];
-        for (&corner, &number) in self.triangles.iter().zip(self.numbers).flat_map(zipped) {
+        let corners = self.triangles.as_flattened().iter();
+        for (&corner, &number) in corners.zip(self.numbers.as_flattened()) {
             if *number_of[corner as usize].get_or_insert(number) != number {
                 return None;
             }
@@ -297,7 +298,7 @@ impl NumberedPolygon<'_> {
     }
 
     fn triangle(&self, t: usize) -> Piece {
-        let corners = zipped((&self.triangles[t], &self.numbers[t]));
+        let corners = self.triangles[t].iter().zip(&self.numbers[t]);
         corners.map(|(&corner, &number)| (corner, number)).collect()
     }
 
@@ -328,11 +329,4 @@ impl NumberedPolygon<'_> {
         }
         None
     }
-}
-
-/// Iterates over the corners of a triangle with their numbers.
-fn zipped<'a>(
-    (corners, numbers): (&'a [u32; 3], &'a [u32; 3]),
-) -> impl Iterator<Item = (&'a u32, &'a u32)> {
-    corners.iter().zip(numbers)
 }

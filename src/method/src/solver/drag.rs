@@ -101,8 +101,8 @@ where
                 alpha: 0.0,
             });
         }
-        let known = (self.travel.relaxation, self.travel.summary);
-        self.travel = Travel::continued(objective, x, handles, known)?;
+        let (relaxation, summary) = (self.travel.relaxation, self.travel.summary);
+        self.travel = Travel::continued(objective, x, handles, relaxation, summary)?;
         self.phase = if is_there(x, handles) {
             self.travel.s = 1.0;
             Phase::Settle { from: 1.0 }

@@ -42,6 +42,6 @@ where
     Matrix<D>: Square<D> + Rotation<D>,
 {
     let mut journey = Journey::<D>::new(objective, x, stations.to_vec(), settings)?;
-    journey.go_on(objective, x, (settings, Pace::ANY), watch)?;
+    journey.go_on(objective, x, settings, Pace::ANY, watch)?;
     Ok(journey.summary())
 }

@@ -102,7 +102,8 @@ where
         &mut self,
         objective: &mut Objective,
         x: &mut [f64],
-        (settings, pace): (&Settings, Pace),
+        settings: &Settings,
+        pace: Pace,
         watch: &dyn Watch,
     ) -> Result<(), HandlesError> {
         self.is_paused = false;
@@ -115,7 +116,7 @@ where
                 watch,
                 before: self.before.iterations,
             };
-            self.is_paused = (self.travel).arrive(objective, x, (settings, pace), &counted);
+            self.is_paused = (self.travel).arrive(objective, x, settings, pace, &counted);
             let status = self.travel.summary.status;
             let is_last = self.station + 1 >= self.stations.len();
             if is_last || matches!(status, Status::TargetsUnreachable | Status::Stopped) {
@@ -140,7 +141,8 @@ where
         &mut self,
         objective: &mut Objective,
         x: &mut [f64],
-        (settings, pace): (&Settings, Pace),
+        settings: &Settings,
+        pace: Pace,
         watch: &dyn Watch,
     ) -> bool {
         if !self.summary.energy_first.is_finite() {
@@ -152,7 +154,7 @@ where
         }
         loop {
             let (before, begun) = (self.s, self.summary.iterations);
-            if self.advance(objective, x, (settings, pace), watch) == Control::Finish
+            if self.advance(objective, x, settings, pace, watch) == Control::Finish
                 || self.settle(objective, x, settings, watch) == Control::Finish
             {
                 return false;

@@ -65,7 +65,7 @@ where
         relaxation: Relaxation,
     ) -> Result<Self, HandlesError> {
         let start = Summary::at_start(objective.value(x));
-        Self::continued(objective, x, handles, (relaxation, start))
+        Self::continued(objective, x, handles, relaxation, start)
     }
 
     /// Like [`new`](Self::new), after earlier work and with a known energy.
@@ -73,7 +73,8 @@ where
         objective: &mut Objective,
         x: &[f64],
         handles: &Handles,
-        (relaxation, summary): (Relaxation, Summary),
+        relaxation: Relaxation,
+        summary: Summary,
     ) -> Result<Self, HandlesError> {
         Ok(Self {
             vertices: handles.vertices.clone(),
@@ -119,7 +120,8 @@ where
         &mut self,
         objective: &mut Objective,
         x: &mut [f64],
-        (settings, pace): (&Settings, Pace),
+        settings: &Settings,
+        pace: Pace,
         watch: &dyn Watch,
     ) -> Control {
         self.points.pull::<D>(objective, x, SOFT, self.s);

@@ -57,7 +57,8 @@ impl Merged {
     /// Merges a group and adds the seams that the options request. Seam edges must have been [checked](check_edges);
     /// `primitives` are those of the document, in any space.
     pub fn with_seams(
-        (document, primitives): (&Document, &[Primitive]),
+        document: &Document,
+        primitives: &[Primitive],
         group: &Group,
         options: &Options,
         plan: &Plan,

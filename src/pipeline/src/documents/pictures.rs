@@ -74,7 +74,7 @@ impl Pictures {
         let sets = report.written.primitives.iter();
         let sets: Vec<u32> = sets.map(|note| note.texcoord).collect();
         let document = Document::read(result)?;
-        let mut uvs = WrittenUvs::of_sets(&document, (group_by, options.nodes()), &sets)?;
+        let mut uvs = WrittenUvs::of_sets(&document, group_by, options.nodes(), &sets)?;
         if let Some(input) = input.filter(|_| !options.texel_weight.is_empty()) {
             let weights = weights(input, &options)?;
             for (group, weights) in uvs.groups.iter_mut().zip(weights) {

@@ -89,7 +89,7 @@ fn unwrap_in_pool(
     let primitives = nodes.primitives(&document)?;
     let placed = placements(&document, &groups, islands)?;
     let merged = |(group, placed)| {
-        let mut merged = Merged::with_seams((&document, &primitives), group, &seams, &plan)?;
+        let mut merged = Merged::with_seams(&document, &primitives, group, &seams, &plan)?;
         merged.seams.texture = texture;
         merged.seams.placed = placed;
         Ok(merged)
@@ -113,13 +113,13 @@ fn unwrap_in_pool(
 
     // Write the document.
     tracker.stage(Stage::Write);
-    let written = write(&document, (&uvs, group_by), baked.as_ref(), upload, options)?;
+    let written = write(&document, &uvs, group_by, baked.as_ref(), upload, options)?;
     let v_axis = match options.format {
         OutputFormat::Obj => VAxis::Up,
         OutputFormat::Glb | OutputFormat::Gltf => VAxis::Down,
     };
     let notes = &written.notes.primitives;
-    let arrays = UvArrays::new(&document, (&uvs, v_axis), notes, &origins);
+    let arrays = UvArrays::new(&document, &uvs, v_axis, notes, &origins);
     seconds.write = watch.lap();
     let noticed = document.warnings().to_vec();
     // What was written is read next: both would take twice the memory.
@@ -128,12 +128,12 @@ fn unwrap_in_pool(
 
     // Judge what was written, in the bytes written.
     tracker.stage(Stage::Judge);
-    let mut uvs = WrittenUvs::read(&written, (group_by, nodes))?;
+    let mut uvs = WrittenUvs::read(&written, group_by, nodes)?;
     for (group, mesh) in uvs.groups.iter_mut().zip(meshes) {
         group.weights = mesh.seams.weights;
     }
     let mut groups = uvs.judge(&options.claims(), options.layout.resolution);
-    add_history(&mut groups, &atlases, &uvs, (&plan, options));
+    add_history(&mut groups, &atlases, &uvs, &plan, options);
     seconds.judge = watch.lap();
 
     // Report.
@@ -169,7 +169,8 @@ fn unwrap_in_pool(
 
 fn write(
     document: &Document,
-    (uvs, group_by): (&NewUvs, GroupBy),
+    uvs: &NewUvs,
+    group_by: GroupBy,
     baked: Option<&BakedTextures>,
     upload: &Upload,
     options: &Options,
@@ -211,7 +212,7 @@ pub fn placements(
         let before = (groups[group].primitives.iter()).take_while(|&&own| own != index);
         let first: usize = before.map(|&own| primitives[own].triangles.len()).sum();
         let face = first as u32 + island.face;
-        placed[group].push(island.placement((number, face), document.v_axis()));
+        placed[group].push(island.placement(number, face, document.v_axis()));
     }
     Ok(placed)
 }

@@ -28,7 +28,8 @@ impl UvArrays {
     /// `origins` its relation to the input.
     pub fn new(
         document: &Document,
-        (uvs, v_axis): (&NewUvs, VAxis),
+        uvs: &NewUvs,
+        v_axis: VAxis,
         notes: &[PrimitiveNote],
         origins: &Origins,
     ) -> Self {

@@ -70,7 +70,7 @@ pub fn edit_document(
         let again = written.read_again()?;
         let found = Whole::gather(&again, options.texcoord)?;
         let places = places(&written, edited.uvs.len());
-        let charts = judge_charts(&edited, (&document, &again), (&found, &places))?;
+        let charts = judge_charts(&edited, &document, &again, &found, &places)?;
         let is_kept = charts.iter().all(|chart| chart.map.certificate.is_valid());
         let overlaps = charts.iter().any(|chart| !chart.map.bijective);
         if !is_kept && options.model.barrier != BarrierKind::None {
@@ -195,8 +195,10 @@ fn places(written: &Written, n_faces: usize) -> Vec<usize> {
 /// Judges each chart with anchors separately in the written bytes; `places` are the indices of its faces there.
 fn judge_charts(
     edited: &EditedUvs,
-    (document, again): (&Document, &Document),
-    (found, places): (&Whole, &[usize]),
+    document: &Document,
+    again: &Document,
+    found: &Whole,
+    places: &[usize],
 ) -> Result<Vec<ChartEditReport>, PipelineError> {
     if found.uvs.len() != edited.uvs.len() {
         return Err(DocumentError::InvalidUvs.into());

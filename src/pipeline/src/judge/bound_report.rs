@@ -61,9 +61,11 @@ pub fn stretch_percent(energy: f64) -> f64 {
 
 impl BoundReport {
     pub(crate) fn new(
-        (bound, max_charts): (&Bound, Option<u32>),
+        bound: &Bound,
+        max_charts: Option<u32>,
         measured: &Distortion,
-        (uvs, aspect): (&GroupUvs, f64),
+        uvs: &GroupUvs,
+        aspect: f64,
     ) -> Self {
         let keeps = |most: Option<f64>, measured: Option<f64>| {
             most.zip(measured)

@@ -31,22 +31,20 @@ pub struct WrittenUvs {
 
 impl WrittenUvs {
     /// Reads what was just written. The notes name the UV set of each primitive.
-    pub fn read(
-        written: &Written,
-        (group_by, nodes): (GroupBy, Nodes),
-    ) -> Result<Self, PipelineError> {
+    pub fn read(written: &Written, group_by: GroupBy, nodes: Nodes) -> Result<Self, PipelineError> {
         let notes = written.notes.primitives.iter();
         let sets: Vec<u32> = notes.map(|note| note.texcoord).collect();
-        Self::of_sets(&written.read_again()?, (group_by, nodes), &sets)
+        Self::of_sets(&written.read_again()?, group_by, nodes, &sets)
     }
 
     /// Gathers the UVs of a document; `sets` names the UV set of each primitive.
     pub fn of_sets(
         document: &Document,
-        (group_by, nodes): (GroupBy, Nodes),
+        group_by: GroupBy,
+        nodes: Nodes,
         sets: &[u32],
     ) -> Result<Self, PipelineError> {
-        Self::gather(document, (group_by, nodes), |primitive| {
+        Self::gather(document, group_by, nodes, |primitive| {
             Some(sets.get(primitive).copied().unwrap_or(0))
         })
     }
@@ -54,8 +52,8 @@ impl WrittenUvs {
     /// Gathers the UVs of a document that a question is about.
     pub fn asked(document: &Document, question: &Question) -> Result<Self, PipelineError> {
         let sets = question.set_of_each(document)?;
-        let spaces = question.options.spaces(document);
-        Self::gather(document, spaces, |primitive| sets[primitive])
+        let (group_by, nodes) = question.options.spaces(document);
+        Self::gather(document, group_by, nodes, |primitive| sets[primitive])
     }
 
     /// Gathers all UVs of a set, grouped as the document's materials suggest. Leaves out primitives without the set.
@@ -71,7 +69,8 @@ impl WrittenUvs {
     /// Gathers the UVs of a document. `set` returns the set of each primitive, or `None` to leave it out.
     pub fn gather(
         document: &Document,
-        (group_by, nodes): (GroupBy, Nodes),
+        group_by: GroupBy,
+        nodes: Nodes,
         set: impl Fn(usize) -> Option<u32>,
     ) -> Result<Self, PipelineError> {
         let is_skipped = |primitive: &usize| set(*primitive).is_none();

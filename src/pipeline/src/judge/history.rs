@@ -14,7 +14,8 @@ pub fn add_history(
     groups: &mut [GroupReport],
     atlases: &[Unwrapped],
     uvs: &WrittenUvs,
-    (plan, options): (&Plan, &Options),
+    plan: &Plan,
+    options: &Options,
 ) {
     let aspect = options.layout.resolution.aspect();
     let names: Vec<String> = groups.iter().map(|group| group.name.clone()).collect();
@@ -23,9 +24,11 @@ pub fn add_history(
         group.atlas = Some(AtlasReport {
             bound: (plan.reported_bound).map(|bound| {
                 BoundReport::new(
-                    (&bound, plan.most_charts),
+                    &bound,
+                    plan.most_charts,
                     &group.measures.distortion,
-                    (uvs, aspect),
+                    uvs,
+                    aspect,
                 )
             }),
             same_as: atlas.same_as.map(|group| names[group].clone()),

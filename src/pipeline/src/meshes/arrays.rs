@@ -117,7 +117,7 @@ pub(super) fn placements(
         mesh.ok_or(IslandError::UnknownFace(number))?;
         let before: usize = meshes[..index].iter().map(|m| m.triangles.len()).sum();
         let face = before as u32 + island.face;
-        Ok(island.placement((number, face), VAxis::Up))
+        Ok(island.placement(number, face, VAxis::Up))
     });
     placed.collect()
 }

@@ -96,7 +96,7 @@ fn unwrap_in_pool(
         v_axis: VAxis::Up,
     };
     let mut groups = uvs.judge(&options.claims(), options.layout.resolution);
-    add_history(&mut groups, &atlases, &uvs, (&plan, options));
+    add_history(&mut groups, &atlases, &uvs, &plan, options);
     seconds.judge = watch.lap();
 
     // Report.

@@ -54,7 +54,7 @@ impl Island {
     }
 
     /// Returns the placement of a mesh face's island with v up.
-    pub(crate) fn placement(&self, (number, face): (usize, u32), v_axis: VAxis) -> Placement {
+    pub(crate) fn placement(&self, number: usize, face: u32, v_axis: VAxis) -> Placement {
         let up = v_axis == VAxis::Up;
         let sign = if up { 1.0 } else { -1.0 };
         Placement {

@@ -1,6 +1,5 @@
 //! Authentication of requests by a key, in a header or in the cookie of a signed-in page.
 
-use std::net::IpAddr;
 use std::sync::Arc;
 
 use axum::extract::{FromRequestParts, MatchedPath, Request, State};
@@ -10,6 +9,7 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
 use super::app::{App, Shared};
+use super::connections::Peer;
 use super::problem::{Code, Problem};
 use super::scopes::needed;
 use super::upload::drain_refused;
@@ -18,10 +18,6 @@ use crate::jobs::access::{Caller, Denied, Scope};
 
 /// Name of the cookie of signed-in pages.
 pub(super) const COOKIE: &str = "unwrapd-key";
-
-/// Address that a request comes from: that of the last proxy, if there is one.
-#[derive(Clone, Copy)]
-pub(super) struct Peer(pub IpAddr);
 
 /// Lets a request pass if its key has the needed scopes and its owner is within the rate limit. Attaches the
 /// [`Caller`] to the request.

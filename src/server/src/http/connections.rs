@@ -4,7 +4,6 @@
 //! Until then it keeps its slot, and others wait when all slots are taken. A limit per address keeps a single address
 //! from taking all of them (`gate.rs`).
 
-use super::admission::Peer;
 use super::counted::Counted;
 use super::crowds::{Crowds, Seat};
 use super::problem::{Code, Problem};
@@ -30,6 +29,10 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio_io_timeout::TimeoutStream;
 use tokio_util::sync::CancellationToken;
 use tokio_util::task::{AbortOnDropHandle, TaskTracker};
+
+/// Address that a request comes from: that of the last proxy, if there is one.
+#[derive(Clone, Copy)]
+pub(super) struct Peer(pub IpAddr);
 
 /// Serves connections until told to stop, then completes the requests under way.
 pub(super) async fn serve(

@@ -132,7 +132,7 @@ async fn compute(
     // Start the child and follow it until it ends or has to be ended.
     let kills = Kills::so_far();
     let mut child = Child::start(&jobs.settings.program, "compute", folder)?;
-    let watched = watch(jobs, job, attempt, (&mut child, folder), leave).await;
+    let watched = watch(jobs, job, attempt, &mut child, folder, leave).await;
     if !matches!(watched, Watched::Silent) {
         child.terminate().await?;
     }
@@ -252,7 +252,8 @@ async fn watch(
     jobs: &Jobs,
     job: &Job,
     attempt: &Attempt,
-    (child, folder): (&mut Child, &Path),
+    child: &mut Child,
+    folder: &Path,
     leave: &CancellationToken,
 ) -> Watched {
     let limits = &jobs.settings;

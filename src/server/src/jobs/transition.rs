@@ -163,30 +163,18 @@ fn taken_away(
 /// Counts an attempt whose computation was killed.
 fn lost(job: &mut Job, cause: &Failure, rules: &Rules, now: Timestamp) {
     job.lost += 1;
-    try_again(job, cause, (job.lost, rules.attempts), rules, now);
+    try_again(job, cause, job.lost, rules.attempts, rules, now);
 }
 
 /// Counts an attempt lost with its worker. These are counted apart from killed computations, because most of them are
 /// not the job's fault.
 fn interrupted(job: &mut Job, cause: &Failure, rules: &Rules, now: Timestamp) {
     job.interrupted += 1;
-    try_again(
-        job,
-        cause,
-        (job.interrupted, rules.interruptions),
-        rules,
-        now,
-    );
+    try_again(job, cause, job.interrupted, rules.interruptions, rules, now);
 }
 
 /// Requeues a job after a pause, or fails it if `lost` has reached the limit `most`. Ends it if it is cancelled.
-fn try_again(
-    job: &mut Job,
-    cause: &Failure,
-    (lost, most): (u32, u32),
-    rules: &Rules,
-    now: Timestamp,
-) {
+fn try_again(job: &mut Job, cause: &Failure, lost: u32, most: u32, rules: &Rules, now: Timestamp) {
     if job.cancel {
         end(job, State::Cancelled, now);
     } else if most <= lost {

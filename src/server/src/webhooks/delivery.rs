@@ -144,8 +144,8 @@ impl Courier {
             return DeliveryAnswer::Unheard(refused.to_string());
         }
         let time = Timestamp::now().0.div_euclid(1000);
-        let signed = (&*notice.id, time, &*notice.body);
-        let signature = self.settings.secrets.sign(&notice.owner, signed);
+        let secrets = &self.settings.secrets;
+        let signature = secrets.sign(&notice.owner, &notice.id, time, &notice.body);
         let request = self
             .client
             .post(notice.webhook.url().clone())

@@ -54,7 +54,7 @@ impl Secrets {
     }
 
     /// Returns the signatures of a delivery to an owner.
-    pub(super) fn sign(&self, owner: &Owner, (id, time, body): (&str, i64, &str)) -> String {
+    pub(super) fn sign(&self, owner: &Owner, id: &str, time: i64, body: &str) -> String {
         let time = time.to_string();
         let sign = |secret: &Secret| {
             let signed = hmac(&secret.of_owner(owner), &[id, ".", &time, ".", body]);

@@ -32,7 +32,7 @@ pub(super) fn write(
     let mut notes = WriteNotes::default();
     // New textures, materials and their pictures.
     let resources = match baked {
-        Some(baked) => baked::insert(document, &mut body, baked, (0, &options.stem), &mut notes)?,
+        Some(baked) => baked::insert(document, &mut body, baked, 0, &options.stem, &mut notes)?,
         None => document.resources.clone(),
     };
     let mut taken = Taken::default();

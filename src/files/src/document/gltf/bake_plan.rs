@@ -46,7 +46,8 @@ pub(super) fn plan(
         let members: BTreeSet<usize> = members.primitives.iter().copied().collect();
         plan_group(
             &mut plan,
-            (group, &groups[group].name),
+            group,
+            &groups[group].name,
             &members,
             &users,
             &slots,
@@ -150,7 +151,8 @@ fn kept(
 /// Adds the textures of one group: for each slot one texture for all materials, as long as no surface has two of them.
 fn plan_group(
     plan: &mut BakePlan,
-    (group, name): (usize, &str),
+    group: usize,
+    name: &str,
     members: &BTreeSet<usize>,
     users: &Users,
     slots: &BTreeMap<usize, Vec<Slot>>,

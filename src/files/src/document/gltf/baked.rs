@@ -18,7 +18,8 @@ pub(super) fn insert(
     document: &GltfDocument,
     body: &mut Body,
     baked: &BakedTextures,
-    (set, stem): (u32, &str),
+    set: u32,
+    stem: &str,
     notes: &mut WriteNotes,
 ) -> Result<BTreeMap<String, Vec<u8>>, DocumentError> {
     let mut resources = document.resources.clone();

@@ -319,6 +319,6 @@ impl GltfDocument {
         baked: Option<&BakedTextures>,
         mark: Option<&Mark>,
     ) -> Result<Written, DocumentError> {
-        write::write(self, (uvs, mark), options, baked)
+        write::write(self, uvs, mark, options, baked)
     }
 }

@@ -24,7 +24,8 @@ pub(super) fn rewrite(
     body: &mut Body,
     index: usize,
     uvs: &[Corners],
-    (choice, baked): (&Choice, Option<&BakedTextures>),
+    choice: &Choice,
+    baked: Option<&BakedTextures>,
 ) -> Result<PrimitiveNote, DocumentError> {
     let primitive = &document.primitives[index];
     // Remove what belonged to the replaced set, and join vertices that it had split.

@@ -57,7 +57,8 @@ impl Candidate {
 /// may share them, all of these then get the same set.
 pub(super) fn choose(
     document: &GltfDocument,
-    (uvs, mark): (&NewUvs, Option<&Mark>),
+    uvs: &NewUvs,
+    mark: Option<&Mark>,
     options: &WriteOptions,
     plan: Option<&BakePlan>,
 ) -> Result<(Vec<Option<Choice>>, Textures), DocumentError> {

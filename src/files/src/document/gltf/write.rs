@@ -27,7 +27,8 @@ const MANIFOLD: &str = "EXT_mesh_manifold";
 /// Writes `document` with `uvs`, and with the textures made for them.
 pub(super) fn write(
     document: &GltfDocument,
-    (uvs, present): (&NewUvs, Option<&Mark>),
+    uvs: &NewUvs,
+    present: Option<&Mark>,
     options: &WriteOptions,
     baked: Option<&BakedTextures>,
 ) -> Result<Written, DocumentError> {
@@ -36,7 +37,7 @@ pub(super) fn write(
     }
     // Choose the set of each primitive and write its UVs.
     let plan = baked.map(|baked| &baked.plan);
-    let (choices, textures) = texcoord_set::choose(document, (uvs, present), options, plan)?;
+    let (choices, textures) = texcoord_set::choose(document, uvs, present, options, plan)?;
     let mut body = document.body.clone();
     let mut notes = WriteNotes {
         extensions_dropped: document.decompressed.clone(),
@@ -47,13 +48,12 @@ pub(super) fn write(
             continue;
         };
         let primitive = &document.primitives[index];
-        let note = rewrite(document, &mut body, index, &corners, (choice, baked))
+        let note = rewrite(document, &mut body, index, &corners, choice, baked)
             .map_err(|error| primitives::located(error, primitive.mesh, primitive.primitive))?;
         notes.primitives.push(note);
     }
     // Textures: warnings, transforms that no longer apply, and baked ones.
-    let chosen = (choices.as_slice(), &textures);
-    let warnings = set_warnings(document, chosen, options, baked.is_some());
+    let warnings = set_warnings(document, &choices, &textures, options, baked.is_some());
     notes.warnings.extend(warnings);
     if uvs.layout == Layout::New {
         release_textures(&mut body.json, &choices, &textures, &mut notes);
@@ -61,8 +61,15 @@ pub(super) fn write(
     let resources = match baked {
         Some(baked) => {
             let set = choices.iter().flatten().map(|choice| choice.set).next();
-            let at = (set.unwrap_or(0), options.stem.as_str());
-            Cow::Owned(baked::insert(document, &mut body, baked, at, &mut notes)?)
+            let set = set.unwrap_or(0);
+            Cow::Owned(baked::insert(
+                document,
+                &mut body,
+                baked,
+                set,
+                &options.stem,
+                &mut notes,
+            )?)
         }
         None => Cow::Borrowed(&document.resources),
     };
@@ -85,7 +92,7 @@ pub(super) fn write(
     // Remove objects that have lost their last reference.
     let places = document.origin.clean(&mut body)?;
     renumber(&mut notes, &places);
-    let files = files((body, &document.chunks), &resources, options, &mut notes)?;
+    let files = files(body, &document.chunks, &resources, options, &mut notes)?;
     Ok(Written { files, notes })
 }
 
@@ -190,7 +197,8 @@ fn drop_manifold(json: &mut Value, notes: &mut WriteNotes) -> Result<(), Documen
 }
 
 fn files(
-    (mut body, chunks): (Body, &[(u32, Vec<u8>)]),
+    mut body: Body,
+    chunks: &[(u32, Vec<u8>)],
     resources: &BTreeMap<String, Vec<u8>>,
     options: &WriteOptions,
     notes: &mut WriteNotes,
@@ -247,7 +255,8 @@ fn to_json(json: &Value, pretty: bool) -> Vec<u8> {
 /// Returns warnings about new UVs that are not in set 0, with the reason, and about sets that had to be filled.
 fn set_warnings(
     document: &GltfDocument,
-    (choices, textures): (&[Option<Choice>], &Textures),
+    choices: &[Option<Choice>],
+    textures: &Textures,
     options: &WriteOptions,
     is_rebaked: bool,
 ) -> Vec<Warning> {
