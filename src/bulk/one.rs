@@ -56,7 +56,7 @@ pub(super) async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) ->
         files,
         row: row(begin.elapsed().as_secs_f64(), status),
     };
-    if let Err(error) = block_in_place(|| settle(order, asset, &record, old.as_ref())) {
+    if let Err(error) = block_in_place(|| settle(order, asset, &record, old)) {
         record.row.status = unwritten(&error).into();
     }
     (record.row, Fate::Done)

@@ -43,7 +43,7 @@ impl Collection {
 }
 
 /// Calls `place` for every reference to an object of a collection, with its owner, the object, and the number.
-/// References in unknown extensions are left out; [`Unknown`](super::origin::Unknown) has them.
+/// References in unknown extensions are left out; `origin.rs` has them.
 pub(super) fn visit(json: &mut Value, place: &mut dyn FnMut(Option<Object>, Object, &mut Value)) {
     let Some(root) = json.as_object_mut() else {
         return;

@@ -221,7 +221,7 @@ const PLAIN: [&str; 8] = [
     "MSFT_lod",
 ];
 
-/// Returns whether [`visit`](super::links::visit) finds all references of an extension.
+/// Returns whether [`visit`] finds all references of an extension.
 fn is_understood(name: &str) -> bool {
     const NAMING: [&str; 11] = [
         "KHR_draco_mesh_compression",
