@@ -15,7 +15,7 @@ use crate::bulk::read_regular;
 use unwrapd_files::document::Upload;
 use unwrapd_pipeline::Caller;
 
-/// Where a document is written.
+/// Output file of a document.
 #[derive(clap::Args)]
 pub(super) struct Target {
     /// Output file. Its extension decides the format: .glb, .gltf or .obj. `-` is standard output

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use unwrapd_method::energy::{FormulaError, OwnEnergy};
 
-/// Which deformation energy is minimized.
+/// Deformation energy to minimize.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(clap::ValueEnum))]
 #[serde(

@@ -36,7 +36,7 @@ pub use chart::ChartFaces;
 pub use error::EditError;
 pub use session::{AnchorId, UvSession};
 
-/// Which shape of a triangle is without distortion.
+/// Shape of a triangle without distortion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]

@@ -48,7 +48,7 @@ impl Primitive {
     }
 }
 
-/// Which primitives share one atlas.
+/// Primitives that share an atlas.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]

@@ -3,7 +3,7 @@
 use super::{AugmentedLog, InverseSpline, Log, NeoHookean, NoBarrier};
 use crate::energy::Guard;
 
-/// Which barrier is added to the energy.
+/// Barrier that is added to the energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]

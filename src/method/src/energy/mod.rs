@@ -49,7 +49,7 @@ pub use symmetric_dirichlet::SymmetricDirichlet;
 pub use term::{Assembly, Term};
 pub use zero::Zero;
 
-/// Which density is minimized.
+/// Energy density to minimize.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]

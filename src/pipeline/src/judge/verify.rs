@@ -25,7 +25,7 @@ pub struct Verified {
     pub lacking: Vec<&'static str>,
     /// Proven properties of all groups.
     pub proven: Proven,
-    /// Which UVs were judged.
+    /// The UVs that were judged.
     pub judged: Judged,
     /// A certificate per group.
     pub groups: Vec<VerifiedGroup>,
@@ -36,7 +36,7 @@ pub struct Verified {
     pub warnings: Vec<Warning>,
 }
 
-/// Which UVs of a document were judged.
+/// The UVs of a document that were judged.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Judged {

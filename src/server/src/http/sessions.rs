@@ -122,7 +122,7 @@ impl FromRequestParts<Arc<App>> for PathSession {
         ("kind" = Option<Kind>, Query, description = "`deform`, `warp`, `edit_uv` or `texture_map`. With `job` the default is `edit_uv`; an upload has to say it, here or in the form"),
         ("filename" = Option<String>, Query, description = "File name of a raw body"),
         ("job" = Option<String>, Query, format = "uuid", description = "The ended job to take the input from; there is no body then"),
-        ("file" = Option<super::session_input::JobFile>, Query, description = "With `job`: what to take; the default is `result`"),
+        ("file" = Option<super::session_input::JobFile>, Query, description = "With `job`: the file to take; the default is `result`"),
     ),
     responses(
         (status = 201, description = "The session", body = SessionView, headers(("Location" = String, description = "Path of the session"))),

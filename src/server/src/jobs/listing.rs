@@ -32,7 +32,7 @@ pub struct Listing {
     pub limit: u32,
 }
 
-/// Which of two jobs comes first.
+/// Order of jobs: the one of two jobs that comes first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Order {
