@@ -3,7 +3,7 @@
 //! A map without inverted triangles is bijective as long as its boundary does not meet itself, and a boundary that
 //! moves continuously first meets itself where one of its vertices touches one of its edges. So besides the barrier of
 //! elements there is one for such pairs: zero while they are apart, infinite as their distance goes to zero. With steps
-//! that end before the first contact no iterate has crossed: that is decided along the whole step (`contact`), not at
+//! that end before the first contact no iterate has crossed: that is decided along the whole step (`term`), not at
 //! its ends.
 //!
 //! The set of near pairs changes as the map moves, and with it the pattern of the Hessian. The pattern is neither

@@ -2,7 +2,7 @@
 //!
 //! A silent peer loses its connection: without headers, between two requests, or within a body in either direction.
 //! Until then it keeps its slot, and others wait when all slots are taken. A limit per address keeps a single address
-//! from taking all of them (`gate.rs`).
+//! from taking all of them.
 
 use super::counted::Counted;
 use super::crowds::{Crowds, Seat};
