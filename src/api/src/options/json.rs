@@ -2,12 +2,8 @@
 
 use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer};
-use serde_json::{Map, Value};
 
-use super::option_set::OptionSet;
-
-/// A JSON object of options.
-pub type Object = Map<String, Value>;
+use super::option_set::{Object, OptionSet};
 
 /// Deserializes the options of an object that has no other members.
 pub fn deserialized<'de, O, D>(deserializer: D) -> Result<O, D::Error>

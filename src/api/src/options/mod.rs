@@ -23,8 +23,8 @@ mod option_set;
 mod range;
 
 pub use crate::options;
-pub use json::{Object, deserialized, taken};
-pub use option_set::OptionSet;
+pub use json::{deserialized, taken};
+pub use option_set::{Object, OptionSet};
 pub use range::{Ranged, within};
 
 #[cfg(feature = "schema")]

@@ -1,6 +1,9 @@
 //! The trait of all sets of options.
 
-use super::json::Object;
+use serde_json::{Map, Value};
+
+/// A JSON object of options.
+pub type Object = Map<String, Value>;
 
 /// A set of options, with the groups that it consists of.
 pub trait OptionSet: Sized {
