@@ -17,7 +17,7 @@ use unwrapd_server::sessions::Sessions;
 #[derive(clap::Args)]
 #[command(next_help_heading = "Log and metrics")]
 pub(super) struct WatchArgs {
-    /// Level of the log, such as `warn`, or levels by part, such as `info,unwrapd::jobs=debug`
+    /// Level of the log, such as `warn`, or levels by part, such as `info,unwrapd_server::jobs=debug`
     #[arg(
         long,
         value_name = "LEVELS",
