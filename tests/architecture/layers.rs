@@ -1,4 +1,4 @@
-//! Who may import whom inside the crates of `src/`. Between crates the manifests decide.
+//! Imports between the modules of each crate in `src/`. Between crates the manifests decide.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -119,7 +119,7 @@ fn makers_of_maps_do_not_ask_the_judge() {
     }
 }
 
-/// Handlers see as far as their callers.
+/// Handlers reach only the jobs that their callers may see.
 #[test]
 fn no_handler_sees_everything() {
     let all = code_of("src/server/src", "http").into_iter();
