@@ -34,6 +34,7 @@ async fn served() -> SocketAddr {
         rules: Rules::default(),
         scratch: data.join("scratch"),
         program: PathBuf::from("/bin/false").into(),
+        catalog: &unwrapd_worker::Computations,
         workers: 0,
         cores: 1,
         owner_running: None,
