@@ -58,7 +58,7 @@ async fn served() -> SocketAddr {
     jobs.recover().await.expect("an empty queue");
     let sessions = sessions::Settings {
         most: 1,
-        most_of_owner: 1,
+        most_of_owner: None,
         idle: LONG,
     };
     let sessions = Arc::new(Sessions::new(sessions, settings));
@@ -79,6 +79,7 @@ async fn served() -> SocketAddr {
             silence: LONG,
         },
         upload_time: LONG,
+        upload_rate: 0,
         owner_requests: None,
         wrong_keys: 1,
         origins: Vec::new(),
