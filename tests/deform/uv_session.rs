@@ -73,12 +73,12 @@ fn it_settles_where_an_edit_ends() {
                 0.2 + 0.01 * f64::from(frame),
                 0.2 - 0.005 * f64::from(frame),
             ];
-            session.move_anchor(center, target).expect("a target");
+            session.move_handle(center, &target).expect("a target");
             session.step();
             assert_valid(&mesh, &session.uvs());
         }
         settle(&mut session, &mesh);
-        let anchors: Vec<Anchor> = session.anchors().map(|(_, anchor)| *anchor).collect();
+        let anchors: Vec<Anchor> = session.handles().map(|(_, anchor)| *anchor).collect();
         let edited = edit_uvs(&view(&mesh), &anchors, &options, &|_: &Iterate| {
             Control::Continue
         });
@@ -118,10 +118,10 @@ fn undo_is_exact_over_charts() {
     assert_eq!(session.uvs(), first);
     assert!(session.undo() && !session.undo());
     assert_eq!(session.uvs(), mesh.uvs);
-    assert_eq!(session.anchors().count(), 0);
+    assert_eq!(session.handles().count(), 0);
     assert!(session.redo() && session.redo() && !session.redo());
     assert_eq!(session.uvs(), second);
-    assert_eq!(session.anchors().count(), 4);
+    assert_eq!(session.handles().count(), 4);
     assert_eq!(session.analyses(), 2);
 }
 
@@ -146,11 +146,11 @@ fn what_cannot_be_held_is_refused_and_changes_nothing() {
     ];
     assert_eq!(refused, expected.map(Err));
     assert_eq!(session.uvs(), before);
-    assert_eq!(session.anchors().count(), 1);
+    assert_eq!(session.handles().count(), 1);
     session.remove(id).expect("an anchor");
     assert_eq!(session.remove(id), Err(EditError::UnknownHandle(0)));
     assert_eq!(
-        session.move_anchor(id, [0.0; 2]),
+        session.move_handle(id, &[0.0; 2]),
         Err(EditError::UnknownHandle(0))
     );
 }

@@ -9,7 +9,7 @@
 //!
 //! The other applications are functions from bytes of a file to bytes of files: [`solve_file`], [`deform_file`],
 //! [`warp_file`]. All take options of their own, [`Limits`] set by their caller, and an [`Observer`]; the command
-//! line and the service are two such callers. [`hold_body`], [`hold_picture`] and [`hold_uvs`] open live sessions on
+//! line and the service are two such callers. [`open_body`], [`open_picture`] and [`open_uvs`] open live sessions on
 //! what these functions would deform.
 //!
 //! The work runs on its own thread pool. Charts of all groups share one queue, largest first; each is mapped by one
@@ -51,7 +51,7 @@ pub use deform::cage_report::CageReport;
 pub use deform::caged::{CageOptions, CagedDocument, Surfaces};
 pub use deform::file::deform_file;
 pub use deform::formats::BodyFormat;
-pub use deform::held::{HeldBody, Skin, hold_body, hold_picture};
+pub use deform::live::{SessionBody, Skin, open_body, open_picture};
 pub use deform::missed::Completion;
 pub use deform::pull_report::PullReport;
 pub use deform::solution::{DeformReport, Deformed};
@@ -62,9 +62,8 @@ pub use documents::repack::repack_document;
 pub use documents::texel_weight::TexelWeight;
 pub use documents::unwrap::{Outcome, unwrap_document};
 pub use documents::uv_arrays::UvArrays;
-pub use edit::held::hold_uvs;
 pub use edit::report::{ChartEditReport, EditReport};
-pub use edit::uvs::{EditedDocument, edit_document};
+pub use edit::uvs::{EditedDocument, edit_document, open_uvs};
 pub use judge::bound_report::{BoundReport, WorstChart, stretch_percent};
 pub use judge::proven::{Mirrored, Proven, ProvenBits, ProvenPadding, ProvenPages};
 pub use judge::report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};

@@ -10,8 +10,6 @@ mod chart;
 mod error;
 mod flat_chart;
 mod map;
-mod remembered;
-mod seen;
 mod session;
 
 use std::collections::BTreeMap;
@@ -34,7 +32,7 @@ pub use anchors::Anchor;
 pub use anchors::parse_anchors;
 pub use chart::ChartFaces;
 pub use error::EditError;
-pub use session::{AnchorId, UvSession};
+pub use session::{LiveUvs, UvSession};
 
 /// Shape of a triangle without distortion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -7,7 +7,7 @@ use super::chart::{UvChart, UvVertices};
 use super::flat_chart::{FlatChart, Grips};
 use super::map::UvMap;
 use super::{EditError, Spot, UvEditOptions, UvMesh};
-use crate::history::History;
+use crate::editor::{Editable, Editor, HandleId};
 use crate::live::Live;
 use crate::problem::Model;
 use crate::pull::{arrive, pulled};
@@ -20,7 +20,10 @@ use unwrapd_method::solver::Stage;
 /// Charts, units and errors are those of [`edit_uvs`](super::edit_uvs), and so is the map in which a session settles.
 /// Each chart is built when its first anchor is added, and its linear systems are analyzed once. Places are those of
 /// the map at the start.
-pub struct UvSession {
+pub type UvSession = Editor<LiveUvs>;
+
+/// A UV map while it is edited.
+pub struct LiveUvs {
     options: UvEditOptions,
     positions: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
@@ -30,14 +33,7 @@ pub struct UvSession {
     /// For each chart the orientation of most of its area.
     pub(super) positive: Vec<i8>,
     pub(super) charts: BTreeMap<u32, LiveChart>,
-    pub(super) anchors: BTreeMap<AnchorId, Anchor>,
-    next: u32,
-    pub(super) history: History<State>,
 }
-
-/// Identifier of an anchor of a session; never reused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct AnchorId(u32);
 
 /// A chart that has anchors, or had; it then stays as it is.
 pub(super) struct LiveChart {
@@ -48,93 +44,107 @@ pub(super) struct LiveChart {
     pub live: Live,
 }
 
-/// State to which [`UvSession::undo`] returns.
-pub(super) struct State {
-    pub anchors: BTreeMap<AnchorId, Anchor>,
-    /// Positions of the vertices of each chart that was held.
-    pub charts: BTreeMap<u32, Vec<f64>>,
-}
-
 impl UvSession {
     /// Opens a session with a map without anchors.
     pub fn new(mesh: &UvMesh, options: UvEditOptions) -> Self {
         let map = UvMap::new(mesh);
-        Self {
+        Self::of(LiveUvs {
             vertices: UvVertices::new(&map),
             positive: map.chart_orientations(),
             positions: mesh.positions.to_vec(),
             triangles: mesh.triangles.to_vec(),
             uvs: mesh.uvs.to_vec(),
             charts: BTreeMap::new(),
-            anchors: BTreeMap::new(),
-            next: 0,
-            history: History::new(),
             options,
             map,
+        })
+    }
+
+    /// Returns the number of times the linear systems of charts were ordered and analyzed.
+    pub fn analyses(&self) -> usize {
+        let charts = self.map.charts.values();
+        charts.map(|chart| chart.live.analyses()).sum()
+    }
+
+    /// Returns the UVs of each face's corners. Charts without anchors keep theirs bit for bit, and so does every vertex
+    /// that has not moved.
+    pub fn uvs(&self) -> Vec<CornerUvs> {
+        let LiveUvs { vertices, uvs, .. } = &self.map;
+        vertices.moved(uvs, &self.map.moved())
+    }
+
+    /// Returns the vertices of the UV map for each face: classes of corners that coincide in space, in UV space and in
+    /// their chart.
+    pub fn faces(&self) -> &[[u32; 3]] {
+        self.map.vertices.of_corner.as_chunks().0
+    }
+
+    /// Returns the UVs of the vertices. Those of faces without finite UVs are at the origin.
+    pub fn vertex_uvs(&self) -> Vec<[f64; 2]> {
+        let n_vertices = self.map.vertices.first_corner.len() as u32;
+        let start = (0..n_vertices).map(|vertex| self.map.vertices.uv(&self.map.map, vertex));
+        let mut uvs: Vec<[f64; 2]> = start.collect();
+        for (vertex, uv) in self.map.moved() {
+            uvs[vertex as usize] = uv;
         }
+        uvs
     }
 
-    /// Adds an anchor at a vertex or a place.
-    ///
-    /// # Errors
-    /// As [`edit_uvs`](super::edit_uvs), where anchors are named by their order in [`anchors`](Self::anchors), this one
-    /// last. The session is then unchanged.
-    pub fn add(&mut self, anchor: Anchor) -> Result<AnchorId, EditError> {
-        let id = AnchorId(self.next);
-        let mut anchors = self.anchors.clone();
-        anchors.insert(id, anchor);
-        self.take(anchors)?;
-        self.next += 1;
-        Ok(id)
-    }
-
-    /// Changes the target of an anchor.
-    ///
-    /// # Errors
-    /// As [`add`](Self::add), or if there is no such anchor.
-    pub fn move_anchor(&mut self, id: AnchorId, target: [f64; 2]) -> Result<(), EditError> {
-        let mut anchors = self.anchors.clone();
-        match anchors.get_mut(&id) {
-            Some(Anchor::Vertex { to, .. } | Anchor::Place { to, .. }) => *to = target,
-            None => return Err(EditError::UnknownHandle(id.0 as usize)),
+    /// Returns for each face the sign that its area keeps, whatever is pulled; 0 in charts that no anchor has held.
+    pub fn kept_signs(&self) -> Vec<i8> {
+        let mut signs = vec![0; self.map.map.faces.len()];
+        for (&number, chart) in &self.map.charts {
+            for [corner, ..] in chart.chart.faces.corners() {
+                let face = corner as usize / 3;
+                signs[face] = self.map.positive[number as usize] * self.map.map.winding[face];
+            }
         }
-        self.take(anchors)
+        signs
     }
 
-    /// Exchanges an anchor for another one.
-    ///
-    /// # Errors
-    /// As [`add`](Self::add), or if there is no such anchor.
-    pub fn exchange(&mut self, id: AnchorId, anchor: Anchor) -> Result<(), EditError> {
-        let mut anchors = self.anchors.clone();
-        match anchors.get_mut(&id) {
-            Some(present) => *present = anchor,
-            None => return Err(EditError::UnknownHandle(id.0 as usize)),
-        }
-        self.take(anchors)
+    /// Returns the energy of the charts that anchors hold or held, including barriers and the pull of points; NaN
+    /// before the first iteration of a map.
+    pub fn energy(&self) -> f64 {
+        let charts = self.map.charts.values();
+        charts.map(|chart| chart.live.summary().energy_last).sum()
     }
 
-    /// Removes an anchor. A chart without anchors stays as it is.
-    ///
-    /// # Errors
-    /// If there is no such anchor.
-    pub fn remove(&mut self, id: AnchorId) -> Result<(), EditError> {
-        let mut anchors = self.anchors.clone();
-        if anchors.remove(&id).is_none() {
-            return Err(EditError::UnknownHandle(id.0 as usize));
-        }
-        self.take(anchors)
+    /// Returns the smallest ratio of a triangle's area to its rest area in those charts.
+    pub fn smallest(&self) -> f64 {
+        let of_chart = |chart: &LiveChart| {
+            let body = &chart.live.problem().body;
+            let (now, rest) = (body.determinants_at(chart.live.x()), body.determinants());
+            let ratios = now.iter().zip(rest).map(|(now, rest)| now / rest);
+            ratios.fold(f64::INFINITY, f64::min)
+        };
+        self.map
+            .charts
+            .values()
+            .map(of_chart)
+            .fold(f64::INFINITY, f64::min)
+    }
+}
+
+impl Editable for LiveUvs {
+    type Handle = Anchor;
+    /// Positions of the vertices of each chart that was held.
+    type Places = BTreeMap<u32, Vec<f64>>;
+    type Error = EditError;
+
+    fn retarget(anchor: &mut Anchor, target: &[f64]) {
+        let (Anchor::Vertex { to, .. } | Anchor::Place { to, .. }) = anchor;
+        // What is not two numbers is not a target.
+        *to = <[f64; 2]>::try_from(target).unwrap_or([f64::NAN; 2]);
     }
 
-    /// Iterates over the anchors and their identifiers, in the order in which they were added.
-    pub fn anchors(&self) -> impl Iterator<Item = (AnchorId, &Anchor)> {
-        self.anchors.iter().map(|(id, anchor)| (*id, anchor))
+    fn no_such_handle(HandleId(number): HandleId) -> EditError {
+        EditError::UnknownHandle(number as usize)
     }
 
-    /// Replaces the anchors; changes nothing on an error.
-    pub(super) fn take(&mut self, anchors: BTreeMap<AnchorId, Anchor>) -> Result<(), EditError> {
+    fn hold(&mut self, anchors: &BTreeMap<HandleId, Anchor>) -> Result<(), EditError> {
+        // Find the vertices that the anchors hold, and build the charts that were never held.
         let mut of_chart: BTreeMap<u32, Vec<Held>> = BTreeMap::new();
-        for held in self.held(&anchors)? {
+        for held in self.held(anchors)? {
             let chart = match held.spot {
                 Spot::Vertex(vertex) => self.vertices.chart(&self.map, vertex),
                 Spot::Place { chart, .. } => chart,
@@ -147,6 +157,7 @@ impl UvSession {
                 self.charts.insert(chart, live);
             }
         }
+        // Bind everything before anything changes.
         let boundary = self.options.boundary;
         let mut aims = Vec::with_capacity(self.charts.len());
         for (number, chart) in &self.charts {
@@ -162,11 +173,63 @@ impl UvSession {
             }
             chart.grips = grips;
         }
-        self.anchors = anchors;
         Ok(())
     }
 
-    fn held(&self, anchors: &BTreeMap<AnchorId, Anchor>) -> Result<Vec<Held>, EditError> {
+    fn remodel(&mut self, model: &Model) -> Result<(), EditError> {
+        let before = std::mem::replace(&mut self.options.model, model.clone());
+        match self.rebuilt() {
+            Ok(lives) => {
+                for (chart, live) in self.charts.values_mut().zip(lives) {
+                    chart.live = live;
+                }
+                Ok(())
+            }
+            Err(error) => {
+                self.options.model = before;
+                Err(error)
+            }
+        }
+    }
+
+    fn step(&mut self) -> Stage {
+        for chart in self.charts.values_mut().filter(|chart| chart.is_held) {
+            chart.live.step();
+        }
+        self.stage()
+    }
+
+    fn stage(&self) -> Stage {
+        let held = || self.charts.values().filter(|chart| chart.is_held);
+        let any = |stage| held().any(|chart| chart.live.stage() == stage);
+        let unfinished = [Stage::Moving, Stage::Unreachable]
+            .into_iter()
+            .find(|&s| any(s));
+        unfinished.unwrap_or(Stage::Settled)
+    }
+
+    fn places(&self) -> BTreeMap<u32, Vec<f64>> {
+        let places = |(&number, chart): (&u32, &LiveChart)| (number, chart.live.x().to_vec());
+        self.charts.iter().map(places).collect()
+    }
+
+    fn first_places(&self) -> BTreeMap<u32, Vec<f64>> {
+        BTreeMap::new()
+    }
+
+    /// Charts that were not held then go back to their start.
+    fn put(&mut self, mut places: BTreeMap<u32, Vec<f64>>) -> Result<(), EditError> {
+        for (number, chart) in &mut self.charts {
+            let start = || chart.flat.start.as_flattened().to_vec();
+            let places = places.remove(number).unwrap_or_else(start);
+            chart.live.put(places)?;
+        }
+        Ok(())
+    }
+}
+
+impl LiveUvs {
+    fn held(&self, anchors: &BTreeMap<HandleId, Anchor>) -> Result<Vec<Held>, EditError> {
         if anchors.is_empty() {
             return Ok(Vec::new());
         }
@@ -202,53 +265,6 @@ impl UvSession {
         })
     }
 
-    /// Runs one iteration of every chart that has something left to do; the map is valid before and after.
-    pub fn step(&mut self) -> Stage {
-        for chart in self.charts.values_mut().filter(|chart| chart.is_held) {
-            chart.live.step();
-        }
-        self.stage()
-    }
-
-    /// Runs iterations while there is something to do and `go_on`, called before each, returns `true`.
-    pub fn step_while(&mut self, mut go_on: impl FnMut(&Self) -> bool) -> Stage {
-        while self.stage() == Stage::Moving && go_on(self) {
-            self.step();
-        }
-        self.stage()
-    }
-
-    /// Returns the state of the anchors.
-    pub fn stage(&self) -> Stage {
-        let held = || self.charts.values().filter(|chart| chart.is_held);
-        let any = |stage| held().any(|chart| chart.live.stage() == stage);
-        let unfinished = [Stage::Moving, Stage::Unreachable]
-            .into_iter()
-            .find(|&s| any(s));
-        unfinished.unwrap_or(Stage::Settled)
-    }
-
-    /// Exchanges energy and barrier. The map, the anchors and the history are kept.
-    ///
-    /// # Errors
-    /// As [`add`](Self::add), or if the present map is outside the domain of the new energy. The session is then
-    /// unchanged.
-    pub fn remodel(&mut self, model: &Model) -> Result<(), EditError> {
-        let before = std::mem::replace(&mut self.options.model, model.clone());
-        match self.rebuilt() {
-            Ok(lives) => {
-                for (chart, live) in self.charts.values_mut().zip(lives) {
-                    chart.live = live;
-                }
-                Ok(())
-            }
-            Err(error) => {
-                self.options.model = before;
-                Err(error)
-            }
-        }
-    }
-
     /// Rebuilds each chart at its present map under the present model.
     fn rebuilt(&self) -> Result<Vec<Live>, EditError> {
         let rebuilt = self.charts.values().map(|chart| {
@@ -260,20 +276,6 @@ impl UvSession {
             Ok(live)
         });
         rebuilt.collect()
-    }
-
-    /// Returns the number of times the linear systems of charts were ordered and analyzed.
-    pub fn analyses(&self) -> usize {
-        self.charts
-            .values()
-            .map(|chart| chart.live.analyses())
-            .sum()
-    }
-
-    /// Returns the UVs of each face's corners. Charts without anchors keep theirs bit for bit, and so does every vertex
-    /// that has not moved.
-    pub fn uvs(&self) -> Vec<CornerUvs> {
-        self.vertices.moved(&self.uvs, &self.moved())
     }
 
     /// Returns the vertices of the UV map that have moved since the start.

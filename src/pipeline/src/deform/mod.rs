@@ -5,7 +5,7 @@ pub(super) mod caged;
 pub(super) mod file;
 pub(super) mod formats;
 mod frames;
-pub(super) mod held;
+pub(super) mod live;
 pub(super) mod missed;
 pub(super) mod moved;
 pub(super) mod plan;

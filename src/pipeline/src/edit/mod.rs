@@ -1,5 +1,4 @@
 //! Editing of a document's UVs by anchors.
 
-pub(super) mod held;
 pub(super) mod report;
 pub(super) mod uvs;

@@ -12,7 +12,7 @@ use crate::start::start;
 use crate::tracker::Tracker;
 use crate::{PipelineError, limits};
 use unwrapd_api::Stage;
-use unwrapd_deform::uv::{ChartFaces, EditedUvs, UvMesh, edit_uvs_from};
+use unwrapd_deform::uv::{ChartFaces, EditedUvs, UvMesh, UvSession, edit_uvs_from};
 use unwrapd_files::document::{
     Corners, Document, DocumentError, GroupBy, Layout, Marked, NewUvs, OutputFormat, Sets, Terms,
     Upload, Warning, WriteOptions, Written,
@@ -114,6 +114,19 @@ pub fn edit_document(
             report,
         })
     })?
+}
+
+/// Opens a session on the UVs that [`edit_document`](edit_document) would edit. The caller adds the anchors.
+pub fn open_uvs(
+    upload: &Upload,
+    editing: Editing,
+    options: &EditOptions,
+) -> Result<UvSession, PipelineError> {
+    options.check()?;
+    let document = Document::read(upload)?;
+    limits::check(&options.caller.limits, &document)?;
+    let whole = Whole::gather(&document, options.texcoord)?;
+    Ok(UvSession::new(&whole.mesh(), options.of_map(editing)))
 }
 
 /// All primitives of a document as one mesh. Primitives without UVs contribute only vertices.

@@ -9,7 +9,7 @@ use std::sync::mpsc::{Receiver, sync_channel};
 use serde::Serialize;
 use serde_json::Value;
 
-use super::course::Course;
+use super::live_session::LiveSession;
 use super::message::Message;
 use crate::attempt::contain;
 use unwrapd_api::pipe::{self, BAKE, BAKED, FAILED, FRAME, MESH, REPLY};
@@ -49,8 +49,8 @@ fn session(folder: &Path, out: &File) -> Result<(), Failure> {
     };
     let served = in_pool(workers, move || {
         let upload = read_upload(folder, &task.input)?;
-        let course = Course::new(task.kind, &task.options, &upload, task.limits)?;
-        serve(course, &said, folder, out);
+        let session = LiveSession::new(task.kind, &task.options, &upload, task.limits)?;
+        serve(session, &said, folder, out);
         Ok(())
     });
     served.map_err(|error| Failure::new(error.code(), error.to_string()))?
@@ -77,11 +77,11 @@ fn listen() -> std::io::Result<Receiver<ServerRecord>> {
 }
 
 /// Handles messages as they arrive, iterates while the map moves, and sends a frame after each iteration.
-fn serve(mut course: Course, said: &Receiver<ServerRecord>, folder: &Path, out: &File) {
-    tell(out, MESH, &course.mesh());
-    tell(out, FRAME, &course.frame());
+fn serve(mut session: LiveSession, said: &Receiver<ServerRecord>, folder: &Path, out: &File) {
+    tell(out, MESH, &session.mesh());
+    tell(out, FRAME, &session.frame());
     loop {
-        let first = if course.is_moving() {
+        let first = if session.is_moving() {
             None
         } else {
             match said.recv() {
@@ -90,25 +90,25 @@ fn serve(mut course: Course, said: &Receiver<ServerRecord>, folder: &Path, out: 
             }
         };
         let batch: Vec<ServerRecord> = first.into_iter().chain(said.try_iter()).collect();
-        take(&mut course, batch, folder, out);
-        course.step();
-        tell(out, FRAME, &course.frame());
+        handle(&mut session, batch, folder, out);
+        session.step();
+        tell(out, FRAME, &session.frame());
     }
 }
 
 /// Handles the records since the last iteration. Among moves of one handle with nothing but moves between them, only
 /// the last one has an effect, so outdated positions do not delay a drag.
-fn take(course: &mut Course, batch: Vec<ServerRecord>, folder: &Path, out: &File) {
+fn handle(session: &mut LiveSession, batch: Vec<ServerRecord>, folder: &Path, out: &File) {
     let is_late = superseded(&batch);
     for (said, is_late) in batch.into_iter().zip(is_late) {
         let reply = match said {
             ServerRecord::Bake => {
-                tell(out, BAKED, &json(&bake(course, folder)));
+                tell(out, BAKED, &json(&bake(session, folder)));
                 continue;
             }
-            ServerRecord::Message(Ok(message)) if is_late => course.supersede(message.n),
-            ServerRecord::Message(Ok(message)) => course.take(&message),
-            ServerRecord::Message(Err((n, error))) => course.refuse(n, error),
+            ServerRecord::Message(Ok(message)) if is_late => session.supersede(message.n),
+            ServerRecord::Message(Ok(message)) => session.execute(&message),
+            ServerRecord::Message(Err((n, error))) => session.refuse(n, error),
         };
         tell(out, REPLY, &json(&reply));
     }
@@ -131,8 +131,8 @@ fn superseded(batch: &[ServerRecord]) -> Vec<bool> {
 }
 
 /// Writes the map to the folder and returns its handles.
-fn bake(course: &Course, folder: &Path) -> Result<Vec<Value>, Failure> {
-    let (handles, start) = course.baked();
+fn bake(session: &LiveSession, folder: &Path) -> Result<Vec<Value>, Failure> {
+    let (handles, start) = session.baked();
     std::fs::write(folder.join(START), start_file(&start))?;
     Ok(handles)
 }

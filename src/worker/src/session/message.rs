@@ -13,13 +13,13 @@ pub struct Message {
     pub n: u32,
     /// Command of the message.
     #[serde(flatten)]
-    pub wish: Wish,
+    pub command: Command,
 }
 
 /// Command of a client.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Wish {
+pub enum Command {
     /// Add a handle, or replace the handle with this name.
     Add {
         /// The client's name for the handle.
@@ -92,8 +92,8 @@ impl Message {
 
     /// Returns the name of the handle if the message is a move.
     pub(super) fn moved(&self) -> Option<u32> {
-        match self.wish {
-            Wish::Move { name, .. } => Some(name),
+        match self.command {
+            Command::Move { name, .. } => Some(name),
             _ => None,
         }
     }

@@ -1,17 +1,17 @@
 //! The child of a live session: messages in, frames out.
 //!
-//! [`Course`] is the whole state between the pipes of the child: it handles messages in order and produces a frame
-//! after each iteration, so the frames can be reproduced from input and messages.
+//! [`LiveSession`] is the whole state between the pipes of the child: it handles messages in order and produces a frame
+//! after each iteration, so the frames can be reproduced from input and messages. [`Editor`](unwrapd_deform::Editor) has
+//! the editing protocol; here handles get the names of clients.
 
-mod body_hand;
+mod body;
 mod child;
-mod course;
+mod editing;
 mod frame;
-mod hand;
+mod live_session;
 mod message;
-mod names;
-mod uv_hand;
+mod uvs;
 
 pub use child::run;
-pub use course::Course;
-pub use message::{Message, Reply, Wish};
+pub use live_session::LiveSession;
+pub use message::{Command, Message, Reply};

@@ -3,26 +3,26 @@
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
-use super::body_hand::{BodyHand, Form};
+use super::body::{BodyView, HandleFormat};
+use super::editing::{Editing, NamedHandles, check_model};
 use super::frame::{self, Header};
-use super::hand::{Hand, check_model};
-use super::message::{Message, Reply, Wish};
-use super::uv_hand::UvHand;
+use super::message::{Command, Message, Reply};
+use super::uvs::UvView;
 use unwrapd_api::{Failure, Kind, Limits, Upload};
 use unwrapd_method::solver::Stage;
 use unwrapd_pipeline::{
-    CommandOptions, DeformOptions, EditOptions, Editing, PipelineError, WarpOptions, hold_body,
-    hold_picture, hold_uvs,
+    self as pipeline, CommandOptions, DeformOptions, EditOptions, PipelineError, WarpOptions,
+    open_body, open_picture, open_uvs,
 };
 
 /// State of a session. It depends only on the input, the messages, and the iterations that these precede.
-pub struct Course {
-    hand: Box<dyn Hand>,
+pub struct LiveSession {
+    editing: Box<dyn Editing>,
     step: u32,
     message: u32,
 }
 
-impl Course {
+impl LiveSession {
     /// Opens a session on what such a job would deform, at rest, with the handles of the options, numbered in list
     /// order.
     ///
@@ -34,79 +34,86 @@ impl Course {
         upload: &Upload,
         limits: Limits,
     ) -> Result<Self, Failure> {
-        let (hand, handles): (Box<dyn Hand>, Value) = match kind {
+        let (editing, handles): (Box<dyn Editing>, Value) = match kind {
             Kind::Deform => {
                 let options: DeformOptions = read(options, limits)?;
                 check_model(&options.model)?;
-                let form = options.cage.map_or(Form::Body, |_| Form::Cage);
-                let held = hold_body(upload, &options).map_err(|e| failure(&e))?;
-                (Box::new(BodyHand::new(held, form)), json!(options.handles))
+                let format = match options.cage {
+                    None => HandleFormat::Body,
+                    Some(_) => HandleFormat::Cage,
+                };
+                let held = open_body(upload, &options).map_err(|e| failure(&e))?;
+                let body = NamedHandles::new(BodyView::new(held, format));
+                (Box::new(body), json!(options.handles))
             }
             Kind::Warp => {
                 let options: WarpOptions = read(options, limits)?;
                 check_model(&options.model)?;
-                let held = hold_picture(upload, &options).map_err(|e| failure(&e))?;
-                let hand = BodyHand::new(held, Form::Picture);
-                (Box::new(hand), json!(options.handles))
+                let held = open_picture(upload, &options).map_err(|e| failure(&e))?;
+                let grid = NamedHandles::new(BodyView::new(held, HandleFormat::Picture));
+                (Box::new(grid), json!(options.handles))
             }
-            Kind::EditUv => uvs(upload, Editing::Map, options, limits)?,
-            Kind::TextureMap => uvs(upload, Editing::Texture, options, limits)?,
+            Kind::EditUv => uvs(upload, pipeline::Editing::Map, options, limits)?,
+            Kind::TextureMap => uvs(upload, pipeline::Editing::Texture, options, limits)?,
             Kind::Unwrap | Kind::Measure | Kind::Verify | Kind::Solve | Kind::Repack => {
                 let detail = format!("a job of kind {} has no handles", kind.word());
                 return Err(Failure::new("invalid_options", detail));
             }
         };
-        let mut course = Self {
-            hand,
+        let mut session = Self {
+            editing,
             step: 0,
             message: 0,
         };
         let handles = handles.as_array().cloned().unwrap_or_default();
         for (name, handle) in handles.into_iter().enumerate() {
-            course.hand.add(name as u32, handle)?;
+            let name = name as u32;
+            session.editing.execute(&Command::Add { name, handle })?;
         }
-        Ok(course)
+        Ok(session)
     }
 
     /// Returns the mesh in the format of the protocol.
     pub fn mesh(&self) -> Vec<u8> {
-        frame::mesh(&self.hand.drawn(), &self.hand.elements())
+        let view = self.editing.view();
+        frame::mesh(&view.drawn(), &view.elements())
     }
 
     /// Returns the current frame in the format of the protocol.
     pub fn frame(&self) -> Vec<u8> {
-        let positions = self.hand.positions();
+        let view = self.editing.view();
+        let positions = view.positions();
         let header = Header {
-            stage: self.hand.stage(),
+            stage: self.editing.stage(),
             step: self.step,
             message: self.message,
-            energy: self.hand.energy(),
-            smallest: self.hand.smallest(&positions),
+            energy: view.energy(),
+            smallest: view.smallest(&positions),
         };
-        frame::frame(&header, &self.hand.elements(), &positions)
+        frame::frame(&header, &view.elements(), &positions)
     }
 
     /// Returns whether another iteration would change the map.
     pub fn is_moving(&self) -> bool {
-        self.hand.stage() == Stage::Moving
+        self.editing.stage() == Stage::Moving
     }
 
     /// Performs one iteration unless the map is settled. Counts it in any case.
     pub fn step(&mut self) {
-        self.hand.step();
+        self.editing.step();
         self.step = self.step.wrapping_add(1);
     }
 
     /// Executes the command of a message.
-    pub fn take(&mut self, message: &Message) -> Reply {
+    pub fn execute(&mut self, message: &Message) -> Reply {
         let reply = self.reply(message.n);
-        let done = self.wished(&message.wish);
+        let done = self.editing.execute(&message.command);
         let tells_all = matches!(
-            message.wish,
-            Wish::Undo {} | Wish::Redo {} | Wish::Reset {} | Wish::List {}
+            message.command,
+            Command::Undo {} | Command::Redo {} | Command::Reset {} | Command::List {}
         );
         Reply {
-            handles: tells_all.then(|| self.hand.handles()),
+            handles: tells_all.then(|| self.editing.handles()),
             error: done.err(),
             ..reply
         }
@@ -139,53 +146,26 @@ impl Course {
         }
     }
 
-    fn wished(&mut self, wish: &Wish) -> Result<(), Failure> {
-        match wish {
-            Wish::Add { name, handle } => self.hand.add(*name, handle.clone()),
-            Wish::Move { name, to } => self.hand.move_to(*name, to),
-            Wish::Remove { name } => self.hand.remove(*name),
-            Wish::Settings(model) => self.hand.remodel(model),
-            Wish::Remember {} => {
-                self.hand.remember();
-                Ok(())
-            }
-            Wish::Undo {} => there_is(self.hand.undo(), || {
-                Failure::new("nothing_to_undo", "nothing was remembered")
-            }),
-            Wish::Redo {} => there_is(self.hand.redo(), || {
-                Failure::new("nothing_to_redo", "nothing was undone")
-            }),
-            Wish::Reset {} => {
-                self.hand.reset();
-                Ok(())
-            }
-            Wish::List {} => Ok(()),
-        }
-    }
-
     /// Returns the handles in the format of the job's options, and the coordinates of its
     /// [start](unwrapd_api::START).
     pub fn baked(&self) -> (Vec<Value>, Vec<f64>) {
-        let handles = self.hand.handles().into_iter().map(|named| named.handle);
-        (handles.collect(), self.hand.start())
+        let handles = self.editing.handles().into_iter().map(|named| named.handle);
+        (handles.collect(), self.editing.view().start())
     }
-}
-
-fn there_is(something: bool, otherwise: impl FnOnce() -> Failure) -> Result<(), Failure> {
-    if something { Ok(()) } else { Err(otherwise()) }
 }
 
 /// Opens UVs for live editing, and returns the anchors of the options.
 fn uvs(
     upload: &Upload,
-    editing: Editing,
+    editing: pipeline::Editing,
     options: &Value,
     limits: Limits,
-) -> Result<(Box<dyn Hand>, Value), Failure> {
+) -> Result<(Box<dyn Editing>, Value), Failure> {
     let options: EditOptions = read(options, limits)?;
     check_model(&options.model)?;
-    let session = hold_uvs(upload, editing, &options).map_err(|e| failure(&e))?;
-    Ok((Box::new(UvHand::new(session)), json!(options.anchors)))
+    let session = open_uvs(upload, editing, &options).map_err(|e| failure(&e))?;
+    let uvs = NamedHandles::new(UvView(session));
+    Ok((Box::new(uvs), json!(options.anchors)))
 }
 
 fn read<O: CommandOptions + DeserializeOwned>(

@@ -13,7 +13,7 @@ use unwrapd_files::picture::Image;
 use unwrapd_maps::mesh::boundary_triangles;
 
 /// Body of a file for a live session, with its visible parts.
-pub struct HeldBody {
+pub struct SessionBody {
     /// Session at rest, with handles on a fixed border if there is one.
     pub session: Session,
     /// Body that is deformed.
@@ -35,7 +35,7 @@ pub struct Skin {
 }
 
 /// Opens a session on the body that [`deform_file`](crate::deform_file) would deform. The caller adds the handles.
-pub fn hold_body(upload: &Upload, options: &DeformOptions) -> Result<HeldBody, PipelineError> {
+pub fn open_body(upload: &Upload, options: &DeformOptions) -> Result<SessionBody, PipelineError> {
     options.check()?;
     let Some(n_voxels) = options.cage else {
         let source = Source::read(upload, options.triangles, &options.caller.limits)?;
@@ -44,7 +44,7 @@ pub fn hold_body(upload: &Upload, options: &DeformOptions) -> Result<HeldBody, P
             BodyElements::Triangles { corners, .. } => corners.clone(),
             BodyElements::Tetrahedra { corners, .. } => boundary_triangles(corners),
         };
-        return HeldBody::new(body, triangles, options);
+        return SessionBody::new(body, triangles, options);
     };
     // Build a cage around the surfaces.
     let document = Document::read(upload)?;
@@ -63,14 +63,14 @@ pub fn hold_body(upload: &Upload, options: &DeformOptions) -> Result<HeldBody, P
     let Embedding { tets, weights } = cage.embed(&places)?;
     let corners = tets.iter().map(|&tet| cage.mesh().tets()[tet as usize]);
     let corners = corners.collect();
-    let held = HeldBody::new(Body::from(cage.mesh()), triangles, options)?;
-    Ok(HeldBody {
+    let opened = SessionBody::new(Body::from(cage.mesh()), triangles, options)?;
+    Ok(SessionBody {
         skin: Some(Skin { corners, weights }),
-        ..held
+        ..opened
     })
 }
 
-impl HeldBody {
+impl SessionBody {
     fn new(
         body: Body,
         triangles: Vec<[u32; 3]>,
@@ -88,7 +88,7 @@ impl HeldBody {
 
 /// Opens a session on the grid on which [`warp_file`](crate::warp_file) would warp a picture, in pixels with y down.
 /// The caller adds the handles.
-pub fn hold_picture(upload: &Upload, options: &WarpOptions) -> Result<HeldBody, PipelineError> {
+pub fn open_picture(upload: &Upload, options: &WarpOptions) -> Result<SessionBody, PipelineError> {
     options.check()?;
     let image = Image::decode(&upload.bytes)?;
     let how = options.of_grid();
@@ -101,7 +101,7 @@ pub fn hold_picture(upload: &Upload, options: &WarpOptions) -> Result<HeldBody, 
             session.add(Handle::Vertex { vertex, to })?;
         }
     }
-    Ok(HeldBody {
+    Ok(SessionBody {
         session,
         body,
         triangles: grid.triangles().to_vec(),

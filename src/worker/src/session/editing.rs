@@ -1,0 +1,170 @@
+//! Bodies and UVs under live editing, with handles that clients name.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use super::frame::{Drawn, Elements};
+use super::message::{Command, Named};
+use unwrapd_api::Failure;
+use unwrapd_deform::{Editable, Editor, HandleId, Model};
+use unwrapd_method::barrier::BarrierKind;
+use unwrapd_method::solver::Stage;
+
+/// A map under live editing: commands of clients, and all that a frame tells of the map.
+pub(super) trait Editing: Send {
+    /// Executes a command of a client.
+    fn execute(&mut self, command: &Command) -> Result<(), Failure>;
+    /// Returns the handles with their names, in the order in which they were added.
+    fn handles(&self) -> Vec<Named>;
+    /// Performs one iteration unless the map is settled.
+    fn step(&mut self) -> Stage;
+    /// Returns the stage of the handles.
+    fn stage(&self) -> Stage;
+    /// Returns the map as frames show it.
+    fn view(&self) -> &dyn View;
+}
+
+/// A map as frames show it.
+pub(super) trait View {
+    /// Returns the energy including barriers; NaN before the first iteration.
+    fn energy(&self) -> f64;
+    /// Returns the coordinates of the vertices, flattened.
+    fn positions(&self) -> Vec<f64>;
+    /// Returns the minimum ratio of an element's size to its size at rest, for vertices at these positions.
+    fn smallest(&self, positions: &[f64]) -> f64;
+    /// Returns the elements that are guaranteed to keep their orientation.
+    fn elements(&self) -> Elements<'_>;
+    /// Returns the data that a client needs once.
+    fn drawn(&self) -> Drawn<'_>;
+    /// Returns the coordinates of a [start file](unwrapd_api::START).
+    fn start(&self) -> Vec<f64>;
+}
+
+/// A map with an editor, whose handles have a format of their own.
+pub(super) trait Edited: View + Send {
+    /// The map of the editor.
+    type Map: Editable<Handle: Serialize>;
+    /// Returns the editor.
+    fn editor(&self) -> &Editor<Self::Map>;
+    /// Returns the editor for changes.
+    fn editor_mut(&mut self) -> &mut Editor<Self::Map>;
+    /// Parses a handle, named `name`, in the format of the job's options.
+    fn read(&self, name: u32, handle: Value) -> Result<<Self::Map as Editable>::Handle, Failure>;
+    /// Returns the failure that clients see.
+    fn failure(error: &<Self::Map as Editable>::Error) -> Failure;
+    /// Restores the initial map, with the handles that no client added.
+    fn reset(&mut self);
+}
+
+/// A map whose handles have the names that clients gave them. An undo may bring a handle back, so no name is forgotten.
+pub(super) struct NamedHandles<E> {
+    edited: E,
+    names: BTreeMap<HandleId, u32>,
+}
+
+impl<E: Edited> NamedHandles<E> {
+    /// Wraps a map whose handles, if any, no client added.
+    pub fn new(edited: E) -> Self {
+        let names = BTreeMap::new();
+        Self { edited, names }
+    }
+
+    /// Returns the present handle with this name.
+    fn find(&self, name: u32) -> Option<HandleId> {
+        let present = self.edited.editor().handles();
+        (present.map(|(id, _)| id)).find(|id| self.names.get(id) == Some(&name))
+    }
+
+    fn expect(&self, name: u32) -> Result<HandleId, Failure> {
+        self.find(name).ok_or_else(|| {
+            let detail = format!("there is no handle named {name}");
+            Failure::new("unknown_handle", detail)
+        })
+    }
+
+    /// Adds a handle, or replaces the handle with this name.
+    fn add(&mut self, name: u32, handle: Value) -> Result<(), Failure> {
+        let handle = self.edited.read(name, handle)?;
+        if let Some(id) = self.find(name) {
+            let exchanged = self.edited.editor_mut().exchange(id, handle);
+            return exchanged.map_err(|e| E::failure(&e));
+        }
+        let added = self.edited.editor_mut().add(handle);
+        let id = added.map_err(|e| E::failure(&e))?;
+        self.names.insert(id, name);
+        Ok(())
+    }
+}
+
+impl<E: Edited> Editing for NamedHandles<E> {
+    fn execute(&mut self, command: &Command) -> Result<(), Failure> {
+        match command {
+            Command::Add { name, handle } => return self.add(*name, handle.clone()),
+            Command::Move { name, to } => {
+                let id = self.expect(*name)?;
+                let moved = self.edited.editor_mut().move_handle(id, to);
+                moved.map_err(|e| E::failure(&e))?;
+            }
+            Command::Remove { name } => {
+                let id = self.expect(*name)?;
+                let removed = self.edited.editor_mut().remove(id);
+                removed.map_err(|e| E::failure(&e))?;
+            }
+            Command::Settings(model) => {
+                check_model(model)?;
+                let remodeled = self.edited.editor_mut().remodel(model);
+                remodeled.map_err(|e| E::failure(&e))?;
+            }
+            Command::Remember {} => self.edited.editor_mut().remember(),
+            Command::Undo {} if !self.edited.editor_mut().undo() => {
+                return Err(Failure::new("nothing_to_undo", "nothing was remembered"));
+            }
+            Command::Redo {} if !self.edited.editor_mut().redo() => {
+                return Err(Failure::new("nothing_to_redo", "nothing was undone"));
+            }
+            Command::Reset {} => self.edited.reset(),
+            Command::Undo {} | Command::Redo {} | Command::List {} => {}
+        }
+        Ok(())
+    }
+
+    fn handles(&self) -> Vec<Named> {
+        let handles = self.edited.editor().handles();
+        let named = handles.filter_map(|(id, handle)| {
+            let name = *self.names.get(&id)?;
+            let handle = serde_json::to_value(handle).unwrap_or_default();
+            Some(Named { name, handle })
+        });
+        named.collect()
+    }
+
+    fn step(&mut self) -> Stage {
+        self.edited.editor_mut().step()
+    }
+
+    fn stage(&self) -> Stage {
+        self.edited.editor().stage()
+    }
+
+    fn view(&self) -> &dyn View {
+        &self.edited
+    }
+}
+
+/// Parses a handle in the format of the job's options.
+pub(super) fn parsed<T: DeserializeOwned>(handle: Value) -> Result<T, Failure> {
+    serde_json::from_value(handle)
+        .map_err(|error| Failure::new("malformed_handles", error.to_string()))
+}
+
+/// Rejects models without a barrier, because every frame must be valid.
+pub(super) fn check_model(model: &Model) -> Result<(), Failure> {
+    if model.barrier == BarrierKind::None {
+        let detail = "`barrier` must keep elements from inverting in a session";
+        return Err(Failure::new("bad_parameter", detail));
+    }
+    Ok(())
+}
