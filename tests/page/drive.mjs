@@ -17,7 +17,8 @@ const context = await chromium.launchPersistentContext(profile, {
   viewport: { width: 1280, height: 800 },
   permissions: ["clipboard-read", "clipboard-write"],
 });
-context.setDefaultTimeout(60_000);
+// Beside other work a page takes minutes; the budget of the test ends one that hangs.
+context.setDefaultTimeout(300_000);
 const errors = [];
 try {
   const page = await context.newPage();
