@@ -23,7 +23,8 @@ export interface AtlasOptions extends Layout {
   maxStretch?: number;
   seamWeight?: number;
   symmetry?: 'auto' | 'off';
-  energy?: 'arap' | 'lscm' | 'symmetric-dirichlet';
+  /** A name, or a formula of the singular values s1 and s2. */
+  energy?: string;
   barrier?: string;
   barrierStrength?: number;
   barrierSupport?: number;

@@ -17,10 +17,10 @@ use std::path::{Path, PathBuf};
 
 use clock::Clock;
 use serde_json::json;
-use unwrapd::barrier::{Barrier, BarrierKind, MapEnergy, map_energy};
+use unwrapd::barrier::{Barrier, BarrierKind};
 use unwrapd::charts::{Chart, Cut, charts};
 use unwrapd::embed::{Embedding, Options, parameterize, rest_shapes};
-use unwrapd::energy::EnergyKind;
+use unwrapd::energy::{DensityKind, Triangles};
 use unwrapd::solver::{Control, Iterate, Objective, Settings};
 
 fn main() {
@@ -40,8 +40,8 @@ fn main() {
             println!("{}", json!({"file": file, "error": "not read"}));
             continue;
         };
-        for energy in [EnergyKind::SymmetricDirichlet, EnergyKind::Arap] {
-            report(&file, &chart, energy, out.as_deref());
+        for energy in [DensityKind::SymmetricDirichlet, DensityKind::Arap] {
+            report(&file, &chart, &energy, out.as_deref());
         }
     }
 }
@@ -52,9 +52,9 @@ fn chart(file: &str) -> Option<Chart> {
     disks.max_by_key(|chart| chart.disk.triangles.len())
 }
 
-fn report(file: &str, chart: &Chart, energy: EnergyKind, out: Option<&Path>) {
+fn report(file: &str, chart: &Chart, energy: &DensityKind, out: Option<&Path>) {
     let options = Options {
-        energy,
+        density: energy.planar().expect("an energy of the plane"),
         barrier: kind(energy),
         solver: Settings::exact(),
         ..Options::default()
@@ -92,9 +92,9 @@ fn report(file: &str, chart: &Chart, energy: EnergyKind, out: Option<&Path>) {
 }
 
 /// The symmetric Dirichlet energy needs none.
-fn kind(energy: EnergyKind) -> BarrierKind {
+fn kind(energy: &DensityKind) -> BarrierKind {
     match energy {
-        EnergyKind::SymmetricDirichlet => BarrierKind::None,
+        DensityKind::SymmetricDirichlet => BarrierKind::None,
         _ => BarrierKind::InverseSpline,
     }
 }
@@ -115,20 +115,18 @@ fn obj(chart: &Chart, map: &Embedding) -> String {
 }
 
 /// What the parts of one iteration cost, in milliseconds: least of five.
-fn parts(chart: &Chart, energy: EnergyKind, map: &Embedding) -> serde_json::Value {
+fn parts(chart: &Chart, energy: &DensityKind, map: &Embedding) -> serde_json::Value {
     let rest = rest_shapes(&chart.positions, &chart.disk.triangles);
-    let parameters = MapEnergy {
-        energy,
-        barrier: Barrier {
-            kind: kind(energy),
-            beta: 0.01,
-            s: 1.0,
-            epsilon: 0.0,
-        },
+    let barrier = Barrier {
+        kind: kind(energy),
+        beta: 0.01,
+        s: 1.0,
+        epsilon: 0.0,
     };
+    let density = energy.planar().expect("an energy of the plane");
     let clock = Clock::start();
-    let term = map_energy(&chart.disk.triangles, &rest.shapes, &parameters);
-    let mut objective = Objective::new(chart.disk.n_vertices, term);
+    let term = Triangles::shared(&chart.disk.triangles, &rest.shapes, density, barrier);
+    let mut objective = Objective::new(chart.disk.n_vertices, Box::new(term));
     let scale = (chart.disk.triangles.len() as f64 / rest.area.max(f64::MIN_POSITIVE)).sqrt();
     let x: Vec<f64> = map.uv.as_flattened().iter().map(|u| scale * u).collect();
     let mut direction = vec![0.0; x.len()];

@@ -81,8 +81,8 @@ impl Cost {
             .solve(&Settings::follow(), &|_: &Iterate| Control::Continue)
             .expect("a solution");
         let seconds = clock.seconds().processor;
-        let terms = (problem.energy)
-            .terms(&problem.body, problem.barrier, None)
+        let terms = (problem.body)
+            .terms(&problem.energy, problem.barrier, None)
             .expect("an energy of this dimension");
         let mut objective = Objective::of_terms(body.n_vertices(), terms);
         let iterations = solution.summary.iterations;

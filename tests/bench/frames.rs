@@ -169,8 +169,8 @@ fn parts(case: &str, body: &Body, drag: &Drag, session: &Session) {
     let problem = Problem::new(body.clone(), &drag.handles(FRAMES), &Model::default());
     let problem = problem.expect("a problem");
     let terms = problem
-        .energy
-        .terms(body, problem.barrier, None)
+        .body
+        .terms(&problem.energy, problem.barrier, None)
         .expect("an energy of this dimension");
     let mut objective = Objective::of_terms(body.n_vertices(), terms);
     let handles = &problem.stations[0];

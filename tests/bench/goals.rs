@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use unwrapd::barrier::BarrierKind;
 use unwrapd::charts::{Cut, charts};
 use unwrapd::embed::{Options, parameterize, rest_shapes};
-use unwrapd::energy::{EnergyKind, SymmetricDirichlet, Triangles};
+use unwrapd::energy::{DensityKind, SymmetricDirichlet, Triangles};
 use unwrapd::mesh::{Disk, Surface};
 use unwrapd::pipeline;
 use unwrapd::solver::{Control, Iterate, Objective, Settings};
@@ -106,7 +106,7 @@ fn small_charts() {
                 parameterize(
                     &disk,
                     &bent(k),
-                    &options(EnergyKind::SymmetricDirichlet),
+                    &options(&DensityKind::SymmetricDirichlet),
                     &|_: &Iterate| Control::Continue,
                 )
                 .summary
@@ -193,11 +193,11 @@ fn assets() {
     }
 }
 
-fn options(energy: EnergyKind) -> Options {
+fn options(energy: &DensityKind) -> Options {
     Options {
-        energy,
+        density: energy.planar().expect("an energy of the plane"),
         barrier: match energy {
-            EnergyKind::SymmetricDirichlet => BarrierKind::None,
+            DensityKind::SymmetricDirichlet => BarrierKind::None,
             _ => BarrierKind::InverseSpline,
         },
         ..Options::default()
@@ -205,7 +205,7 @@ fn options(energy: EnergyKind) -> Options {
 }
 
 fn disks() {
-    use EnergyKind::{Arap, SymmetricDirichlet};
+    use DensityKind::{Arap, SymmetricDirichlet};
     row("camelhead", 0, SymmetricDirichlet, 1e-4, "0.4 / 0.12 s");
     row("bimba_89k", 0, SymmetricDirichlet, 1e-4, "1.5 / 0.6 s");
     row("bimba_89k", 0, Arap, 1e-4, "4 / 1.5 s");
@@ -216,14 +216,14 @@ fn grown() {
     row(
         "camelhead",
         3,
-        EnergyKind::SymmetricDirichlet,
+        DensityKind::SymmetricDirichlet,
         1e-4,
         "40 / 10 s, 3 / 2 GB",
     );
 }
 
 /// One disk, opened if it has handles: seconds to within `share` of the end.
-fn row(name: &str, times: usize, energy: EnergyKind, share: f64, asked: &str) {
+fn row(name: &str, times: usize, energy: DensityKind, share: f64, asked: &str) {
     let (disk, positions) = if times > 0 {
         subdivided(name, times)
     } else {
@@ -235,7 +235,7 @@ fn row(name: &str, times: usize, energy: EnergyKind, share: f64, asked: &str) {
     };
     let exact = Options {
         solver: Settings::exact(),
-        ..options(energy)
+        ..options(&energy)
     };
     let clock = Clock::start();
     let trace = RefCell::new(Vec::new());

@@ -7,9 +7,11 @@
 mod clock;
 mod meshes;
 
+use std::sync::Arc;
+
 use clock::{Clock, Seconds};
 use unwrapd::embed::{Options, parameterize};
-use unwrapd::energy::EnergyKind;
+use unwrapd::energy::SymmetricDirichlet;
 use unwrapd::mesh::Disk;
 use unwrapd::solver::{Control, Iterate};
 
@@ -36,7 +38,7 @@ fn main() {
 
 fn options() -> Options {
     Options {
-        energy: EnergyKind::SymmetricDirichlet,
+        density: Arc::new(SymmetricDirichlet),
         ..Options::default()
     }
 }

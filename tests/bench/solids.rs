@@ -18,7 +18,8 @@ use std::hint::black_box;
 
 use clock::{Clock, Seconds, peak_megabytes};
 use unwrapd::deform::cage::{Cage, Caged, CagedSurface};
-use unwrapd::deform::{Body, DeformationEnergy, Handle, Model, Problem, Solution};
+use unwrapd::deform::{Body, Handle, Model, Problem, Solution};
+use unwrapd::energy::{DensityKind, EnergyKind};
 use unwrapd::io::gmsh;
 use unwrapd::mesh::{PlanarMesh, TetMesh};
 use unwrapd::solver::{Control, Iterate, Objective, Settings};
@@ -45,7 +46,7 @@ fn main() {
         cases = CASES.map(str::to_owned).to_vec();
     }
     for case in cases {
-        for energy in [DeformationEnergy::Green, DeformationEnergy::Arap] {
+        for energy in [DensityKind::Green.into(), DensityKind::Arap.into()] {
             report(&case, &energy);
         }
     }
@@ -195,7 +196,7 @@ fn handles(body: &Body) -> Vec<Handle> {
         .collect()
 }
 
-fn report(case: &str, energy: &DeformationEnergy) {
+fn report(case: &str, energy: &EnergyKind) {
     let model = Model {
         energy: energy.clone(),
         ..Model::default()
@@ -235,8 +236,8 @@ fn report(case: &str, energy: &DeformationEnergy) {
 /// What the parts of one iteration of a session cost: a handle has been moved a little from a solution.
 fn parts(case: &str, problem: &Problem, solution: &Solution) {
     let terms = problem
-        .energy
-        .terms(&problem.body, problem.barrier, None)
+        .body
+        .terms(&problem.energy, problem.barrier, None)
         .expect("an energy of this dimension");
     let mut objective = Objective::of_terms(problem.body.n_vertices(), terms);
     let handles = &problem.stations[0];

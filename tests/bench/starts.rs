@@ -7,11 +7,13 @@
 
 mod meshes;
 
+use std::sync::Arc;
+
 use std::time::Instant;
 
 use unwrapd::charts::{Cut, charts};
 use unwrapd::embed::{Options, is_positive, parameterize, tutte_start};
-use unwrapd::energy::EnergyKind;
+use unwrapd::energy::SymmetricDirichlet;
 use unwrapd::mesh::{Disk, Surface};
 use unwrapd::solver::{Control, Iterate};
 
@@ -105,7 +107,7 @@ fn count_disk(name: &str, disk: &Disk, positions: &[[f64; 3]], count: &mut Count
     let clock = Instant::now();
     let tutte = tutte_start(disk, positions).is_some();
     let options = Options {
-        energy: EnergyKind::SymmetricDirichlet,
+        density: Arc::new(SymmetricDirichlet),
         ..Options::default()
     };
     let map = parameterize(disk, positions, &options, &|_: &Iterate| Control::Continue);

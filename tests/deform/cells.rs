@@ -1,11 +1,12 @@
 //! What a map does to each element.
 
-use unwrapd_deform::{Body, BodyElements, DeformationEnergy, Handle, Model, Problem, Units};
+use unwrapd_deform::{Body, BodyElements, Handle, Model, Problem, Units};
 
 use crate::bodies::{block, sheet};
+use unwrapd_method::energy::{DensityKind, DisplacementKind, EnergyKind};
 
 /// A body with an energy that is measured in its own unit; what pulls it does not matter here.
-fn problem(body: Body, energy: DeformationEnergy) -> Problem {
+fn problem(body: Body, energy: EnergyKind) -> Problem {
     let model = Model {
         energy,
         ..Model::default()
@@ -39,7 +40,7 @@ fn weights(problem: &Problem) -> Vec<f64> {
 
 #[test]
 fn elements_tell_how_they_are_stretched_and_their_energies_add_up() {
-    use DeformationEnergy::{Lscm, SymmetricDirichlet};
+    use DensityKind::{Lscm, SymmetricDirichlet};
     let flat = || (Body::from(&sheet(3)), &[0.5, 3.0][..]);
     let solid = (Body::from(&block(2)), &[0.5, 3.0, 1.5][..]);
     for ((body, stretch), energy) in [
@@ -47,7 +48,7 @@ fn elements_tell_how_they_are_stretched_and_their_energies_add_up() {
         (flat(), Lscm),
         (solid, SymmetricDirichlet),
     ] {
-        let problem = problem(body, energy);
+        let problem = problem(body, energy.into());
         let x = moved(&problem, stretch);
         let cells = problem.cells(&x);
         let names: Vec<_> = cells.iter().map(|of| of.name).collect();
@@ -74,7 +75,7 @@ fn elements_tell_how_they_are_stretched_and_their_energies_add_up() {
 
 #[test]
 fn a_quadratic_form_has_no_energy_of_elements() {
-    let problem = problem(Body::from(&sheet(2)), DeformationEnergy::Laplacian);
+    let problem = problem(Body::from(&sheet(2)), DisplacementKind::Laplacian.into());
     let cells = problem.cells(&problem.start);
     assert_eq!(cells.len(), 2);
 }

@@ -2,30 +2,30 @@
 
 use std::cell::{Cell, RefCell};
 
-use unwrapd_deform::{Body, BodyElements, DeformationEnergy, Handle, Model, Problem};
+use unwrapd_deform::{Body, BodyElements, Handle, Model, Problem};
 use unwrapd_method::barrier::BarrierKind;
-use unwrapd_method::energy::RestShape;
+use unwrapd_method::energy::{DensityKind, DisplacementKind, EnergyKind, RestShape};
 use unwrapd_method::numerics::square::{Square, times, transposed};
 use unwrapd_method::solver::{Control, Handles, Iterate, Path, Settings, Status};
 
 use crate::pulled::{bar, bent_strip, problem, strip, twisted_bar};
 
-const ENERGIES: [DeformationEnergy; 10] = [
-    DeformationEnergy::Arap,
-    DeformationEnergy::Green,
-    DeformationEnergy::Dirichlet,
-    DeformationEnergy::Laplacian,
-    DeformationEnergy::UniformLaplacian,
-    DeformationEnergy::SymmetricDirichlet,
-    DeformationEnergy::Mips,
-    DeformationEnergy::Amips,
-    DeformationEnergy::StVenantKirchhoff,
-    DeformationEnergy::NeoHookean,
+const ENERGIES: [EnergyKind; 10] = [
+    EnergyKind::Density(DensityKind::Arap),
+    EnergyKind::Density(DensityKind::Green),
+    EnergyKind::Displacement(DisplacementKind::Dirichlet),
+    EnergyKind::Displacement(DisplacementKind::Laplacian),
+    EnergyKind::Displacement(DisplacementKind::UniformLaplacian),
+    EnergyKind::Density(DensityKind::SymmetricDirichlet),
+    EnergyKind::Density(DensityKind::Mips),
+    EnergyKind::Density(DensityKind::Amips),
+    EnergyKind::Density(DensityKind::StVenantKirchhoff),
+    EnergyKind::Density(DensityKind::NeoHookean),
 ];
 
 #[test]
 fn every_energy_meets_its_targets_without_an_inversion() {
-    for energy in ENERGIES.into_iter().chain([DeformationEnergy::Lscm]) {
+    for energy in ENERGIES.into_iter().chain([DensityKind::Lscm.into()]) {
         let problem = bent_strip(1.0, energy.clone(), BarrierKind::InverseSpline);
         let smallest = Cell::new(f64::INFINITY);
         let watch = |i: &Iterate| {
@@ -52,7 +52,7 @@ fn every_barrier_holds() {
         BarrierKind::Log,
         BarrierKind::NeoHookean,
     ] {
-        let problem = bent_strip(1.0, DeformationEnergy::Green, kind);
+        let problem = bent_strip(1.0, DensityKind::Green, kind);
         let solution = problem
             .solve(&Settings::follow(), &go_on)
             .expect("a planar energy");
@@ -79,7 +79,7 @@ fn a_bar_twists_by_half_a_turn_in_one_jump() {
             solution.summary
         );
     }
-    let planar = twisted_bar(DeformationEnergy::Lscm);
+    let planar = twisted_bar(DensityKind::Lscm);
     assert!(planar.solve(&Settings::follow(), &go_on).is_err());
 }
 
@@ -111,7 +111,7 @@ fn a_bar_twisted_step_by_step_keeps_its_turns() {
         };
         held.iter().flat_map(place).collect()
     };
-    let (arap, spline) = (DeformationEnergy::Arap, BarrierKind::InverseSpline);
+    let (arap, spline) = (DensityKind::Arap.into(), BarrierKind::InverseSpline);
     let mut problem = problem(body.clone(), arap, spline, &held, targets(0.0));
     let first = problem.stations[0].clone();
     let stations = (1..=72).map(|step| Handles {
@@ -134,9 +134,9 @@ fn a_bar_twisted_step_by_step_keeps_its_turns() {
 #[test]
 fn the_papers_iteration_ends_in_the_same_minimum() {
     for energy in [
-        DeformationEnergy::Arap,
-        DeformationEnergy::Green,
-        DeformationEnergy::Dirichlet,
+        EnergyKind::Density(DensityKind::Arap),
+        EnergyKind::Density(DensityKind::Green),
+        EnergyKind::Displacement(DisplacementKind::Dirichlet),
     ] {
         let problem = bent_strip(1.0, energy.clone(), BarrierKind::InverseSpline);
         let ours = problem
@@ -170,7 +170,7 @@ fn the_papers_iteration_ends_in_the_same_minimum() {
 #[test]
 fn an_arap_map_scales_with_the_unit() {
     // ARAP is an area, the barrier is not: without one the minimizer moves with the unit.
-    let one = bent_strip(1.0, DeformationEnergy::Arap, BarrierKind::None);
+    let one = bent_strip(1.0, DensityKind::Arap, BarrierKind::None);
     let solve = |problem: &Problem| {
         problem
             .solve(&Settings::follow(), &go_on)
@@ -178,11 +178,7 @@ fn an_arap_map_scales_with_the_unit() {
     };
     let base = solve(&one);
     for edge in [1e-6, 1e-3, 1e5] {
-        let scaled = solve(&bent_strip(
-            edge,
-            DeformationEnergy::Arap,
-            BarrierKind::None,
-        ));
+        let scaled = solve(&bent_strip(edge, DensityKind::Arap, BarrierKind::None));
         for (x, y) in base.x.iter().zip(&scaled.x) {
             assert!((edge * x - y).abs() < 1e-3 * edge, "{x} {y} at {edge}");
         }
@@ -197,7 +193,7 @@ fn targets_out_of_reach_end_in_a_valid_map() {
     let targets = vec![0.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0, 0.25];
     let problem = problem(
         body,
-        DeformationEnergy::Arap,
+        DensityKind::Arap.into(),
         BarrierKind::InverseSpline,
         &[0, 1, 3, 4],
         targets,
@@ -212,7 +208,7 @@ fn targets_out_of_reach_end_in_a_valid_map() {
 
 #[test]
 fn a_weaker_barrier_costs_less_and_none_least() {
-    let problem = bent_strip(1.0, DeformationEnergy::Green, BarrierKind::InverseSpline);
+    let problem = bent_strip(1.0, DensityKind::Green, BarrierKind::InverseSpline);
     let settings = Settings::follow();
     let strong = problem.solve(&settings, &go_on).expect("a planar energy");
     let weak = problem
@@ -241,7 +237,7 @@ fn conformal_distortion_stays_below_its_bound() {
         };
         corners.iter().zip(rest).map(distortion).fold(1.0, f64::max)
     };
-    let mut problem = bent_strip(1.0, DeformationEnergy::Arap, BarrierKind::InverseSpline);
+    let mut problem = bent_strip(1.0, DensityKind::Arap, BarrierKind::InverseSpline);
     let free = problem
         .solve(&Settings::follow(), &go_on)
         .expect("a planar energy");
@@ -325,7 +321,7 @@ fn points_inside_elements_come_to_their_targets() {
 }
 
 const ARAP: Model = Model {
-    energy: DeformationEnergy::Arap,
+    energy: EnergyKind::Density(DensityKind::Arap),
     barrier: BarrierKind::InverseSpline,
     barrier_strength: None,
     barrier_support: 1.0,

@@ -1,25 +1,26 @@
 //! Handles of a researcher's own: what does not fit is an error, and the map stays as it was.
 
-use unwrapd_deform::{Body, DeformationEnergy, Problem};
+use unwrapd_deform::{Body, Problem};
 use unwrapd_method::barrier::BarrierKind;
 use unwrapd_method::solver::{
     Control, Handles, HandlesError, Iterate, Objective, Settings, Status, follow,
 };
 
 use crate::pulled::bent_strip;
+use unwrapd_method::energy::DensityKind;
 
 fn go_on(_: &Iterate) -> Control {
     Control::Continue
 }
 
 fn strip() -> Problem {
-    bent_strip(1.0, DeformationEnergy::Arap, BarrierKind::InverseSpline)
+    bent_strip(1.0, DensityKind::Arap, BarrierKind::InverseSpline)
 }
 
 fn objective(problem: &Problem) -> Objective {
     let Problem { body, energy, .. } = problem;
-    let terms = energy
-        .terms(body, problem.barrier, None)
+    let terms = body
+        .terms(energy, problem.barrier, None)
         .expect("a planar energy");
     Objective::of_terms(body.n_vertices(), terms)
 }

@@ -1,8 +1,8 @@
 //! Formulas where the name of an energy is taken.
 
-use unwrapd_deform::{Body, DeformationEnergy, Model, Problem, ProblemError, Solution};
+use unwrapd_deform::{Body, Model, Problem, ProblemError, Solution};
 use unwrapd_method::barrier::BarrierKind;
-use unwrapd_method::energy::{Formula, FormulaError, OwnEnergy};
+use unwrapd_method::energy::{DensityKind, EnergyKind, Formula, FormulaError, OwnEnergy};
 use unwrapd_method::solver::{Control, Iterate, Settings};
 
 use crate::pulled::{bent_strip, strip, twisted_bar};
@@ -13,7 +13,7 @@ const ARAP: [&str; 2] = [
     "((s1 - 1)^2 + (s2 - 1)^2 + (s3 - 1)^2)/2",
 ];
 
-fn read(text: &str) -> DeformationEnergy {
+fn read(text: &str) -> EnergyKind {
     text.parse().expect(text)
 }
 
@@ -33,8 +33,8 @@ fn assert_same(a: &Problem, b: &Problem) {
 #[test]
 fn a_formula_is_solved_as_the_energy_that_it_says() {
     let bent = |energy| bent_strip(1.0, energy, BarrierKind::InverseSpline);
-    assert_same(&bent(read(ARAP[0])), &bent(DeformationEnergy::Arap));
-    let [by_text, by_name] = [read(ARAP[1]), DeformationEnergy::Arap].map(twisted_bar);
+    assert_same(&bent(read(ARAP[0])), &bent(DensityKind::Arap.into()));
+    let [by_text, by_name] = [read(ARAP[1]), DensityKind::Arap.into()].map(twisted_bar);
     assert_same(&by_text, &by_name);
 }
 
@@ -42,21 +42,21 @@ fn a_formula_is_solved_as_the_energy_that_it_says() {
 fn names_and_formulas_are_written_as_they_are_read() {
     for text in ["arap", "st-venant-kirchhoff", ARAP[0], ARAP[1]] {
         let json = serde_json::to_string(text).expect("JSON");
-        let energy: DeformationEnergy = serde_json::from_str(&json).expect(text);
+        let energy: EnergyKind = serde_json::from_str(&json).expect(text);
         assert_eq!(energy, read(text));
         assert_eq!(serde_json::to_string(&energy).expect("JSON"), json);
     }
     assert_eq!(
         read("symmetric_dirichlet"),
-        DeformationEnergy::SymmetricDirichlet
+        DensityKind::SymmetricDirichlet.into()
     );
-    assert!(serde_json::from_str::<DeformationEnergy>("5").is_err());
+    assert!(serde_json::from_str::<EnergyKind>("5").is_err());
     assert_ne!(read(ARAP[0]), read(ARAP[1]));
 }
 
 #[test]
 fn errors_are_those_of_the_dimension_that_is_meant() {
-    let refused = |text: &str| text.parse::<DeformationEnergy>().expect_err(text);
+    let refused = |text: &str| text.parse::<EnergyKind>().expect_err(text);
     assert_eq!(refused("s1 + s2 +").column(), Some(10));
     assert_eq!(refused("s1 + s2 + s3 +").column(), Some(15));
     assert!(matches!(refused("steam"), FormulaError::UnknownName { .. }));
@@ -79,7 +79,7 @@ fn a_session_goes_on_with_a_closure() {
     let handles = [vertex(0, &[0.0, 0.0]), vertex(19, &[7.0, 1.0])];
     let hencky = Formula::<2>::new(|&[a, b]| a.ln() * a.ln() + b.ln() * b.ln()).expect("an energy");
     let [by_closure, by_text] = [
-        DeformationEnergy::Formula(hencky.into()),
+        DensityKind::Formula(hencky.into()).into(),
         read("log(s1)^2 + log(s2)^2"),
     ]
     .map(|energy| {
@@ -105,7 +105,7 @@ fn a_closure_cannot_be_written() {
             .into_iter()
             .fold(s[0] * 0.0, |a, b| a + b)
     });
-    let energy = DeformationEnergy::Formula(arap.expect("an energy").into());
+    let energy = EnergyKind::Density(DensityKind::Formula(arap.expect("an energy").into()));
     assert!(serde_json::to_string(&energy).is_err());
     assert_eq!(energy.check(), Ok(()));
     let problem = bent_strip(1.0, energy, BarrierKind::None);

@@ -3,13 +3,14 @@
 use unwrapd_deform::warp::{
     PictureHandle, PictureWarp, WarpError, WarpOptions, parse_handles, warp_picture,
 };
-use unwrapd_deform::{Boundary, DeformationEnergy, Model};
+use unwrapd_deform::{Boundary, Model};
 use unwrapd_files::picture::Image;
 use unwrapd_maps::certificate::certify_planar;
 use unwrapd_method::barrier::BarrierKind;
 use unwrapd_method::solver::{Control, Iterate, Status};
 
 use crate::random::Random;
+use unwrapd_method::energy::{DensityKind, DisplacementKind, EnergyKind};
 
 fn go_on(_: &Iterate) -> Control {
     Control::Continue
@@ -43,12 +44,12 @@ fn assert_bijective(warp: &PictureWarp, context: &str) {
 #[test]
 fn with_a_fixed_border_extreme_moves_are_bijective() {
     const RUNS: usize = 200;
-    let energies = [
-        DeformationEnergy::Arap,
-        DeformationEnergy::Arap,
-        DeformationEnergy::SymmetricDirichlet,
-        DeformationEnergy::Laplacian,
-        DeformationEnergy::Green,
+    let energies: [EnergyKind; _] = [
+        DensityKind::Arap.into(),
+        DensityKind::Arap.into(),
+        DensityKind::SymmetricDirichlet.into(),
+        DisplacementKind::Laplacian.into(),
+        DensityKind::Green.into(),
     ];
     let (width, height) = (32, 24);
     let image = ramp(width, height);

@@ -1,12 +1,13 @@
 //! Energies of problems as functions: derivatives, units, domain.
 
-use unwrapd_deform::{Body, DeformationEnergy, Model, Problem, ProblemError, Units};
+use unwrapd_deform::{Body, Model, Problem, ProblemError, Units};
 use unwrapd_method::barrier::BarrierKind;
 use unwrapd_method::numerics::csr::Csr;
 
 use crate::pulled::{bar, strip};
 use crate::random::Random;
 use crate::taylor::assert_taylor;
+use unwrapd_method::energy::DensityKind;
 
 fn product(matrix: &Csr, vector: &[f64]) -> Vec<f64> {
     let rows = matrix.indptr.windows(2);
@@ -98,7 +99,7 @@ fn outside_the_domain_there_are_no_derivatives() {
     let problem = Problem::at_rest(
         Body::from(&strip(2, 1.0)),
         &Model {
-            energy: DeformationEnergy::SymmetricDirichlet,
+            energy: DensityKind::SymmetricDirichlet.into(),
             barrier: BarrierKind::None,
             ..Model::default()
         },

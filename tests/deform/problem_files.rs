@@ -118,8 +118,8 @@ fn assert_minimized(problem: &Problem, name: &str) {
         "{name}"
     );
     let terms = problem
-        .energy
-        .terms(&problem.body, problem.barrier, None)
+        .body
+        .terms(&problem.energy, problem.barrier, None)
         .expect("planar");
     let mut objective = Objective::of_terms(problem.body.n_vertices(), terms);
     objective.fix(&problem.stations[0].vertices);

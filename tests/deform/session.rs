@@ -223,7 +223,7 @@ fn what_cannot_be_held_is_refused_and_changes_nothing() {
         assert_eq!(gone, Err(ProblemError::RemovedHandle { handle: 1 }));
     }
     let planar = Model {
-        energy: unwrapd_deform::DeformationEnergy::Lscm,
+        energy: unwrapd_method::energy::DensityKind::Lscm.into(),
         ..Model::default()
     };
     assert!(Session::new(Body::from(&bar(2)), &planar).is_err());

@@ -1,16 +1,17 @@
 //! Sessions whose energy and barrier change, which return to rest, and which go on elsewhere.
 
 use unwrapd_deform::uv::{Anchor, UvEditOptions, UvMesh, UvSession, edit_uvs_from};
-use unwrapd_deform::{Body, DeformationEnergy, Model, ProblemError};
+use unwrapd_deform::{Body, Model, ProblemError};
 use unwrapd_method::solver::{Control, Iterate, Stage};
 
 use crate::pulled::strip;
 use crate::session::{assert_solved, disc, session, settle, vertex};
 use crate::uv_meshes;
+use unwrapd_method::energy::DensityKind;
 
 fn stiff() -> Model {
     Model {
-        energy: DeformationEnergy::SymmetricDirichlet,
+        energy: DensityKind::SymmetricDirichlet.into(),
         ..Model::default()
     }
 }
@@ -111,5 +112,5 @@ fn an_edit_goes_on_where_a_session_was() {
 
     session.reset();
     assert_eq!(session.uvs(), mesh.uvs);
-    assert_eq!(session.anchors().count(), 0);
+    assert_eq!(session.handles().count(), 0);
 }

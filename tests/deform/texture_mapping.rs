@@ -2,23 +2,24 @@
 
 use std::f64::consts::TAU;
 
+use unwrapd_deform::Model;
 use unwrapd_deform::uv::{self, Anchor, UvEditOptions, UvRest, edit_uvs};
-use unwrapd_deform::{DeformationEnergy, Model};
 use unwrapd_maps::certificate::{Overlap, certify};
 use unwrapd_method::solver::{Control, Iterate, Status};
 
 use crate::random::Random;
 use crate::uv_meshes::UvMesh;
+use unwrapd_method::energy::{DensityKind, DisplacementKind, EnergyKind};
 
 const SIDE: u32 = 7;
 
-const ENERGIES: [DeformationEnergy; 6] = [
-    DeformationEnergy::Arap,
-    DeformationEnergy::SymmetricDirichlet,
-    DeformationEnergy::Green,
-    DeformationEnergy::Mips,
-    DeformationEnergy::Lscm,
-    DeformationEnergy::Laplacian,
+const ENERGIES: [EnergyKind; 6] = [
+    EnergyKind::Density(DensityKind::Arap),
+    EnergyKind::Density(DensityKind::SymmetricDirichlet),
+    EnergyKind::Density(DensityKind::Green),
+    EnergyKind::Density(DensityKind::Mips),
+    EnergyKind::Density(DensityKind::Lscm),
+    EnergyKind::Displacement(DisplacementKind::Laplacian),
 ];
 
 /// A surface over the unit square and its place in the texture.

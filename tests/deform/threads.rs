@@ -1,11 +1,13 @@
 //! The same bits for any number of threads, on a chart and on a solid large enough for all of them to have work.
 
+use std::sync::Arc;
+
 use rayon::ThreadPoolBuilder;
 use unwrapd_deform::cage::{Cage, CagedSurface};
 use unwrapd_deform::{Body, Handle, Model, Problem};
 use unwrapd_maps::embed::{Options, parameterize};
 use unwrapd_maps::mesh::Disk;
-use unwrapd_method::energy::EnergyKind;
+use unwrapd_method::energy::SymmetricDirichlet;
 use unwrapd_method::solver::{Control, Iterate, Settings};
 
 /// What `work` gives with one thread, after comparing it with what it gives with two.
@@ -34,7 +36,7 @@ fn a_chart_is_the_same_with_two_threads() {
     let triangles = squares.flat_map(|a| [[a, a + 1, a + n + 1], [a, a + n + 1, a + n]]);
     let disk = Disk::new(positions.len(), triangles.collect()).expect("a disk");
     let options = Options {
-        energy: EnergyKind::SymmetricDirichlet,
+        density: Arc::new(SymmetricDirichlet),
         ..Options::default()
     };
     let map = assert_same(|| {

@@ -1,10 +1,11 @@
 //! Deformations do not depend on the unit, the place, the direction and the order of their mesh.
 
-use unwrapd_deform::{Body, DeformationEnergy, Handle, Model, Problem, Solution, Units};
+use unwrapd_deform::{Body, Handle, Model, Problem, Solution, Units};
 use unwrapd_method::solver::{Control, Iterate, Settings, Status};
 
 use crate::elsewhere::{Elsewhere, HERE};
 use crate::pulled::{bar, strip};
+use unwrapd_method::energy::{DensityKind, DisplacementKind};
 
 /// Both ends of a strip held, one of them turned and brought near the other.
 fn bent(model: &Model) -> Problem {
@@ -53,10 +54,10 @@ fn solved(problem: &Problem) -> Solution {
 /// the end that rounding decides when they have settled.
 fn problems() -> Vec<(Problem, bool)> {
     let energies = [
-        DeformationEnergy::Arap,
-        DeformationEnergy::Green,
-        DeformationEnergy::Laplacian,
-        DeformationEnergy::NeoHookean,
+        DensityKind::Arap.into(),
+        DensityKind::Green.into(),
+        DisplacementKind::Laplacian.into(),
+        DensityKind::NeoHookean.into(),
     ];
     let of = |energy| {
         let model = Model {

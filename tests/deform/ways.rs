@@ -106,7 +106,7 @@ fn a_journey_that_pauses_arrives_when_it_goes_on() {
         ..problem.stations[0].clone()
     };
     let barrier = problem.barrier;
-    let terms = (problem.energy.terms(&problem.body, barrier, None)).expect("an energy");
+    let terms = (problem.body.terms(&problem.energy, barrier, None)).expect("an energy");
     let mut objective = Objective::of_terms(problem.body.n_vertices(), terms);
     let (mut x, settings) = (problem.start.clone(), Settings::follow());
     let stations = vec![station.clone()];

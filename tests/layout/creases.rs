@@ -1,5 +1,7 @@
 //! Hard surfaces, cut along their creases.
 
+use std::sync::Arc;
+
 use crate::zoo::{self, Mesh};
 use std::collections::BTreeMap;
 use unwrapd_layout::charts::{
@@ -8,7 +10,7 @@ use unwrapd_layout::charts::{
 use unwrapd_maps::certificate::{Claims, certify};
 use unwrapd_maps::embed::Options;
 use unwrapd_maps::mesh::Surface;
-use unwrapd_method::energy::EnergyKind;
+use unwrapd_method::energy::SymmetricDirichlet;
 use unwrapd_method::numerics::vec3::{area_vector, distance, dot, unit};
 
 fn mesh(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Mesh {
@@ -22,7 +24,7 @@ fn mesh(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Mesh {
 fn unfolded(mesh: &Mesh) -> Vec<MappedChart> {
     let surface = Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh");
     let options = Options {
-        energy: EnergyKind::SymmetricDirichlet,
+        density: Arc::new(SymmetricDirichlet),
         ..Options::default()
     };
     let bound = Bound {

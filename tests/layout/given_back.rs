@@ -32,7 +32,7 @@ pub fn mapped(chart: Chart) -> MappedChart {
 
 pub fn options() -> Options {
     Options {
-        energy: unwrapd_method::energy::EnergyKind::SymmetricDirichlet,
+        density: std::sync::Arc::new(unwrapd_method::energy::SymmetricDirichlet),
         ..Options::default()
     }
 }

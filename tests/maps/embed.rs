@@ -1,16 +1,18 @@
 //! Starts and optimized maps: never a flip, sizes as promised.
 
 use proptest::prelude::*;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 use unwrapd_maps::embed::{
     Corners, InvalidStart, Options, Simplification, Star, hierarchical_start, optimize,
     parameterize, rest_shapes, start,
 };
 use unwrapd_maps::mesh::Disk;
 use unwrapd_method::barrier::{BarrierKind, NoBarrier};
-use unwrapd_method::energy::{EnergyKind, RestShape, SymmetricDirichlet, Term, Triangles};
+use unwrapd_method::energy::{
+    Density, DensityKind, RestShape, SymmetricDirichlet, Term, Triangles,
+};
 use unwrapd_method::numerics::predicates::orient2d_sign;
-use unwrapd_method::solver::{Control, Iterate};
+use unwrapd_method::solver::{Control, Iterate, Settings, best_scale};
 
 use crate::disks::{Mesh, NO_HOLE, cone, grid, tube};
 use crate::taylor::assert_taylor;
@@ -47,12 +49,12 @@ fn check(name: &str, (disk, positions): &Mesh) {
         rest.area
     };
     for energy in [
-        EnergyKind::Arap,
-        EnergyKind::Lscm,
-        EnergyKind::SymmetricDirichlet,
+        DensityKind::Arap,
+        DensityKind::Lscm,
+        DensityKind::SymmetricDirichlet,
     ] {
         let options = Options {
-            energy,
+            density: energy.planar().expect("an energy of the plane"),
             ..Options::default()
         };
         let embedding = parameterize(disk, positions, &options, &go_on);
@@ -188,6 +190,63 @@ fn a_simplified_disk_keeps_its_holes_and_area() {
     let whole: Vec<[f64; 2]> = (0..disk.n_vertices as u32).map(|v| flat(&v)).collect();
     let ratio = area(&simple, &kept) / area(&disk, &whole);
     assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
+}
+
+/// No other energy's map is better by an energy than the map that minimizes it.
+#[test]
+fn each_energy_is_lowest_for_its_own_map() {
+    let (disk, positions) = grid(9, NO_HOLE, |i, j| {
+        let [x, y] = [i, j].map(|k| k as f64);
+        let (dx, dy) = (x - 4.0, y - 3.0);
+        [x, y, 4.0 * (-(dx * dx + dy * dy) / 6.0).exp()]
+    });
+    let densities: Vec<Arc<dyn Density<2>>> = [
+        "arap",
+        "green",
+        "symmetric-dirichlet",
+        "mips",
+        "amips",
+        "st-venant-kirchhoff",
+        "neo-hookean",
+        "log(s1)^2 + log(s2)^2",
+    ]
+    .map(|name| {
+        let kind: DensityKind = name.parse().expect(name);
+        kind.planar().expect("an energy of the plane")
+    })
+    .to_vec();
+    let maps: Vec<Vec<[f64; 2]>> = (densities.iter())
+        .map(|density| {
+            let options = Options {
+                density: Arc::clone(density),
+                barrier: BarrierKind::None,
+                solver: Settings::exact(),
+                ..Options::default()
+            };
+            parameterize(&disk, &positions, &options, &go_on).uv
+        })
+        .collect();
+    let rest = rest_shapes(&positions, &disk.triangles);
+    for (i, density) in densities.iter().enumerate() {
+        let term = Triangles::shared(
+            &disk.triangles,
+            &rest.shapes,
+            Arc::clone(density),
+            NoBarrier,
+        );
+        // Maps have the surface's area; each energy has a size of its own that it likes best.
+        let lowest = |map: &Vec<[f64; 2]>| {
+            let x = map.as_flattened();
+            let scale = best_scale(&|x| term.value(x), x);
+            let scaled: Vec<f64> = x.iter().map(|x| scale * x).collect();
+            term.value(&scaled)
+        };
+        let energies: Vec<f64> = maps.iter().map(lowest).collect();
+        let others = energies.iter().enumerate().filter(|&(j, _)| j != i);
+        for (j, other) in others {
+            assert!(energies[i] <= other * (1.0 + 1e-4), "{i} {j}: {energies:?}");
+        }
+    }
 }
 
 #[test]

@@ -1,9 +1,11 @@
 //! Barriers: derivatives, domain.
 
-use unwrapd_method::barrier::{
-    Barrier, BarrierKind, Bounded, InverseSpline, MapEnergy, NoBarrier, epsilon, map_energy,
+use std::sync::Arc;
+
+use unwrapd_method::barrier::{Barrier, BarrierKind, Bounded, InverseSpline, NoBarrier, epsilon};
+use unwrapd_method::energy::{
+    Arap, DensityKind, Guard, Lscm, SymmetricDirichlet, Term, Triangles, Zero,
 };
-use unwrapd_method::energy::{Arap, EnergyKind, Guard, Lscm, SymmetricDirichlet, Zero};
 
 use crate::taylor::assert_taylor;
 use crate::terms::{assert_plane_taylor, assert_space_taylor};
@@ -59,7 +61,7 @@ fn taylor_every_barrier_on_every_density() {
 fn taylor_bounded() {
     for bound in [2.5, 4.0, 100.0] {
         let density = Bounded {
-            density: Box::new(Arap),
+            density: Arc::new(Arap),
             bound,
             beta: 0.3,
         };
@@ -127,23 +129,21 @@ fn domains_in_words() {
         [1.0, 0.0],
         [0.0, 1.0],
     )];
-    let parameters = |energy, kind| MapEnergy {
-        energy,
-        barrier: Barrier {
-            kind,
-            beta: 0.01,
-            s: 1.0,
-            epsilon: epsilon(0.5, 0.5),
-        },
+    let barrier = |kind| Barrier {
+        kind,
+        beta: 0.01,
+        s: 1.0,
+        epsilon: epsilon(0.5, 0.5),
     };
     let flipped = [0.0, 0.0, 0.0, 1.0, 1.0, 0.0];
-    for (energy, barrier, forbids) in [
-        (EnergyKind::Arap, BarrierKind::InverseSpline, true),
-        (EnergyKind::Lscm, BarrierKind::InverseSpline, true),
-        (EnergyKind::SymmetricDirichlet, BarrierKind::None, true),
-        (EnergyKind::Arap, BarrierKind::None, false),
+    for (energy, kind, forbids) in [
+        (DensityKind::Arap, BarrierKind::InverseSpline, true),
+        (DensityKind::Lscm, BarrierKind::InverseSpline, true),
+        (DensityKind::SymmetricDirichlet, BarrierKind::None, true),
+        (DensityKind::Arap, BarrierKind::None, false),
     ] {
-        let term = map_energy(&[[0, 1, 2]], &rest, &parameters(energy, barrier));
+        let density = energy.planar().expect("an energy of the plane");
+        let term = Triangles::shared(&[[0, 1, 2]], &rest, density, barrier(kind));
         assert_eq!(term.forbids_flips(), forbids);
         assert_eq!(term.value(&flipped).is_infinite(), forbids);
         assert_eq!(term.smallest(&flipped), -1.0);

@@ -3,9 +3,10 @@
 use crate::zoo;
 use std::fmt::Write;
 use unwrapd_deform::cage::{Cage, CagedSurface};
-use unwrapd_deform::{DeformationEnergy, Handle, Model, Solution};
+use unwrapd_deform::{Handle, Model, Solution};
 use unwrapd_files::document::{Document, OutputFormat, Upload, Written};
 use unwrapd_method::barrier::BarrierKind;
+use unwrapd_method::energy::DensityKind;
 use unwrapd_method::solver::{Control, Iterate, Settings};
 use unwrapd_pipeline::{CageOptions, CageReport, CagedDocument, Limits, PipelineError, Surfaces};
 
@@ -37,7 +38,7 @@ fn options(n_voxels: u32, format: OutputFormat) -> CageOptions {
         n_voxels,
         surfaces: Surfaces::Whole,
         model: Model {
-            energy: DeformationEnergy::Arap,
+            energy: DensityKind::Arap.into(),
             barrier: BarrierKind::InverseSpline,
             barrier_strength: None,
             barrier_support: 1.0,

@@ -6,7 +6,7 @@ use unwrapd_layout::charts::Cut;
 use unwrapd_maps::embed::{Embedding, Options, Pins, is_positive, parameterize};
 use unwrapd_maps::mesh::Disk;
 use unwrapd_method::barrier::BarrierKind;
-use unwrapd_method::energy::EnergyKind;
+use unwrapd_method::energy::DensityKind;
 use unwrapd_method::solver::{Control, Iterate, Watch};
 use unwrapd_pipeline::{Cutting, Mapping, Settings, Unobserved, unwrap};
 
@@ -48,9 +48,9 @@ fn sheet(place: impl Fn([f64; 3]) -> [f64; 3]) -> (Disk, Vec<[f64; 3]>) {
     (disk, positions)
 }
 
-fn options(energy: EnergyKind) -> Options {
+fn options(energy: DensityKind) -> Options {
     Options {
-        energy,
+        density: energy.planar().expect("an energy of the plane"),
         pins: Pins::Two,
         ..Options::default()
     }
@@ -68,12 +68,12 @@ fn pinned_vertices_stay_where_they_are_and_no_others() {
         [x, y, 3.0 * (-(dx * dx + dy * dy) / 8.0).exp()]
     });
     for energy in [
-        EnergyKind::Arap,
-        EnergyKind::Lscm,
-        EnergyKind::SymmetricDirichlet,
+        DensityKind::Arap,
+        DensityKind::Lscm,
+        DensityKind::SymmetricDirichlet,
     ] {
         let memory = Memory::default();
-        let embedding = parameterize(&disk, &positions, &options(energy), &memory);
+        let embedding = parameterize(&disk, &positions, &options(energy.clone()), &memory);
         assert!(is_positive(&disk.triangles, &embedding.uv), "{energy:?}");
         let stayed = memory.stayed();
         let on_boundary = |v: &usize| disk.loops[0].contains(&(*v as u32));
@@ -93,7 +93,7 @@ fn it_does_not_matter_where_the_border_begins() {
         .map(|_| {
             disk.loops[0].rotate_left(4);
             let memory = Memory::default();
-            parameterize(&disk, &positions, &options(EnergyKind::Arap), &memory);
+            parameterize(&disk, &positions, &options(DensityKind::Arap), &memory);
             memory.stayed()
         })
         .collect();
@@ -109,7 +109,7 @@ fn a_developable_surface_is_laid_flat() {
     for barrier in [BarrierKind::None, BarrierKind::InverseSpline] {
         let options = Options {
             barrier,
-            ..options(EnergyKind::Lscm)
+            ..options(DensityKind::Lscm)
         };
         let embedding = parameterize(&disk, &bent, &options, &Memory::default());
         let length = |[a, b]: [usize; 2]| {
@@ -130,7 +130,7 @@ fn pins_are_two_and_need_one_chart_per_component() {
     let run = |pin: u32, cut: Cut| {
         let settings = Settings {
             mapping: Mapping {
-                energy: EnergyKind::Lscm,
+                energy: DensityKind::Lscm,
                 pin,
                 ..Mapping::default()
             },

@@ -7,7 +7,7 @@ use unwrapd_layout::charts::{Cut, Quality};
 use unwrapd_maps::certificate::{Overlap, certify, chart_ids};
 use unwrapd_maps::measure::{MeasureOptions, Measures, measure};
 use unwrapd_maps::mesh::VAxis;
-use unwrapd_method::energy::EnergyKind;
+use unwrapd_method::energy::DensityKind;
 use unwrapd_method::solver::Control;
 use unwrapd_pipeline::{
     Cutting, Mapping, Observer, PipelineError, Progress, Settings, Stage, Unobserved, Unwrapped,
@@ -139,9 +139,15 @@ fn the_zoo_is_certified_in_both_modes() {
 fn every_energy_is_certified_on_a_torus() {
     let mesh = zoo::torus(12, 8);
     for energy in [
-        EnergyKind::Arap,
-        EnergyKind::Lscm,
-        EnergyKind::SymmetricDirichlet,
+        DensityKind::Arap,
+        DensityKind::Green,
+        DensityKind::Lscm,
+        DensityKind::SymmetricDirichlet,
+        DensityKind::Mips,
+        DensityKind::Amips,
+        DensityKind::StVenantKirchhoff,
+        DensityKind::NeoHookean,
+        "log(s1)^2 + log(s2)^2".parse().expect("a formula"),
     ] {
         let settings = Settings {
             mapping: Mapping {

@@ -1,5 +1,7 @@
 //! Rough surfaces: cut as what they are samples of.
 
+use std::sync::Arc;
+
 use crate::zoo::{self, Mesh};
 use std::fmt::Write as _;
 use unwrapd_files::document::Upload;
@@ -8,7 +10,7 @@ use unwrapd_layout::charts::{
 };
 use unwrapd_maps::embed::{self, Options};
 use unwrapd_maps::mesh::Surface;
-use unwrapd_method::energy::EnergyKind;
+use unwrapd_method::energy::SymmetricDirichlet;
 use unwrapd_method::numerics::random::Random;
 use unwrapd_pipeline::{
     self as pipeline, Options as DocumentOptions, Settings, unwrap, unwrap_document,
@@ -67,7 +69,7 @@ fn a_rough_sheet_stays_whole_unless_its_own_distortion_is_bounded() {
             of,
         };
         let options = Options {
-            energy: EnergyKind::SymmetricDirichlet,
+            density: Arc::new(SymmetricDirichlet),
             ..Options::default()
         };
         charts_under_bound(&surface, &bound, 1.0, &options, Symmetry::Auto, &Unobserved)

@@ -372,6 +372,24 @@ fn handles_pull_meshes_and_outlines() {
 }
 
 #[test]
+fn every_energy_of_the_plane_unwraps() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = folder.path().join("o.glb").to_string_lossy().into_owned();
+    let input = asset("Box.glb").to_string_lossy().into_owned();
+    let unwrap = |energy| unwrapd(&["unwrap", &input, "-o", &output, "--energy", energy]);
+    for energy in ["mips", "amips", "neo-hookean", "log(s1)^2 + log(s2)^2"] {
+        assert_status(&unwrap(energy), 0);
+        assert_status(&unwrapd(&["verify", &output, "--bijective"]), 0);
+    }
+    let spatial = "(s1 - 1)^2 + (s2 - 1)^2 + (s3 - 1)^2";
+    for wrong in ["laplacian", "s1 - s2", spatial] {
+        let refused = unwrap(wrong);
+        assert_status(&refused, 2);
+        assert!(last_error(&refused).contains("formula"), "{refused:?}");
+    }
+}
+
+#[test]
 fn a_problem_file_is_solved_by_both_methods() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();

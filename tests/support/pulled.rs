@@ -1,8 +1,9 @@
 //! Bodies with handles that bend and twist them.
 
-use unwrapd_deform::{Body, DeformationEnergy, Problem, Units};
+use unwrapd_deform::{Body, Problem, Units};
 use unwrapd_maps::mesh::{PlanarMesh, TetMesh};
 use unwrapd_method::barrier::{Barrier, BarrierKind};
+use unwrapd_method::energy::EnergyKind;
 use unwrapd_method::solver::{Handles, LevenbergSettings};
 
 /// A strip of `length` × 2 squares of the given edge, two triangles each.
@@ -44,7 +45,7 @@ pub fn bar(length: u32) -> TetMesh {
 
 pub fn problem(
     body: Body,
-    energy: DeformationEnergy,
+    energy: EnergyKind,
     kind: BarrierKind,
     vertices: &[u32],
     targets: Vec<f64>,
@@ -82,7 +83,7 @@ pub fn problem(
 }
 
 /// The strip's left end held, its right end turned by a right angle and brought near.
-pub fn bent_strip(edge: f64, energy: DeformationEnergy, kind: BarrierKind) -> Problem {
+pub fn bent_strip(edge: f64, energy: impl Into<EnergyKind>, kind: BarrierKind) -> Problem {
     let length = 8;
     let vertices = [0, 1, 2, 24, 25, 26];
     let targets = [
@@ -96,14 +97,14 @@ pub fn bent_strip(edge: f64, energy: DeformationEnergy, kind: BarrierKind) -> Pr
     let targets = targets.into_iter().flatten().map(|x| edge * x).collect();
     problem(
         Body::from(&strip(length, edge)),
-        energy,
+        energy.into(),
         kind,
         &vertices,
         targets,
     )
 }
 
-pub fn twisted_bar(energy: DeformationEnergy) -> Problem {
+pub fn twisted_bar(energy: impl Into<EnergyKind>) -> Problem {
     let length = 6;
     let held: Vec<u32> = (0..4).chain(4 * length..4 * length + 4).collect();
     let l = f64::from(length);
@@ -119,7 +120,7 @@ pub fn twisted_bar(energy: DeformationEnergy) -> Problem {
     let targets = a.into_iter().chain(b).flatten().collect();
     problem(
         Body::from(&bar(length)),
-        energy,
+        energy.into(),
         BarrierKind::InverseSpline,
         &held,
         targets,

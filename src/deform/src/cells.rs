@@ -2,6 +2,8 @@
 
 use super::body::BodyElements;
 use super::problem::Problem;
+use super::terms::{planar_density, spatial_density};
+use std::sync::Arc;
 use unwrapd_files::io::CellData;
 use unwrapd_method::energy::{Density, RestShape};
 use unwrapd_method::numerics::square::{Matrix, Square, times};
@@ -13,11 +15,11 @@ impl Problem {
     pub fn cells(&self, x: &[f64]) -> Vec<CellData> {
         match &self.body.elements {
             BodyElements::Triangles { corners, rest } => {
-                let density = self.energy.planar_density().unwrap_or_default();
+                let density = planar_density(&self.energy).unwrap_or_default();
                 cells_of(&singular_values(corners, rest, x), density)
             }
             BodyElements::Tetrahedra { corners, rest } => {
-                let density = self.energy.spatial_density().unwrap_or_default();
+                let density = spatial_density(&self.energy).unwrap_or_default();
                 cells_of(&singular_values(corners, rest, x), density)
             }
         }
@@ -26,7 +28,7 @@ impl Problem {
 
 fn cells_of<const D: usize>(
     sigma: &[[f64; D]],
-    density: Option<Box<dyn Density<D>>>,
+    density: Option<Arc<dyn Density<D>>>,
 ) -> Vec<CellData> {
     let values = |name, of: &dyn Fn(&[f64; D]) -> f64| CellData {
         name,

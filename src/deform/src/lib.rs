@@ -1,7 +1,7 @@
 //! Bodies deformed by handles without inverting elements, and objects embedded in them that follow.
 //!
 //! A [`Body`] is a planar or tetrahedral mesh with rest shapes; a [`Problem`] is a body with handles, their targets, a
-//! [`DeformationEnergy`] and a barrier. [`Problem::solve`] moves the handles to their targets over maps that are all
+//! [energy](unwrapd_method::energy::EnergyKind) and a barrier. [`Problem::solve`] moves the handles to their targets over maps that are all
 //! valid; a [`Session`] does so an iteration at a time while handles are added, moved and removed. The objective is
 //! available as a function of positions, with gradient and Hessian ([`Problem::potential`]). Bodies come from mesh
 //! files, from pictures and drawings (`outline`) and from surfaces in a [`cage`], which carries them along. Maps of the
@@ -19,14 +19,12 @@ pub mod boundary_barrier;
 pub mod cage;
 mod cells;
 mod continuation;
-mod deformation_energy;
+mod editor;
 mod handles;
-mod history;
 mod idle;
 mod live;
 mod locate;
 mod missing;
-mod model;
 mod normalized;
 mod numbers;
 pub mod outline;
@@ -39,6 +37,7 @@ mod pull;
 mod session;
 mod shake;
 mod solve;
+mod terms;
 mod turns_left;
 mod units;
 mod unreached;
@@ -53,7 +52,7 @@ pub use aims::Aim;
 pub use body::{Body, BodyElements};
 pub use bound::Turned;
 pub use boundary::Boundary;
-pub use deformation_energy::DeformationEnergy;
+pub use editor::{Editable, Editor, HandleId};
 pub use handles::parse_body_handles;
 pub use handles::{Bound, Handle, bind};
 pub use potential::Potential;
@@ -62,7 +61,7 @@ pub use problem_error::ProblemError;
 pub use problem_file::ProblemHandles;
 pub use problem_file::{ProblemFile, Rest};
 pub use pull::PullSummary;
-pub use session::{HandleId, Session};
+pub use session::{LiveBody, Session};
 pub use solve::{Method, Solution};
 pub use turns_left::Turns;
 pub use units::Units;

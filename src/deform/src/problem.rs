@@ -4,7 +4,6 @@ use super::aims::Aim;
 use super::body::{Body, BodyElements};
 use super::bound::Turned;
 use super::boundary_barrier::BoundaryBarrier;
-use super::deformation_energy::DeformationEnergy;
 use super::handles::{Bound, Handle, bind};
 use super::problem_error::ProblemError;
 use super::units::Units;
@@ -12,7 +11,7 @@ use super::untangle::{bad_elements, untangled};
 use unwrapd_api::options::options;
 use unwrapd_maps::plane::are_disjoint;
 use unwrapd_method::barrier::{Barrier, BarrierKind};
-use unwrapd_method::energy::Term;
+use unwrapd_method::energy::{EnergyKind, Term};
 use unwrapd_method::solver::{Handles, LevenbergSettings};
 
 /// A validated problem with its mesh.
@@ -25,7 +24,7 @@ pub struct Problem {
     /// Number of elements of the start that were inverted and had to be untangled.
     pub untangled: usize,
     /// The energy.
-    pub energy: DeformationEnergy,
+    pub energy: EnergyKind,
     /// The barrier.
     pub barrier: Barrier,
     /// Upper bound on the conformal distortion σ₁/σ₂ of every triangle, if any.
@@ -53,7 +52,7 @@ options! {
         /// Deformation energy: a name, or a formula of the signed singular values of an element, s1 and
         /// s2, in space s3, as `(s1 - 1)^2 + (s2 - 1)^2`. A formula must be symmetric, and smooth and
         /// minimal at 1.
-        pub energy: DeformationEnergy = DeformationEnergy::Arap, arg(value_parser = unwrapd_api::options::WordOrText::<DeformationEnergy>::new());
+        pub energy: EnergyKind = EnergyKind::default(), arg(value_parser = unwrapd_api::options::WordOrText::<EnergyKind>::new());
         /// Barrier that keeps elements from inverting; none is for comparison.
         pub barrier: BarrierKind = BarrierKind::InverseSpline;
         /// Barrier strength β. The default is the value of the paper: 100 for green, 0.01 for the
@@ -210,8 +209,8 @@ impl Problem {
     /// Returns whether the energy or the barrier keeps every element from inverting.
     pub fn forbids_inversion(&self) -> bool {
         let terms = self
-            .energy
-            .terms(&self.body, self.barrier, self.bound)
+            .body
+            .terms(&self.energy, self.barrier, self.bound)
             .unwrap_or_default();
         terms.iter().any(|term| term.forbids_flips())
     }

@@ -2,7 +2,6 @@
 
 use super::aims::Aim;
 use super::body::Body;
-use super::deformation_energy::DeformationEnergy;
 use super::handles::{Bound, Handle, bind};
 use super::numbers;
 use super::paired::handles;
@@ -12,6 +11,7 @@ use super::units::Units;
 use serde::Deserialize;
 use unwrapd_files::io::Elements;
 use unwrapd_method::barrier::BarrierKind;
+use unwrapd_method::energy::EnergyKind;
 use unwrapd_method::solver::LevenbergSettings;
 
 /// A problem as its file says it; every path is relative to the file.
@@ -34,7 +34,7 @@ pub struct ProblemFile {
     #[serde(default)]
     pub sequence: Vec<Vec<Vec<f64>>>,
     /// The energy: a name, or a formula of the signed singular values s1 and s2, in space s3.
-    pub energy: DeformationEnergy,
+    pub energy: EnergyKind,
     /// The barrier.
     pub barrier: BarrierKind,
     /// β; the paper's for the energy if absent.

@@ -176,14 +176,14 @@ impl Problem {
     }
 
     pub(super) fn terms(&self, barrier: Barrier) -> Result<Vec<Box<dyn Term>>, ProblemError> {
-        let mut terms = self.energy.terms(&self.body, barrier, self.bound)?;
+        let mut terms = self.body.terms(&self.energy, barrier, self.bound)?;
         terms.extend(self.boundary_term().map(|term| Box::new(term) as _));
         Ok(terms)
     }
 
     /// Returns the barrier of the boundary, as strong as that of an ordinary element.
     pub(super) fn boundary_term(&self) -> Option<BoundaryBarrier> {
-        let beta = self.barrier.beta * self.energy.mean_weight(&self.body);
+        let beta = self.barrier.beta * self.body.mean_weight(&self.energy);
         Some(self.boundary_barrier.as_ref()?.with_beta(beta))
     }
 

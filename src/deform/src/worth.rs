@@ -48,7 +48,7 @@ impl Problem {
     }
 
     pub(super) fn worth_as_given(&self, x: &[f64]) -> Worth {
-        let terms = |barrier| self.energy.terms(&self.body, barrier, None);
+        let terms = |barrier| self.body.terms(&self.energy, barrier, None);
         let unmodified = terms(Barrier::NONE).unwrap_or_default();
         let guarded = terms(self.barrier).unwrap_or_default();
         let now = self.body.determinants_at(x);

@@ -30,7 +30,7 @@ class UnwrapOptions(Layout, total=False):
     max_stretch: float | None
     seam_weight: float | None
     symmetry: Literal["auto", "off"] | None
-    energy: Literal["arap", "lscm", "symmetric-dirichlet"] | None
+    energy: str | None
     barrier: str | None
     barrier_strength: float | None
     barrier_support: float | None

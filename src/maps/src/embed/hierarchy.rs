@@ -17,20 +17,13 @@ use super::star::{Corners, Star};
 use super::triangulation::pairs;
 use super::tutte::tutte;
 use crate::mesh::{Disk, UsedVertices, VertexFaces};
-use unwrapd_method::barrier::{Barrier, MapEnergy, map_energy};
-use unwrapd_method::energy::{EnergyKind, RestShape, Term};
+use unwrapd_method::barrier::NoBarrier;
+use unwrapd_method::energy::{RestShape, SymmetricDirichlet, Term, Triangles};
 use unwrapd_method::numerics::predicates::orient2d_sign;
 use unwrapd_method::numerics::vec2::{cross, dot, sub};
 use unwrapd_method::numerics::vec3;
 use unwrapd_method::solver::{
     Control, Iterate, Objective, Projection, Settings, best_scale, minimize,
-};
-
-/// Symmetric Dirichlet alone: it is infinite for flipped triangles and drives every ring back into shape, so that rings
-/// stay wide enough for floating point.
-const ROUNDING: MapEnergy = MapEnergy {
-    energy: EnergyKind::SymmetricDirichlet,
-    barrier: Barrier::NONE,
 };
 
 /// Vertices of the coarsest level, if shape allows: few enough that Tutte's map of them is near the optimum even for a
@@ -185,7 +178,14 @@ impl System {
             })
             .collect();
         Self {
-            term: map_energy(&triangles, &rest, &ROUNDING),
+            // Infinite for flipped triangles, it drives every ring back into shape, so that rings stay wide enough for
+            // floating point.
+            term: Box::new(Triangles::new(
+                &triangles,
+                &rest,
+                SymmetricDirichlet,
+                NoBarrier,
+            )),
             corners: rest.iter().map(Corners::new).collect(),
             vertices: vertices.into_vec(),
             triangles,

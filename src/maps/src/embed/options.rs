@@ -1,16 +1,18 @@
 //! Options and results of mapping a disk.
 
+use std::sync::Arc;
+
 use super::pins::Pins;
 use unwrapd_method::barrier::BarrierKind;
-use unwrapd_method::energy::EnergyKind;
+use unwrapd_method::energy::{Arap, Density};
 use unwrapd_method::solver::{Settings, Summary};
 
 /// Objective and stopping criteria.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Options {
-    /// Density.
-    pub energy: EnergyKind,
-    /// Barrier; without one [`EnergyKind::Arap`] and [`EnergyKind::Lscm`] may flip triangles.
+    /// ψ: one of the library's or a caller's own.
+    pub density: Arc<dyn Density<2>>,
+    /// Barrier; without one, densities that are finite for flipped triangles may flip them.
     pub barrier: BarrierKind,
     /// β, the barrier's strength, for a mean rest area of 1.
     pub beta: f64,
@@ -26,7 +28,7 @@ impl Default for Options {
     /// Returns ARAP with the inverse-spline barrier, β = 0.01, s = 1.
     fn default() -> Self {
         Self {
-            energy: EnergyKind::default(),
+            density: Arc::new(Arap),
             barrier: BarrierKind::default(),
             beta: 0.01,
             s: 1.0,

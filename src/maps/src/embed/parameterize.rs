@@ -10,7 +10,7 @@ use super::start::{hierarchical_start_at, start};
 use super::unfolded::unfolded_map;
 use crate::mesh::Disk;
 use crate::plane::keep_apart;
-use unwrapd_method::energy::EnergyKind;
+use unwrapd_method::energy::prefers_a_size;
 use unwrapd_method::numerics::vec3::{area_vector, cross, dot, norm, sub};
 use unwrapd_method::solver::{Iterate, Objective, Status, Watch};
 
@@ -127,14 +127,14 @@ fn pinned_map(
     }
 }
 
-/// Returns the optimum without pins of an energy that depends on size, so that pins taken from it cost nothing; for
+/// Returns the optimum without pins of an energy that prefers a size, so that pins taken from it cost nothing; for
 /// another energy, the map found coarse to fine. Also returns whether the watcher wants to stop.
 fn nearly_isometric(
     problem: &Problem,
     positions: &[[f64; 3]],
     watch: &dyn Watch,
 ) -> Option<(Vec<[f64; 2]>, bool)> {
-    if problem.options.energy == EnergyKind::Lscm {
+    if !prefers_a_size(&*problem.options.density) {
         return hierarchical_start_at(problem.disk, positions, &problem.rest)
             .map(|near| (near, false));
     }

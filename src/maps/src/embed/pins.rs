@@ -4,8 +4,8 @@ use unwrapd_method::numerics::hull::convex_hull;
 
 /// Vertices that keep their exact places of the start while the others move (Schüller et al. 2013).
 ///
-/// [`EnergyKind::Lscm`](unwrapd_method::energy::EnergyKind::Lscm) falls when a map shrinks: without pins only the
-/// barrier keeps it from collapsing to a point. Two pins fix its size; other energies lose only their freedom to move
+/// [`Lscm`](unwrapd_method::energy::Lscm) falls when a map shrinks: without pins only the barrier keeps it from
+/// collapsing to a point. Two pins fix its size; other energies lose only their freedom to move
 /// and to turn, and the distance of the pins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pins {

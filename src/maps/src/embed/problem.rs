@@ -4,8 +4,9 @@ use super::options::{Embedding, Options};
 use super::positive::first_bad_triangle;
 use super::rest::RestShapes;
 use crate::mesh::Disk;
-use unwrapd_method::barrier::{Barrier, BarrierKind, MapEnergy, epsilon, map_energy};
-use unwrapd_method::energy::{RestShape, Term};
+use std::sync::Arc;
+use unwrapd_method::barrier::{Barrier, BarrierKind, epsilon};
+use unwrapd_method::energy::{RestShape, Term, Triangles};
 use unwrapd_method::numerics::vec2::doubled_area;
 use unwrapd_method::solver::{Objective, Settings, Summary, Watch, best_scale, minimize};
 
@@ -182,16 +183,14 @@ fn map_term_with(
     epsilon: f64,
     options: &Options,
 ) -> Box<dyn Term> {
-    let parameters = MapEnergy {
-        energy: options.energy,
-        barrier: Barrier {
-            kind: options.barrier,
-            beta: options.beta,
-            s: options.s,
-            epsilon,
-        },
+    let barrier = Barrier {
+        kind: options.barrier,
+        beta: options.beta,
+        s: options.s,
+        epsilon,
     };
-    map_energy(triangles, rest, &parameters)
+    let density = Arc::clone(&options.density);
+    Box::new(Triangles::shared(triangles, rest, density, barrier))
 }
 
 /// Returns the area of a triangle in a map; negative if it is flipped.

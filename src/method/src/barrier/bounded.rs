@@ -1,5 +1,7 @@
 //! Conformal distortion bounded from above.
 
+use std::sync::Arc;
+
 use super::inverse_spline::reciprocal;
 use crate::energy::Density;
 use crate::numerics::square::Matrix;
@@ -13,9 +15,10 @@ use crate::numerics::square::Matrix;
 /// spline keeps triangles from inverting, it keeps them from degenerating to needles. Weighted like ψ. Domain: that of
 /// ψ with det J > 0 and q < K, +∞ outside; the start must be inside. From: Schüller et al. 2013, section 6 (future
 /// work). Tests: `barrier::taylor_bounded`, `deform::conformal_distortion_stays_below_its_bound`.
+#[derive(Clone, Debug)]
 pub struct Bounded {
     /// ψ.
-    pub density: Box<dyn Density<2>>,
+    pub density: Arc<dyn Density<2>>,
     /// K > 1.
     pub bound: f64,
     /// β, the strength.

@@ -6,7 +6,7 @@
 //! Kavan, Panozzo, Sorkine-Hornung 2013, Locally Injective Mappings.)
 //!
 //! As a function of det J a barrier is isotropic too: it joins a density as a [`Guard`](crate::energy::Guard), with one
-//! projection for both. [`map_energy`] combines both from the choices in a [`MapEnergy`].
+//! projection for both. Users choose a barrier by name ([`BarrierKind`]).
 
 mod bounded;
 mod guard;
@@ -21,37 +21,6 @@ pub use inverse_spline::InverseSpline;
 pub use log::{AugmentedLog, Log};
 pub use neo_hookean::NeoHookean;
 pub use none::NoBarrier;
-
-use crate::energy::{Arap, EnergyKind, Lscm, RestShape, SymmetricDirichlet, Term, Triangles};
-
-/// Choice of an energy and a barrier for maps of surfaces.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MapEnergy {
-    /// The density.
-    pub energy: EnergyKind,
-    /// The barrier.
-    pub barrier: Barrier,
-}
-
-/// Creates the energy of maps of `triangles` with these rest shapes, ready for the solver.
-///
-/// β and ε are absolute, as in the paper: scale the rest shapes to a mean area of 1 first.
-///
-/// # Panics
-/// If there are fewer or more rest shapes than triangles.
-pub fn map_energy(
-    triangles: &[[u32; 3]],
-    rest: &[RestShape],
-    &MapEnergy { energy, barrier }: &MapEnergy,
-) -> Box<dyn Term> {
-    Box::new(match energy {
-        EnergyKind::Arap => Triangles::new(triangles, rest, Arap, barrier),
-        EnergyKind::Lscm => Triangles::new(triangles, rest, Lscm, barrier),
-        EnergyKind::SymmetricDirichlet => {
-            Triangles::new(triangles, rest, SymmetricDirichlet, barrier)
-        }
-    })
-}
 
 /// Returns the paper's ε = 1e-5·(smallest rest area), or a tenth of the start's smallest area if that is less, so that
 /// the start is inside the domain.

@@ -1,5 +1,7 @@
 //! The interfaces of a density and of a barrier.
 
+use std::fmt;
+
 use crate::numerics::square::Matrix;
 
 /// An energy per rest size as a function ψ of the signed singular values σ₁ ≥ … ≥ |σ_D| of the Jacobian.
@@ -50,28 +52,21 @@ pub trait Guard: Send + Sync {
     fn derivatives(&self, det: f64, rest_size: f64) -> [f64; 2];
 }
 
-impl<const D: usize, T: Density<D> + ?Sized> Density<D> for Box<T> {
-    fn floor(&self) -> f64 {
-        (**self).floor()
+/// So that options that hold a density can be printed.
+impl<const D: usize> fmt::Debug for dyn Density<D> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.debug_struct("Density")
+            .field("floor", &self.floor())
+            .finish_non_exhaustive()
     }
+}
 
-    fn value(&self, sigma: &[f64; D]) -> f64 {
-        (**self).value(sigma)
-    }
+/// Distance of a density's value at half the size from that at rest, relative to it, below which sizes do not matter.
+const SAME_VALUE: f64 = 1e-9;
 
-    fn gradient(&self, sigma: &[f64; D]) -> [f64; D] {
-        (**self).gradient(sigma)
-    }
-
-    fn hessian(&self, sigma: &[f64; D]) -> Matrix<D> {
-        (**self).hessian(sigma)
-    }
-
-    fn derivatives(&self, sigma: &[f64; D]) -> ([f64; D], Matrix<D>) {
-        (**self).derivatives(sigma)
-    }
-
-    fn twist(&self, sigma: &[f64; D], gradient: &[f64; D], i: usize, j: usize) -> f64 {
-        (**self).twist(sigma, gradient, i, j)
-    }
+/// Returns whether ψ prefers a size: conformal energies are the same for all similarities, so nothing but a barrier or
+/// fixed vertices keeps their maps from collapsing.
+pub fn prefers_a_size<const D: usize>(density: &dyn Density<D>) -> bool {
+    let [half, rest] = [0.5, 1.0].map(|sigma| density.value(&[sigma; D]));
+    (half - rest).abs() > SAME_VALUE * rest.abs()
 }

@@ -9,7 +9,7 @@
 //! Hessian to positive semidefinite. The projection has a closed form because in the frame of the singular vectors the
 //! Hessian is one number for each twist and flip and one D×D block ([`Modes`]).
 //!
-//! [`Triangles`] and [`Tetrahedra`] sum over a mesh. Quadratic forms of the displacement ([`Quadratic`]) complement
+//! Users choose an energy by name or formula ([`EnergyKind`]). [`Triangles`] and [`Tetrahedra`] sum over a mesh. Quadratic forms of the displacement ([`Quadratic`]) complement
 //! them, as can anything else that gives value, gradient and Hessian block of a stencil: the solver sees a [`Term`] and
 //! knows no energy by name. This module does not know where a map comes from or how it is improved.
 
@@ -18,6 +18,7 @@ mod density;
 mod foldover_free;
 mod formula;
 mod green;
+mod kind;
 mod laplacian;
 mod lscm;
 mod mips;
@@ -32,10 +33,11 @@ mod term;
 mod zero;
 
 pub use arap::{Arap, FrozenArap};
-pub use density::{Density, Guard};
+pub use density::{Density, Guard, prefers_a_size};
 pub use foldover_free::FoldoverFree;
 pub use formula::{Formula, FormulaError, Jet, OwnEnergy};
 pub use green::{Green, StVenantKirchhoff};
+pub use kind::{DensityKind, DimensionError, DisplacementKind, EnergyKind};
 pub use laplacian::{biharmonic, dirichlet, uniform_biharmonic, voronoi_areas};
 pub use lscm::Lscm;
 pub use mips::{Amips, Mips};
@@ -48,17 +50,3 @@ pub use simplices::{Simplices, Tetrahedra, Triangles};
 pub use symmetric_dirichlet::SymmetricDirichlet;
 pub use term::{Assembly, Term};
 pub use zero::Zero;
-
-/// Energy density to minimize.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
-#[serde(rename_all = "kebab-case")]
-pub enum EnergyKind {
-    /// As rigid as possible (ARAP).
-    #[default]
-    Arap,
-    /// Least-squares conformal (LSCM).
-    Lscm,
-    /// Symmetric Dirichlet: penalizes stretching and shrinking alike.
-    SymmetricDirichlet,
-}

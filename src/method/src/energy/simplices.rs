@@ -7,6 +7,7 @@ use crate::numerics::square::{Matrix, Square, apply, apply_transposed, times, tr
 use crate::numerics::stencils::Stencils;
 use crate::numerics::svd::Svd;
 use std::array;
+use std::sync::Arc;
 
 /// Number of elements decomposed at once.
 const LANES: usize = 8;
@@ -14,7 +15,7 @@ const LANES: usize = 8;
 /// Σ over elements of weight·ψ(σ(J)) + φ(det J): a density and a guard on triangles (D = 2) or tetrahedra (D = 3).
 pub struct Simplices<const D: usize> {
     elements: Vec<Simplex<D>>,
-    density: Box<dyn Density<D>>,
+    density: Arc<dyn Density<D>>,
     guard: Box<dyn Guard>,
 }
 
@@ -35,8 +36,19 @@ impl Simplices<2> {
         density: impl Density<2> + 'static,
         guard: impl Guard + 'static,
     ) -> Self {
+        Self::shared(triangles, rest, Arc::new(density), guard)
+    }
+
+    /// Like [`new`](Self::new), for a density that was chosen at run time, as by a
+    /// [`DensityKind`](super::DensityKind).
+    pub fn shared(
+        triangles: &[[u32; 3]],
+        rest: &[RestShape<2>],
+        density: Arc<dyn Density<2>>,
+        guard: impl Guard + 'static,
+    ) -> Self {
         let split = triangles.iter().map(|&[a, b, c]| (a, [b, c]));
-        Self::of(split, rest, Box::new(density), Box::new(guard))
+        Self::of(split, rest, density, Box::new(guard))
     }
 }
 
@@ -51,8 +63,19 @@ impl Simplices<3> {
         density: impl Density<3> + 'static,
         guard: impl Guard + 'static,
     ) -> Self {
+        Self::shared(tetrahedra, rest, Arc::new(density), guard)
+    }
+
+    /// Like [`new`](Self::new), for a density that was chosen at run time, as by a
+    /// [`DensityKind`](super::DensityKind).
+    pub fn shared(
+        tetrahedra: &[[u32; 4]],
+        rest: &[RestShape<3>],
+        density: Arc<dyn Density<3>>,
+        guard: impl Guard + 'static,
+    ) -> Self {
         let split = tetrahedra.iter().map(|&[a, b, c, d]| (a, [b, c, d]));
-        Self::of(split, rest, Box::new(density), Box::new(guard))
+        Self::of(split, rest, density, Box::new(guard))
     }
 }
 
@@ -63,7 +86,7 @@ where
     fn of(
         vertices: impl ExactSizeIterator<Item = (u32, [u32; D])>,
         rest: &[RestShape<D>],
-        density: Box<dyn Density<D>>,
+        density: Arc<dyn Density<D>>,
         guard: Box<dyn Guard>,
     ) -> Self {
         assert_eq!(vertices.len(), rest.len(), "one rest shape per element");

@@ -1,6 +1,7 @@
 //! The plan of a run: what is cut, mapped, given back, compacted and packed.
 
 use super::settings::Settings;
+use crate::PipelineError;
 use crate::options::{KeptMaps, Mapping};
 use unwrapd_layout::atlas::Turns;
 use unwrapd_layout::charts::{Bound, Cut, Folds, Symmetry};
@@ -10,7 +11,7 @@ use unwrapd_method::solver;
 
 /// Treatment of charts from the first cut to the layout. Computed once from the options; no later stage asks where to
 /// cut or whether there is a barrier.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Plan {
     /// Where a surface is cut first.
     pub cut: Cut,
@@ -75,7 +76,10 @@ pub enum Search {
 
 impl Plan {
     /// Derives the plan from the settings.
-    pub fn new(settings: &Settings) -> Self {
+    ///
+    /// # Errors
+    /// If the energy is a formula that is not an energy of triangles.
+    pub fn new(settings: &Settings) -> Result<Self, PipelineError> {
         let Settings {
             cutting, mapping, ..
         } = settings;
@@ -90,10 +94,10 @@ impl Plan {
         // A request for one chart per component excludes further seams.
         let may_cut_again = is_promised && cut != Cut::Disk;
         let seam_price = cutting.seam_weight * cutting.quality.seam_price();
-        Self {
+        Ok(Self {
             cut,
             start,
-            embedding: embedding(mapping),
+            embedding: embedding(mapping)?,
             is_promised,
             bound: cutting.bound(),
             reported_bound: (cut == Cut::Auto).then(|| cutting.bound()),
@@ -119,7 +123,7 @@ impl Plan {
                 Start::New | Start::Present => Turns::Any,
             },
             safe_bits: mapping.quantization_safe,
-        }
+        })
     }
 
     /// Returns whether the present UVs are read.
@@ -128,9 +132,9 @@ impl Plan {
     }
 }
 
-fn embedding(mapping: &Mapping) -> embed::Options {
-    embed::Options {
-        energy: mapping.energy,
+fn embedding(mapping: &Mapping) -> Result<embed::Options, PipelineError> {
+    Ok(embed::Options {
+        density: mapping.density().map_err(PipelineError::InvalidOptions)?,
         barrier: mapping.barrier,
         beta: mapping.barrier_strength,
         s: mapping.barrier_support,
@@ -139,5 +143,5 @@ fn embedding(mapping: &Mapping) -> embed::Options {
             _ => Pins::Two,
         },
         solver: solver::Settings::default(),
-    }
+    })
 }

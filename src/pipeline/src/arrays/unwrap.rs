@@ -118,7 +118,7 @@ pub fn unwrap_all(
     tracker: &Tracker,
 ) -> Result<Vec<Unwrapped>, PipelineError> {
     tracker.stage(Stage::Cut);
-    let plan = Plan::new(settings);
+    let plan = Plan::new(settings)?;
     let divided = Divided::new(meshes, &plan)?;
     let same_as: Vec<Option<(usize, f64)>> = (0..meshes.len())
         .map(|mesh| divided.same_mesh(mesh, settings))

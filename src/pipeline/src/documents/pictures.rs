@@ -118,7 +118,7 @@ fn title(group: &GroupUvs) -> String {
 
 /// Returns the intended texel density of each face of each group of a document.
 fn weights(input: &Upload, options: &Options) -> Result<Vec<Vec<f64>>, PipelineError> {
-    let prepared = Prepared::read(input, options, &Plan::new(&options.settings()))?;
+    let prepared = Prepared::read(input, options, &Plan::new(&options.settings())?)?;
     let document = &prepared.document;
     let primitives = options.nodes().primitives(document)?;
     let groups = document.groups(prepared.group_by);

@@ -77,7 +77,7 @@ fn unwrap_in_pool(
 
     // Read the document, and merge the meshes of each atlas.
     tracker.stage(Stage::Read);
-    let (nodes, plan) = (options.nodes(), Plan::new(&options.settings()));
+    let (nodes, plan) = (options.nodes(), Plan::new(&options.settings())?);
     let Prepared {
         document,
         group_by,

@@ -75,7 +75,7 @@ fn unwrap_in_pool(
     let mut watch = StopWatch::start(tracker);
     // Merge the meshes.
     tracker.stage(Stage::Read);
-    let plan = Plan::new(&options.settings());
+    let plan = Plan::new(&options.settings())?;
     let mut mesh = merged(meshes, options, &plan)?;
     limits::check_count(&options.caller.limits, mesh.triangles.len())?;
     mesh.seams.placed = placements(meshes, islands)?;

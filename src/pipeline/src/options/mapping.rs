@@ -1,16 +1,19 @@
 //! Options of chart mapping.
 
+use std::sync::Arc;
 use unwrapd_api::options::options;
 use unwrapd_layout::charts::Cut;
 use unwrapd_method::barrier::BarrierKind;
-use unwrapd_method::energy::EnergyKind;
+use unwrapd_method::energy::{Density, DensityKind};
 
 options! {
     /// Mapping of the charts.
-    #[derive(Copy)]
     pub struct Mapping under "Energy and barrier" {
-        /// Distortion energy to minimize.
-        pub energy: EnergyKind = EnergyKind::SymmetricDirichlet;
+        /// Distortion energy to minimize: a name, or a formula of the singular values of a triangle,
+        /// s1 and s2, as `(s1 - 1)^2 + (s2 - 1)^2`. A formula must be symmetric, and smooth and
+        /// minimal at 1. Bounds on distortion are bounds on the symmetric Dirichlet energy, whichever
+        /// energy is minimized.
+        pub energy: DensityKind = DensityKind::SymmetricDirichlet, arg(value_parser = unwrapd_api::options::WordOrText::<DensityKind>::new());
         /// Barrier that keeps every triangle from inverting. With none, for comparison, flipped
         /// triangles are written and the result is not certified.
         pub barrier: BarrierKind = BarrierKind::InverseSpline;
@@ -32,8 +35,16 @@ options! {
 }
 
 impl Mapping {
-    /// Checks dependencies between options. The error names the option.
+    /// Returns the energy of a triangle. The error names the option.
+    pub(crate) fn density(&self) -> Result<Arc<dyn Density<2>>, String> {
+        self.energy.planar().map_err(|error| {
+            format!("`energy` is neither the name of an energy nor the formula of one: {error}")
+        })
+    }
+
+    /// Checks the energy and dependencies between options. The error names the option.
     pub(crate) fn check(&self, cut: Cut) -> Result<(), String> {
+        self.density()?;
         match self.quantization_safe {
             None | Some(12 | 14 | 16) => {}
             Some(bits) => {

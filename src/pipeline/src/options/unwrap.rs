@@ -124,7 +124,7 @@ impl Options {
     pub fn settings(&self) -> Settings {
         Settings {
             cutting: self.cutting,
-            mapping: self.mapping,
+            mapping: self.mapping.clone(),
             layout: Layout {
                 padding: self.layout.padding << self.mips(),
                 ..self.layout

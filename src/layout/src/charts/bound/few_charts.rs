@@ -86,7 +86,7 @@ fn charts_of_surface(
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
     if is_mostly_needles(surface) {
-        let mut options = *options;
+        let mut options = options.clone();
         options.solver.max_iterations = STEPS_FOR_NEEDLES;
         return map_all(charts(surface, Cut::Disk), &options, observer);
     }
