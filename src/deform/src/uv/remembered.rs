@@ -41,12 +41,13 @@ impl UvSession {
         }
     }
 
-    /// Restores a state, if any, and returns whether that succeeded; charts that were not held then go back to their start.
+    /// Restores a state, if any, and returns whether that succeeded; charts that were not held then go back to their
+    /// start.
     fn restore(&mut self, state: Option<State>) -> bool {
         let Some(State { anchors, charts }) = state else {
             return false;
         };
-        // First the anchors, then the places: others would set a map that is at rest in motion.
+        // Restore the anchors before the places: the present anchors would set a map at rest in motion.
         if self.take(anchors).is_err() {
             return false;
         }

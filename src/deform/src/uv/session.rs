@@ -133,6 +133,7 @@ impl UvSession {
 
     /// Replaces the anchors; changes nothing on an error.
     pub(super) fn take(&mut self, anchors: BTreeMap<AnchorId, Anchor>) -> Result<(), EditError> {
+        // Group the anchors by chart, and build charts that are held for the first time.
         let mut of_chart: BTreeMap<u32, Vec<Held>> = BTreeMap::new();
         for held in self.held(&anchors)? {
             let chart = match held.spot {
@@ -147,6 +148,7 @@ impl UvSession {
                 self.charts.insert(chart, live);
             }
         }
+        // Make all handles before any chart is aimed: an error then changes nothing.
         let boundary = self.options.boundary;
         let mut aims = Vec::with_capacity(self.charts.len());
         for (number, chart) in &self.charts {
@@ -155,6 +157,7 @@ impl UvSession {
             let handles = grips.holds.handles(&chart.flat.body, &chart.flat.start)?;
             aims.push((grips, handles, !held.is_empty()));
         }
+        // Aim the charts whose handles have changed.
         for (chart, (grips, handles, is_held)) in self.charts.values_mut().zip(aims) {
             chart.is_held = is_held;
             if chart.live.problem().stations[0] != handles {
