@@ -5,7 +5,7 @@ use super::problem::Problem;
 use super::way::{BEND, Way, ways};
 use unwrapd_method::numerics::vec3;
 
-/// Most bends that are tried.
+/// Most bends that are tried: each may cost as many iterations as the straight paths.
 const MOST: usize = 8;
 
 /// A path shorter than this share of the longest counts as having length zero.
@@ -56,20 +56,21 @@ fn distinct(all: Vec<Vec<[f64; 3]>>) -> Vec<Vec<[f64; 3]>> {
 
 // Bends that keep handles apart from each other on their paths.
 
-/// Samples of a path at which it is compared with others.
+/// Samples of a path at which it is compared with others. More see closer passes, at a cost in proportion.
 const PLACES: usize = 16;
 
 /// Most sweeps in which every path chooses its bend anew.
 const SWEEPS: usize = 10;
 
-/// Most paths that are compared pair by pair.
+/// Most paths that are compared pair by pair: 45,000 pairs.
 const MOST_COMPARED: usize = 300;
 
 /// Heights of bends to choose from, in units of [`BEND`].
 const HEIGHTS: [f64; 6] = [-2.0, -1.0, -0.5, 0.5, 1.0, 2.0];
 
 /// Chooses a bend for each path greedily, in several sweeps, so that handles moving at the same time come as little
-/// closer to each other than at the start or the end as possible. With more than [`MOST_COMPARED`] paths all stay straight.
+/// closer to each other than at the start or the end as possible. With more than [`MOST_COMPARED`] paths all stay
+/// straight.
 fn apart(ways: &[Way], axes: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let mut bends = vec![[0.0; 3]; ways.len()];
     if ways.len() > MOST_COMPARED {
@@ -78,6 +79,7 @@ fn apart(ways: &[Way], axes: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let mut tracks: Vec<Track> = ways.iter().map(|way| track(way, [0.0; 3])).collect();
     for _ in 0..SWEEPS {
         let mut has_changed = false;
+        // Let each path in turn choose the bend that crowds the others least.
         for (i, way) in ways
             .iter()
             .enumerate()
@@ -92,6 +94,7 @@ fn apart(ways: &[Way], axes: &[[f64; 3]]) -> Vec<[f64; 3]> {
             for bend in choices(way, axes) {
                 let candidate = track(way, bend);
                 let crowding = crowding(&candidate);
+                // Rounding must not exchange equally good bends: sweeps would not end.
                 if crowding < (1.0 - 1e-9) * least {
                     (least, chosen) = (crowding, Some((bend, candidate)));
                 }

@@ -65,11 +65,13 @@ pub(super) fn stations<const D: usize>(
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
+    // The shortest paths make turns of less than half a turn by themselves.
     let largest = turns.iter().map(|turned| turned.degrees.abs());
     let largest = largest.fold(0.0, f64::max);
     if largest < HALF_TURN {
         return vec![last];
     }
+    // Add stations in equal steps of the turn.
     let n_stations = (largest / BETWEEN_STATIONS).ceil();
     let between = (1..n_stations as usize).map(|k| {
         let share = k as f64 / n_stations;

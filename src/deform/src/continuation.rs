@@ -8,13 +8,13 @@ use unwrapd_method::solver::{Settings, Status, Watch};
 /// Factor of β per step.
 const STEP: f64 = 0.1;
 
-/// Most steps.
+/// Most steps: β is then 1e-10 of its start.
 const MAX_STEPS: usize = 10;
 
 /// Least decrease of the unmodified energy that makes another step worthwhile, as a share of that energy.
 const LEAST_GAIN: f64 = 1e-3;
 
-/// Least decrease when the limit for β → 0 is wanted.
+/// Least decrease when the limit for β → 0 is wanted: about six digits.
 const LEAST_CHANGE: f64 = 1e-6;
 
 impl Problem {

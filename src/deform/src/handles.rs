@@ -209,6 +209,7 @@ where
                 let (at, to) = (position(index, at)?, position::<D>(index, to)?);
                 let outside = ProblemError::HandleOutside { handle: index };
                 let row = locate(self.body, at).ok_or(outside)?;
+                // A point at a vertex pulls that vertex, which needs no soft constraint.
                 if let Some(vertex) = sole_vertex(&row) {
                     self.add_vertex(vertex, to);
                 } else {
@@ -241,6 +242,7 @@ where
             return Err(ProblemError::BadParameter { name, range });
         }
         let axis = turning_axis::<D>(turn, axis)?;
+        // Hold every vertex within the radius.
         let before = self.vertices.len();
         for v in 0..self.body.n_vertices() as u32 {
             let place = self.place(v);
@@ -258,6 +260,7 @@ where
         if self.vertices.len() == before {
             return Err(ProblemError::HandleOutside { handle: index });
         }
+        // Keep the turn, for the stations and for the count of turns left.
         if turn != 0.0 {
             self.turns.push(Turned {
                 handle: index,

@@ -132,6 +132,7 @@ where
         set: &[usize],
         most: usize,
     ) -> Result<bool, ProblemError> {
+        // Try bent paths only for a part that is tried alone.
         let sides = match set.len() {
             0 => &[],
             1 => &SIDES[..],
@@ -141,6 +142,7 @@ where
             if self.is_stopped {
                 break;
             }
+            // Keep the map of each attempt, even where the parts did not arrive.
             let station = self.only(set, side);
             let x = std::mem::take(&mut self.x);
             let mut attempt = Attempt::<D>::new(trial, x, vec![station], most)?;
@@ -176,12 +178,14 @@ where
                 station.groups[i] = held;
             }
         }
+        // Hold the points of all other parts where they are.
         let gaps = Gaps::new(D, targets, &self.x);
         for i in 0..targets.points.len() {
             if !set.iter().any(|&part| self.parts[part].points.contains(&i)) {
                 station.point_targets[D * i..D * (i + 1)].copy_from_slice(&gaps.point(i));
             }
         }
+        // Bend the paths of the parts to one side.
         if side != 0.0 {
             let axis = axes(&self.problem.body)[0];
             let ways = ways(D, &station, &self.x);

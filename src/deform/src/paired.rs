@@ -23,6 +23,7 @@ pub(super) fn handles(
     if let Some(handle) = targets.iter().position(is_bad) {
         return Err(ProblemError::BadTarget { handle, dim });
     }
+    // Sort by vertex, and keep each vertex once. Its targets must be equal.
     let mut order: Vec<usize> = (0..vertices.len()).collect();
     order.sort_by_key(|&i| vertices[i]);
     let same = |w: &&[usize]| vertices[w[0]] == vertices[w[1]] && targets[w[0]] != targets[w[1]];

@@ -65,7 +65,7 @@ impl Potential {
     /// As [`gradient`](Self::gradient).
     pub fn hessian(&mut self, x: &[f64]) -> Result<Csr, ProblemError> {
         self.linearize(x)?;
-        // What was added to make it regular is not a part of it.
+        // Take off the shift that makes the Hessian regular for the solver.
         self.objective.shift_diagonal(-self.objective.shift());
         let (pattern, values) = self.objective.hessian();
         let mut hessian = Csr::of_lower(pattern.scalar(), values);

@@ -103,6 +103,7 @@ impl ProblemFile {
 
     /// Creates the problem on this mesh, starting from these positions or from rest.
     pub fn with(self, mesh: Elements, start: Option<Vec<f64>>) -> Result<Problem, ProblemError> {
+        // Make the body that the mesh and the rest shapes ask for.
         let body = if !mesh.tets.is_empty() {
             Body::from(&mesh.into_tet_mesh()?)
         } else if self.rest == Rest::Corotated {
@@ -112,6 +113,7 @@ impl ProblemFile {
         };
         let start = start.unwrap_or_else(|| body.rest.clone());
         body.check(&start)?;
+        // Bind the handles, and put the problem together.
         let model = Model {
             energy: self.energy.clone(),
             barrier: self.barrier,
@@ -137,6 +139,7 @@ impl ProblemFile {
             boundary_barrier: None,
             units: self.units,
         };
+        // Untangle the start before the boundary barrier is added: that needs a start without overlaps.
         problem.untangle_start()?;
         problem.guarded(&model)
     }

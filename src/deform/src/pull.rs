@@ -167,6 +167,7 @@ pub(super) fn pull(
     how: &How,
     watch: &dyn Watch,
 ) -> Result<PulledMap, ProblemError> {
+    // Pull, and collect the handles that did not arrive.
     let (handles, unit) = (holds.handles(&body, start)?, how.unit);
     let problem = Problem {
         aims: holds.aims(),
@@ -175,8 +176,10 @@ pub(super) fn pull(
     };
     let solution = problem.solve(&Settings::follow(), watch)?;
     let unreached = holds.named(problem.unreached(&solution), unit);
+    // Move the vertices that arrived onto their targets, exactly.
     let mut vertices = solution.x.as_chunks::<2>().0.to_vec();
     arrive(&mut vertices, &problem.stations[0]);
+    // Measure that map with energies for a mean triangle of area 1.
     let normalized = Problem {
         units: Units::Normalized,
         ..problem

@@ -133,6 +133,7 @@ impl Problem {
         settings: &LevenbergSettings,
         watch: &dyn Watch,
     ) -> Result<Solution, ProblemError> {
+        // Pull the handles of the first station by soft constraints.
         let terms = self.terms(self.barrier)?;
         let first = self.stations.first().cloned().unwrap_or_default();
         let constraints = Positional {
@@ -142,6 +143,7 @@ impl Problem {
             alpha: settings.alpha,
         };
         let mut objective = Objective::constrained(self.body.n_vertices(), terms, constraints);
+        // Minimize at one station after the other, each from the map of the last.
         let mut x = self.start.clone();
         let mut total = Summary::at_start(objective.energy(&x));
         for handles in &self.stations {

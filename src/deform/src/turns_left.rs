@@ -74,7 +74,7 @@ impl Problem {
             let ([ax, ay], [bx, by]) = (at(x, a), at(x, b));
             [bx - ax, by - ay]
         };
-        // What the second edge is turned by beside the first, at most half a turn.
+        // Turn of the second edge relative to the first, at most half a turn.
         let between = |x: &[f64], edges: &[[u32; 2]]| {
             let [[a, b], [c, d]] = [edges[0], edges[1]].map(|edge| direction(x, edge));
             (a * d - b * c).atan2(a * c + b * d)
@@ -98,7 +98,7 @@ impl Problem {
         };
         let mut last = rotation(slices.first()?)?;
         let mut angle = 0.0;
-        // Slices that have no direction are passed over.
+        // Skip slices without a direction.
         for next in slices[1..].iter().filter_map(rotation) {
             let between = times(&transposed(&next), &last).log();
             angle += Matrix::<D>::angle(&between, turned.axis);
@@ -204,6 +204,7 @@ impl Problem {
     /// vertices per slice allow, by distances along edges at rest from both ends. Returns `None` if no others are held,
     /// or no edges lead to them.
     fn slices(&self, first: &[u32], least: usize) -> Option<Slices> {
+        // Find the nearest vertex that another handle holds.
         let handles = self.stations.last()?;
         let grouped = handles.vertices.iter().zip(&handles.groups);
         let mut group_of: HashMap<u32, u32> = grouped.map(|(&v, &group)| (v, group)).collect();
@@ -217,6 +218,7 @@ impl Problem {
         if !away(end).is_finite() {
             return None;
         }
+        // Collect the vertices between the two handles, in the order of their share of the path.
         let is_with_end = |v: &&u32| group_of.get(v) == group_of.get(&end);
         let last: Vec<u32> = handles
             .vertices
@@ -232,6 +234,7 @@ impl Problem {
             }
         }
         between.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+        // Slice them; the handles' own vertices are the first and the last slice.
         let mut slices = vec![first.to_vec()];
         slices.extend(sliced(&between, least));
         slices.push(last);
@@ -275,6 +278,7 @@ impl Body {
         for &v in from {
             distance[v as usize] = 0.0;
         }
+        // Sweep until no distance falls any more.
         let corners = self.corners();
         let mut has_changed = true;
         while std::mem::take(&mut has_changed) {

@@ -15,7 +15,8 @@ use unwrapd_method::energy::{FoldoverFree, Term, Tetrahedra, Triangles};
 use unwrapd_method::numerics::predicates::{orient2d_sign, orient3d_sign};
 use unwrapd_method::solver::{Control, Iterate, Objective, Settings, minimize};
 
-/// Rings of vertices around bad elements that may move at first, and the factor after each failure.
+/// Rings of vertices around bad elements that may move at first, and the factor after each failure. Fewer move less of
+/// the map, more need fewer attempts.
 const RINGS: usize = 2;
 const WIDENING: usize = 3;
 
@@ -29,8 +30,8 @@ const LAST_STEPS: usize = 50;
 /// Regularized determinant of the worst element in the first round: a tenth of an ordinary element's.
 const FIRST: f64 = 0.1;
 
-/// λ and the largest ε. An element that has shrunk to a point costs λ/ε, one at rest less than 1 + λ: if the former
-/// were smaller, a body that nothing holds would vanish.
+/// λ and the largest ε. An element that has shrunk to a point costs λ/ε, at least 4, one at rest less than 1 + λ, 3: if
+/// the former were smaller, a body that nothing holds would vanish.
 const SIZE: f64 = 2.0;
 const LARGEST: f64 = 0.5;
 
@@ -69,6 +70,7 @@ pub(super) fn untangled(body: &Body, x: &[f64], held: &[u32], floor: f64) -> Opt
         return None;
     }
     let bad = bad_elements(body, x, floor);
+    // Free wider and wider rings around the bad elements.
     let mut rings = RINGS;
     loop {
         let mut is_free = around(body, &bad, rings);
@@ -107,7 +109,7 @@ fn around(body: &Body, elements: &[usize], rings: usize) -> Vec<bool> {
             }
         }
         if is_near == before {
-            // What is left is another part, or a vertex of no element.
+            // The remaining vertices belong to another part or to no element.
             return vec![true; is_near.len()];
         }
     }
@@ -159,6 +161,7 @@ impl Patch {
         let mut worst = FIRST;
         for _ in 0..ROUNDS {
             let smallest = objective.smallest(&own);
+            // Once all are positive, give them good shapes.
             if smallest > 0.0 {
                 objective.exchange(vec![self.term(0.0)]);
                 descend(&mut objective, &mut own, LAST_STEPS);

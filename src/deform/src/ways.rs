@@ -145,13 +145,14 @@ where
 
 // Handles that flow to their targets, each as fast as the others let it.
 
-/// Most iterations.
+/// Most iterations of a flow. More let slow handles come nearer to their targets.
 const MOST: usize = 500;
 
 /// Moves the map `x` until the handles come no nearer to these targets; handles that can reach their targets are then
 /// close to them.
 fn flow_to(trial: &mut Trial, targets: &Handles, x: &mut [f64]) {
     let dim = trial.problem.body.dim();
+    // Hold the vertices that are at their targets; pull the others and all points.
     let place = |v: u32| &x[dim * v as usize..dim * (v as usize + 1)];
     let ends = targets.targets.chunks_exact(dim);
     let is_held = |pair: &(&u32, &[f64])| place(*pair.0) == pair.1;
@@ -169,6 +170,7 @@ fn flow_to(trial: &mut Trial, targets: &Handles, x: &mut [f64]) {
         targets,
         alpha: 0.0,
     };
+    // Let them flow.
     trial.objective.fix(&held);
     trial.objective.pull_at(constraints(rows, ends.clone()));
     let course = Flow {
@@ -184,6 +186,7 @@ fn flow_to(trial: &mut Trial, targets: &Handles, x: &mut [f64]) {
         before: trial.total.iterations,
     };
     let done = flow(&mut trial.objective, x, &course, &settings, &watch);
+    // Restore the points of the handles, which the next attempt expects in the objective.
     trial.objective.pull_at(constraints(
         targets.points.clone(),
         targets.point_targets.clone(),

@@ -24,11 +24,12 @@ pub(super) struct Portion<'a> {
     charts: Mutex<[isize; 2]>,
 }
 
-/// Expected Newton steps for a surface, and for a chart.
+/// Expected Newton steps for a surface, and for a chart. Only the progress shown depends on them.
 const STEPS_OF_SURFACE: f64 = 12.0;
 const STEPS_OF_CHART: f64 = 15.0;
 
-/// Share of the expected work up to which a portion advances linearly.
+/// Share of the expected work up to which a portion advances linearly. A larger share fits exact expectations, a
+/// smaller one leaves more room for work beyond them.
 const STEADY: f64 = 0.7;
 
 impl<'a> Portion<'a> {

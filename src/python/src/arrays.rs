@@ -5,8 +5,8 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use unwrapd::pipeline::{MeshArrays, UnwrappedMeshes, WeldedUvs};
 
-/// A mesh as Python hands it over: positions (V, 3), faces (F, 3) and, for each corner of each face, UVs (F, 3, 2) and normals
-/// (F, 3, 3). All are contiguous.
+/// A mesh from Python: positions (V, 3), faces (F, 3) and, for each corner of each face, UVs (F, 3, 2) and normals
+/// (F, 3, 3). All arrays are contiguous.
 #[derive(FromPyObject)]
 pub struct Mesh<'py>(
     Bound<'py, PyAny>,
@@ -15,7 +15,7 @@ pub struct Mesh<'py>(
     Option<PyReadonlyArray3<'py, f64>>,
 );
 
-/// A mesh as Python takes it: for each vertex that of the given mesh, faces, UVs (v up), and for each face its chart.
+/// A mesh for Python: the vertex of the given mesh for each vertex, faces, UVs (v up), and the chart of each face.
 pub type Welded<'py> = (
     Bound<'py, PyArray1<u32>>,
     Bound<'py, PyArray2<u32>>,
@@ -23,7 +23,7 @@ pub type Welded<'py> = (
     Bound<'py, PyArray1<u32>>,
 );
 
-/// The meshes in the library's types.
+/// Converts meshes to the library's types.
 pub fn taken(meshes: &[Mesh<'_>]) -> PyResult<Vec<MeshArrays>> {
     meshes.iter().map(mesh).collect()
 }
@@ -37,7 +37,7 @@ fn mesh(Mesh(positions, faces, uvs, normals): &Mesh<'_>) -> PyResult<MeshArrays>
     })
 }
 
-/// Positions are of either precision; others than these were refused in Python.
+/// Returns positions of either precision; the Python code refuses all other types.
 fn positions_of(positions: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; 3]>> {
     if let Ok(positions) = positions.extract::<PyReadonlyArray2<f32>>() {
         let rows: Vec<[f32; 3]> = rows(positions.as_slice()?);
@@ -49,7 +49,7 @@ fn positions_of(positions: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; 3]>> {
     }
 }
 
-/// For each face what its corners have, N numbers each.
+/// Returns N numbers for each corner of each face.
 pub fn corners<T: Copy + numpy::Element, const N: usize>(
     array: &PyReadonlyArray3<'_, T>,
 ) -> PyResult<Vec<[[T; N]; 3]>> {
@@ -57,12 +57,12 @@ pub fn corners<T: Copy + numpy::Element, const N: usize>(
     Ok(self::rows(&rows))
 }
 
-/// Rows of N numbers each.
+/// Splits an array into rows of N numbers each.
 pub fn rows<T: Copy, const N: usize>(flat: &[T]) -> Vec<[T; N]> {
     flat.as_chunks::<N>().0.to_vec()
 }
 
-/// An unwrapped mesh as arrays.
+/// Converts unwrapped meshes to arrays.
 pub fn given<'py>(
     py: Python<'py>,
     meshes: &[MeshArrays],

@@ -1,4 +1,4 @@
-//! What vertices have as textures.
+//! Vertex attributes baked into textures.
 
 use numpy::{
     PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray3, PyUntypedArrayMethods,
@@ -11,7 +11,7 @@ use unwrapd::pipeline::{Workers, in_pool};
 use crate::arrays::corners;
 use crate::call::run;
 
-/// Images (size, size, C), and where a chart is (size, size); the first row is at v = 1.
+/// Image (size, size, C) and mask of the charts (size, size); the first row is at v = 1.
 type Baked<'py> = (Bound<'py, PyArray3<f32>>, Bound<'py, PyArray2<bool>>);
 
 /// Interpolates values (F, 3, C) of corners, whose UVs (F, 3, 2) have v up.
@@ -24,6 +24,7 @@ pub fn bake<'py>(
     threads: Option<usize>,
 ) -> PyResult<Baked<'py>> {
     let n_channels = values.shape()[2];
+    // Refuse sizes and UVs that cannot be baked.
     let texels = (size as u64).checked_mul(size as u64);
     if size == 0 || texels.is_none_or(|texels| texels > MOST_TEXELS) {
         return Err(PyValueError::new_err(format!(
@@ -43,6 +44,7 @@ pub fn bake<'py>(
     {
         return Err(PyValueError::new_err("uvs must be finite"));
     }
+    // Bake one channel after another, each into its places of the image.
     let values = values.as_slice()?.to_vec();
     let (image, mask) = run(py, None, move |_| {
         in_pool(Workers { threads }, || {

@@ -8,8 +8,8 @@ use unwrapd::mesh::{PlanarMesh, TetMesh};
 use crate::arrays::rows;
 use crate::error::refused;
 
-/// Triangles of the plane, triangles of space laid flat one by one, or tetrahedra: the shapes of the arrays say which. Flat
-/// triangles rest at `start`, which says where they are in the plane.
+/// Creates a body of triangles of the plane, of triangles of space laid flat one by one, or of tetrahedra, depending on
+/// the shapes of the arrays. Triangles laid flat rest at `start`, their places in the plane.
 pub fn body(
     py: Python<'_>,
     vertices: &PyReadonlyArray2<'_, f64>,

@@ -14,13 +14,13 @@ use unwrapd::solver::{Control, Iterate, Watch};
 use crate::error::{exception, internal};
 use crate::iterates::{Question, Questions};
 
-/// How often signals are looked for and progress is told.
+/// Interval at which signals are handled and progress is reported: short enough that Ctrl-C seems immediate.
 const ATTENTION: Duration = Duration::from_millis(20);
 
-/// Where the work stands.
+/// Progress of the work.
 #[pyclass(frozen, get_all, module = "unwrapd")]
 pub struct Progress {
-    /// What is being done.
+    /// The stage under way.
     stage: &'static str,
     /// Share of the whole work done, 0 to 1.
     fraction: f64,
@@ -57,7 +57,7 @@ impl From<pipeline::Progress> for Progress {
     }
 }
 
-/// What the thread that works and the one that called share.
+/// State shared by the working thread and the calling one.
 struct Link {
     begin: Instant,
     is_ending: AtomicBool,
@@ -69,7 +69,7 @@ impl Observer for Link {
     /// Leaves the library by unwinding once nobody waits for a result: an early end would still pack and judge one.
     fn progress(&self, progress: &pipeline::Progress) -> Control {
         if self.is_abandoned.load(Ordering::Relaxed) {
-            // What is dropped on the way out reports, too.
+            // Values dropped while unwinding report, too.
             if !panicking() {
                 resume_unwind(Box::new("abandoned"));
             }
@@ -93,7 +93,8 @@ impl Link {
         self.is_abandoned.store(true, Ordering::Relaxed);
     }
 
-    /// Tells of progress, if there is any and anyone listens. One that answers False ends the work with the present map.
+    /// Reports new progress to the listener, if there are both. A listener that returns False ends the work with the
+    /// present map.
     fn tell(&self, py: Python<'_>, listener: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         let Some(listener) = listener else {
             return Ok(());
@@ -111,8 +112,8 @@ impl Link {
     }
 }
 
-/// Runs work on a thread. The calling thread stays with the interpreter: it handles signals and calls the listener. An exception
-/// of either leaves at once; the work ends at its next report.
+/// Runs work on a thread. The calling thread stays with the interpreter: it handles signals and calls the listener. An
+/// exception from either returns at once; the work ends at its next report.
 pub fn run<T: Send + 'static>(
     py: Python<'_>,
     listener: Option<&Bound<'_, PyAny>>,
@@ -121,13 +122,14 @@ pub fn run<T: Send + 'static>(
     run_shown(py, listener, None, |observer, _| work(observer))
 }
 
-/// What the thread that works says.
+/// Message of the working thread.
 enum Message<T> {
     Asked(Question),
     Ended(Result<T, PipelineError>),
 }
 
-/// The same with work that a watch follows: each iterate is shown by `show`, on the calling thread, before the next.
+/// Like [`run`], for work with a watch: `show` receives each iterate on the calling thread before the next one is
+/// computed.
 pub fn run_shown<T: Send + 'static>(
     py: Python<'_>,
     listener: Option<&Bound<'_, PyAny>>,
@@ -140,6 +142,7 @@ pub fn run_shown<T: Send + 'static>(
         is_abandoned: AtomicBool::new(false),
         latest: Mutex::new(None),
     });
+    // Start the work on a thread of its own.
     let (sender, mut receiver) = channel();
     let observer = Arc::clone(&link);
     let is_shown = show.is_some();
@@ -150,10 +153,11 @@ pub fn run_shown<T: Send + 'static>(
             let unasked = |_: &Iterate| Control::Continue;
             let watch: &(dyn Watch + Sync) = if is_shown { &asked } else { &unasked };
             let ended = work(&*observer, watch);
-            // Whoever called may be gone.
+            // The caller may be gone.
             let _ = sender.send(Message::Ended(ended));
         })
         .map_err(|error| internal(py, &format!("cannot start a thread: {error}")))?;
+    // Answer its messages; when there are none, look for signals and report progress.
     loop {
         let received;
         (received, receiver) = py.detach(move || (receiver.recv_timeout(ATTENTION), receiver));

@@ -8,8 +8,8 @@ use pyo3::prelude::*;
 use unwrapd::cli;
 use unwrapd::jobs::Program;
 
-/// Runs a command line and returns its exit code. Children of the command are started as `python launcher…`; `engine` is this
-/// extension.
+/// Runs a command line and returns its exit code. Children of the command are started as `python launcher…`; `engine`
+/// is this extension.
 #[pyfunction]
 pub fn run_command(
     py: Python<'_>,
@@ -25,7 +25,7 @@ pub fn run_command(
     };
     py.detach(|| {
         let code = cli::run(arguments, Ok(program));
-        // Nobody else does it at the end of a process that is Python's. A reader may have closed the pipe.
+        // Python does not flush Rust's buffer at the end of the process. A reader may have closed the pipe.
         let _ = std::io::stdout().flush();
         code
     })

@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use unwrapd::deform::ProblemError;
 use unwrapd::pipeline::PipelineError;
 
-/// The exception for an error of the library, with its code.
+/// Returns the exception for an error of the library, with its code.
 pub fn exception(py: Python<'_>, error: &PipelineError) -> PyErr {
     let column = error.column();
     of(
@@ -16,17 +16,17 @@ pub fn exception(py: Python<'_>, error: &PipelineError) -> PyErr {
     )
 }
 
-/// The exception for what cannot be deformed.
+/// Returns the exception for a problem that cannot be solved.
 pub fn refused(py: Python<'_>, error: impl Into<ProblemError>) -> PyErr {
     exception(py, &PipelineError::from(error.into()))
 }
 
-/// The exception for options that are not as they should be.
+/// Returns the exception for invalid options.
 pub fn invalid_options(py: Python<'_>, text: String) -> PyErr {
     exception(py, &PipelineError::InvalidOptions(text))
 }
 
-/// The exception for a mistake of this program.
+/// Returns the exception for a bug of this program.
 pub fn internal(py: Python<'_>, text: &str) -> PyErr {
     of(py, "internal_error", 1, text, None)
 }

@@ -18,7 +18,7 @@ use crate::error::internal;
 use crate::options::parsed;
 use unwrapd::options::OptionSet;
 
-/// A file with those that it refers to: the ones that are handed over, and those in a folder.
+/// A file with the files to which it refers: those passed with it, and those in a folder.
 #[derive(FromPyObject)]
 pub struct File<'py> {
     #[pyo3(item)]
@@ -50,7 +50,7 @@ impl File<'_> {
     }
 }
 
-/// The files that a file refers to, by the names that it has for them; those that are not there are left out.
+/// Returns the files to which a file refers, by the names that it uses for them; missing ones are left out.
 #[pyfunction]
 pub fn references<'py>(py: Python<'py>, file: File<'py>) -> Vec<(String, Bound<'py, PyBytes>)> {
     let resources = file.upload().resources.into_iter();
@@ -59,7 +59,7 @@ pub fn references<'py>(py: Python<'py>, file: File<'py>) -> Vec<(String, Bound<'
         .collect()
 }
 
-/// The written files by name, the main one first, and the report.
+/// Written files by name, the main one first, and the report.
 type Written<'py> = (Vec<(String, Bound<'py, PyBytes>)>, String);
 
 /// Unwraps every mesh of a file.
@@ -135,7 +135,7 @@ fn written<'py, O: OptionSet + CommandOptions + Send + 'static>(
     Ok((files.collect(), json(py, &outcome.report)?))
 }
 
-/// A report as JSON.
+/// Returns a report as JSON.
 pub fn json<T: Serialize>(py: Python<'_>, report: &T) -> PyResult<String> {
     serde_json::to_string(report).map_err(|error| internal(py, &error.to_string()))
 }

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBool;
 use unwrapd::solver::{Control, Iterate, Watch};
 
-/// Where a minimization stands.
+/// An iterate of a minimization.
 #[pyclass(frozen, get_all, name = "Iterate", module = "unwrapd")]
 pub struct Shown {
     /// 0 for the start, then 1, 2, …
@@ -32,7 +32,7 @@ impl Shown {
     }
 }
 
-/// An iterate on its way to the thread that shows it, and where the answer is awaited.
+/// An iterate for the thread that shows it, with the channel for its answer.
 pub struct Question {
     iterate: Iterate,
     x: Vec<f64>,
@@ -40,7 +40,7 @@ pub struct Question {
 }
 
 impl Question {
-    /// Shows the iterate. A callback that answers False ends the work with the present map.
+    /// Shows the iterate. A callback that returns False ends the work with the present map.
     pub fn put(self, py: Python<'_>, dim: usize, callback: &Bound<'_, PyAny>) -> PyResult<()> {
         let n_vertices = self.x.len() / dim;
         let shown = Shown {
@@ -60,7 +60,7 @@ impl Question {
         } else {
             Control::Continue
         };
-        // Whoever asked may be gone.
+        // The working thread may be gone.
         let _ = self.answer.send(control);
         Ok(())
     }
@@ -68,9 +68,9 @@ impl Question {
 
 /// Sends every iterate to the thread that shows it, and waits for the answer.
 pub struct Questions<F> {
-    /// Sends a question; false if nobody listens any more.
+    /// Sends a question; returns `false` if nobody listens any more.
     send: F,
-    /// The positions of the iterate that comes next.
+    /// Positions of the next iterate.
     x: Mutex<Vec<f64>>,
 }
 

@@ -1,8 +1,8 @@
 //! The native part of the Python package `unwrapd`: arrays, bytes and JSON in and out of the library.
 //!
-//! What Python users see is written in Python, beside this crate; it hands over arrays of the types that are named here and
-//! options as JSON objects, as the service takes them. Every call computes on threads of its own with the interpreter released,
-//! and looks every 20 ms whether the user pressed Ctrl-C.
+//! The public interface is written in Python, next to this crate; it passes arrays of the types named here, and options
+//! as JSON objects like those of the service. Every call computes on threads of its own with the interpreter released,
+//! and checks every 20 ms for Ctrl-C.
 
 #![allow(
     clippy::needless_pass_by_value,

@@ -8,7 +8,7 @@ use unwrapd::pipeline::{MeasureOptions, Options, RepackOptions, SolveOptions, Ve
 
 use crate::error::invalid_options;
 
-/// The names of a function's options.
+/// Returns the names of a function's options.
 #[pyfunction]
 pub fn option_names(function: &str) -> PyResult<Vec<&'static str>> {
     match function {
@@ -22,7 +22,7 @@ pub fn option_names(function: &str) -> PyResult<Vec<&'static str>> {
     }
 }
 
-/// The options in a JSON object, of which the caller checked the names.
+/// Parses the options in a JSON object; the caller has checked their names.
 pub fn parsed<O: OptionSet>(py: Python<'_>, json: &str) -> PyResult<O> {
     let object: Result<Object, _> = serde_json::from_str(json);
     (object.map_err(|error| error.to_string()))

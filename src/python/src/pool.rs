@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use unwrapd::pipeline::PipelineError;
 
-/// Threads of this process, made when they are first needed. A process that was forked has none of them, and makes its own.
+/// Threads of this process, created at their first use. A forked process does not inherit them and creates its own.
 pub struct Pool {
     threads: Option<NonZeroUsize>,
     made: Option<Made>,
@@ -17,7 +17,7 @@ struct Made {
 }
 
 impl Pool {
-    /// So many threads at most; without a number, as many as there are cores.
+    /// Creates a pool of at most this number of threads; without a number, one per core.
     pub fn new(threads: Option<NonZeroUsize>) -> Self {
         Self {
             threads,
@@ -25,11 +25,11 @@ impl Pool {
         }
     }
 
-    /// Works on them.
+    /// Runs work on the threads.
     pub fn run<T: Send>(&mut self, work: impl FnOnce() -> T + Send) -> Result<T, PipelineError> {
         let process = std::process::id();
         if let Some(lost) = self.made.take_if(|made| made.process != process) {
-            // To end threads that are not there might wait for them.
+            // Dropping the pool might wait for threads that do not exist in this process.
             std::mem::forget(lost.pool);
         }
         let made = match &mut self.made {
@@ -43,7 +43,7 @@ impl Pool {
     }
 }
 
-/// As many threads as are asked for.
+/// Starts the threads.
 fn fresh(threads: Option<NonZeroUsize>) -> Result<ThreadPool, PipelineError> {
     ThreadPoolBuilder::new()
         .num_threads(threads.map_or(0, NonZeroUsize::get))

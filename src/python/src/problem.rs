@@ -21,14 +21,14 @@ pub struct Problem {
     potential: Mutex<Potential>,
 }
 
-/// A sparse matrix by rows: data, columns, and where rows start.
+/// A sparse matrix by rows: data, columns, and the start of each row.
 type Matrix<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<usize>>,
     Bound<'py, PyArray1<usize>>,
 );
 
-/// What each element has, one row per element, with its name.
+/// Name and values of a property of the elements, one row per element.
 type Column<'py> = (&'static str, Bound<'py, PyArray2<f64>>);
 
 #[pymethods]
@@ -53,26 +53,26 @@ impl Problem {
         })
     }
 
-    /// Coordinates of a position.
+    /// Number of coordinates of a position.
     #[getter]
     fn dim(&self) -> usize {
         self.problem.body.dim()
     }
 
-    /// Where a solution starts.
+    /// Start positions of a solution.
     #[getter]
     fn start<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_slice(py, &self.problem.start)
     }
 
-    /// The sum of energy and barriers.
+    /// Returns the sum of energy and barriers.
     fn value(&self, py: Python<'_>, x: PyReadonlyArray1<'_, f64>) -> PyResult<f64> {
         let x = x.as_slice()?;
         let value = py.detach(|| self.potential().value(x));
         value.map_err(|error| refused(py, error))
     }
 
-    /// Its gradient.
+    /// Returns its gradient.
     fn gradient<'py>(
         &self,
         py: Python<'py>,
@@ -84,7 +84,7 @@ impl Problem {
         Ok(PyArray1::from_vec(py, gradient))
     }
 
-    /// Its Hessian.
+    /// Returns its Hessian.
     fn hessian<'py>(
         &self,
         py: Python<'py>,
@@ -100,7 +100,7 @@ impl Problem {
         ))
     }
 
-    /// What each element has at positions.
+    /// Returns the properties of each element at the positions `x`.
     fn elements<'py>(
         &self,
         py: Python<'py>,
@@ -120,7 +120,7 @@ impl Problem {
             .collect()
     }
 
-    /// Pulls handles to their targets: positions, and the report as JSON.
+    /// Pulls handles to their targets; returns positions, and the report as JSON.
     fn solve<'py>(
         &self,
         py: Python<'py>,
@@ -149,7 +149,7 @@ impl Problem {
             .unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The problem with handles, as files of handles name them.
+    /// Returns the problem with handles in the form of handle files.
     fn held(&self, py: Python<'_>, handles: &str) -> PyResult<deform::Problem> {
         let handles: Vec<Handle> = serde_json::from_str(handles)
             .map_err(|error| refused(py, ProblemError::MalformedHandles(error.to_string())))?;

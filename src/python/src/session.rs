@@ -1,4 +1,4 @@
-//! Bodies that are pulled while someone watches.
+//! Bodies that are pulled interactively.
 
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
@@ -14,16 +14,16 @@ use crate::files::json;
 use crate::options::parsed;
 use crate::pool::Pool;
 
-/// How long a session works before signals are looked for.
+/// Time that a session works between two checks for signals: short enough that Ctrl-C seems immediate.
 const SLICE: Duration = Duration::from_millis(20);
 
-/// The library's session. Positions are flat arrays of float64.
+/// A session of the library. Positions are flat arrays of float64.
 #[pyclass(module = "unwrapd._native")]
 pub struct Session {
     inner: deform::Session,
     pool: Pool,
     dim: usize,
-    /// By number, in the order of adding.
+    /// Identifier of each handle, by its number in the order of adding.
     ids: Vec<HandleId>,
 }
 
@@ -52,13 +52,13 @@ impl Session {
         })
     }
 
-    /// Coordinates of a position.
+    /// Number of coordinates of a position.
     #[getter]
     fn dim(&self) -> usize {
         self.dim
     }
 
-    /// Takes hold; the number of the handle.
+    /// Adds a handle and returns its number.
     fn add(&mut self, py: Python<'_>, handle: &str) -> PyResult<usize> {
         let handle: Handle = serde_json::from_str(handle)
             .map_err(|error| refused(py, ProblemError::MalformedHandles(error.to_string())))?;
@@ -67,13 +67,13 @@ impl Session {
         Ok(self.ids.len() - 1)
     }
 
-    /// Gives a handle another target.
+    /// Changes the target of a handle.
     fn move_to(&mut self, py: Python<'_>, number: u32, to: Vec<f64>) -> PyResult<()> {
         let moved = (self.id(number)).and_then(|id| self.inner.move_handle(id, &to));
         moved.map_err(|error| refused(py, error))
     }
 
-    /// Lets go.
+    /// Removes a handle.
     fn remove(&mut self, py: Python<'_>, number: u32) -> PyResult<()> {
         let removed = (self.id(number)).and_then(|id| self.inner.remove(id));
         removed.map_err(|error| refused(py, error))
@@ -86,12 +86,12 @@ impl Session {
         remodeled.map_err(|error| refused(py, error))
     }
 
-    /// One iteration, and where the handles stand.
+    /// Runs one iteration and returns the state of the handles.
     fn step(&mut self, py: Python<'_>) -> PyResult<&'static str> {
         pooled(py, &mut self.pool, || self.inner.step()).map(word)
     }
 
-    /// Iterations until nothing is left to do or the time is over, and where the handles stand.
+    /// Runs iterations until nothing is left to do or the time is up; returns the state of the handles.
     fn settle(&mut self, py: Python<'_>, seconds: f64) -> PyResult<&'static str> {
         let begin = Instant::now();
         while self.inner.stage() == Stage::Moving && begin.elapsed().as_secs_f64() < seconds {
@@ -105,44 +105,44 @@ impl Session {
         Ok(word(self.inner.stage()))
     }
 
-    /// Where the handles stand.
+    /// State of the handles.
     #[getter]
     fn stage(&self) -> &'static str {
         word(self.inner.stage())
     }
 
-    /// Where the vertices are.
+    /// Positions of the vertices.
     #[getter]
     fn x<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_vec(py, self.inner.positions())
     }
 
-    /// What the map is worth, as JSON.
+    /// Returns the quality of the map as JSON.
     fn worth(&self, py: Python<'_>) -> PyResult<String> {
         json(py, &self.inner.worth())
     }
 
-    /// What the solver did, as JSON.
+    /// Returns the summary of the solver as JSON.
     fn summary(&self, py: Python<'_>) -> PyResult<String> {
         json(py, self.inner.summary())
     }
 
-    /// Remembers positions and handles.
+    /// Records positions and handles.
     fn remember(&mut self) {
         self.inner.remember();
     }
 
-    /// Returns to what was remembered last, if anything was.
+    /// Returns to the last recorded state; returns `false` if there is none.
     fn undo(&mut self) -> bool {
         self.inner.undo()
     }
 
-    /// Takes an undo back, if there is one.
+    /// Reverts an undo; returns `false` if there is none.
     fn redo(&mut self) -> bool {
         self.inner.redo()
     }
 
-    /// Returns to rest, without handles.
+    /// Resets the body to rest, without handles.
     fn reset(&mut self) {
         self.inner.reset();
     }
@@ -156,7 +156,7 @@ impl Session {
     }
 }
 
-/// Works with the interpreter released.
+/// Runs work on the pool, with the interpreter released.
 fn pooled<T: Send>(
     py: Python<'_>,
     pool: &mut Pool,

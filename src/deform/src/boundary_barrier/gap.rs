@@ -75,6 +75,7 @@ impl Gap {
             weights.map(|w| direction.map(|x| factor * w * x))
         };
         let pushing = (second, spread(self.normal, self.weights, 1.0));
+        // At an end of the edge the second mode slides around that end.
         let Some(curvature) = self.curvature else {
             let sliding = spread(self.tangent, self.weights, 1.0);
             return [
@@ -83,6 +84,7 @@ impl Gap {
                 (0.0, [[0.0; 2]; 3]),
             ];
         };
+        // Along the edge sliding and turning are coupled: find the eigenvectors of the part with φ′ in closed form.
         let norm = self.weights.iter().map(|w| w * w).sum::<f64>().sqrt();
         let sliding = spread(self.tangent, self.weights, 1.0 / norm);
         let turning = spread(self.normal, [0.0, -1.0, 1.0], 0.5_f64.sqrt());

@@ -155,6 +155,7 @@ fn add(
     for (vertex, gradient) in vertices.iter().zip(gap.gradient(derivatives[0])) {
         assembly.add_gradient(*vertex, &gradient);
     }
+    // Sum the modes to blocks; negative curvature is scaled by τ.
     let modes = gap.modes(derivatives);
     let block = |i: usize, j: usize| {
         let mut block = [[0.0; 2]; 2];
@@ -168,6 +169,7 @@ fn add(
         }
         block
     };
+    // Add the blocks in the order of the stencil, whose vertices increase.
     let mut order = [0, 1, 2];
     order.sort_unstable_by_key(|&i| vertices[i]);
     for (k, &i) in order.iter().enumerate() {
@@ -209,7 +211,7 @@ fn time_of_contact(edges: &[[u32; 2]], x: &[f64], direction: &[f64], reach: f64)
             .map(|(x, d)| x + horizon * d)
             .collect();
         let mut first = horizon;
-        // The boxes are a little larger than the way, so that rounding hides no contact.
+        // Enlarge the boxes a little, so that rounding hides no contact.
         near_pairs(edges, x, &to, 1e-6 * reach, |pair| {
             first = contact_before(first, pair.places(x), pair.places(&motion));
         });

@@ -3,7 +3,7 @@
 use super::CageError;
 use unwrapd_method::numerics::bounds::Bounds;
 
-/// Most voxels of the whole grid, kept or not: a byte and two indices each.
+/// Most voxels of the whole grid, kept or not: a byte and two indices each, 150 MB.
 const MOST_CELLS: usize = 1 << 24;
 
 /// The six orders of the axes. Each names a tetrahedron of the unit cube, in which coordinates decrease in that order:
@@ -44,10 +44,11 @@ impl Grid {
         if longest <= 0.0 || !longest.is_finite() {
             return Err(CageError::Empty);
         }
-        // 20 digits are enough for a side, and leave 32 for its multiples.
+        // 20 binary digits are enough for a side; of the 53 of an `f64` they leave 32 for its multiples.
         let exact = longest / f64::from(n.max(1));
         let unit = (exact.log2().floor() - 20.0).exp2();
         let side = (exact / unit).ceil() * unit;
+        // Add a layer on every side, and limit the number of voxels.
         let first = low.map(|x| (x / side).floor() - 1.0);
         let last = high.map(|x| (x / side).floor() + 2.0);
         let is_exact = first

@@ -27,7 +27,7 @@ use unwrapd_maps::mesh::{TetMesh, validate};
 use unwrapd_method::numerics::bounds::bounds_of;
 use voxels::Voxels;
 
-/// Most voxels that become tetrahedra.
+/// Most voxels that become tetrahedra: six million of these.
 const MOST_VOXELS: usize = 1_000_000;
 /// Number of a voxel or corner that is not part of the cage.
 const ABSENT: u32 = u32::MAX;
@@ -85,6 +85,8 @@ impl Cage {
         let mut vertex_of_corner = vec![ABSENT; grid.n_corners()];
         let (mut vertices, mut tets) = (Vec::new(), Vec::new());
         for at in grid.cells().filter(|&at| kept[grid.cell(at)]) {
+            // Cut the voxel into six tetrahedra: paths from its lowest corner to its highest, one for each order of the
+            // axes.
             voxel_of_cell[grid.cell(at)] = (tets.len() / 6) as u32;
             for (order, axes) in ORDERS.iter().enumerate() {
                 let mut tet = [0; 4];
@@ -93,6 +95,7 @@ impl Cage {
                     if step > 0 {
                         corner[axes[step - 1]] += 1;
                     }
+                    // Number a corner when a tetrahedron first uses it.
                     let vertex = &mut vertex_of_corner[grid.corner_number(corner)];
                     if *vertex == ABSENT {
                         *vertex = vertices.len() as u32;

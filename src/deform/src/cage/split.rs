@@ -10,7 +10,7 @@ use unwrapd_maps::mesh::validate;
 use unwrapd_method::numerics::vec3::{add_scaled, sub};
 
 /// Distance, in voxels, within which a vertex lies on a plane: above the rounding of f32, in which files store
-/// positions, so that no slivers without area are cut off.
+/// positions, so that no slivers without area are cut off: with 1e-9 some had a symmetric Dirichlet energy of 2e11.
 const SNAP: f64 = 1e-5;
 /// Most triangles of a split surface.
 const MOST_PIECES: usize = 20_000_000;

@@ -41,6 +41,7 @@ impl<'a> Voxels<'a> {
         // The grid has a layer around the surface, so that these are in range.
         let first = low.map(|x| (x - MARGIN).floor() as usize);
         let end = [0, 1, 2].map(|k| (high[k] + MARGIN).floor().min(last[k] as f64) as usize + 1);
+        // Halve the range along its longest side until single voxels are left that the triangle touches.
         let mut open = vec![[first, end]];
         while let Some([first, end]) = open.pop() {
             self.tests_left = self

@@ -178,6 +178,7 @@ impl<'a> Alpha<'a> {
 /// its most distant one, which are likely to be corners of the shape.
 fn simplified(vertices: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     let n = vertices.len();
+    // Start with the smallest vertex and the one farthest from it.
     let Some(first) = (0..n).min_by(|&a, &b| {
         let order = vertices[a][0].total_cmp(&vertices[b][0]);
         order.then(vertices[a][1].total_cmp(&vertices[b][1]))
@@ -194,6 +195,7 @@ fn simplified(vertices: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
         kept[far] = true;
         open.extend([(0, far), (far, n)]);
     }
+    // Divide each segment at the vertex farthest from it, unless that is within the tolerance.
     while let Some((from, to)) = open.pop() {
         let segment = [at(from), at(to)];
         let worst = (from + 1..to)

@@ -9,7 +9,7 @@ use unwrapd_maps::plane::{doubled_polygon_area, meeting_point};
 
 /// Most elements of a document.
 const MOST_NODES: u32 = 1_000_000;
-/// Deepest nesting of groups.
+/// Deepest nesting of groups: bounds the recursion.
 const DEEPEST: usize = 64;
 
 /// Settings for outlining a drawing.
@@ -230,8 +230,8 @@ impl PathParts {
         match element {
             PathEl::MoveTo(p) => self.begin(Some([p.x, p.y])),
             PathEl::LineTo(p) => self.current.push([p.x, p.y]),
-            // Flattened paths have no other elements than the end of a part. What follows begins where this part did, if it
-            // has no beginning of its own.
+            // Flattened paths have no other elements than the end of a part. What follows begins where this part did,
+            // if it has no beginning of its own.
             _ => {
                 let first = self.current.first().copied();
                 self.current.extend(first);

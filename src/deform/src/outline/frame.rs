@@ -5,10 +5,11 @@ use unwrapd_method::numerics::bounds::bounds_of;
 
 /// Steps of the grid of boundary vertices along the side of the frame.
 const STEPS: f64 = (1_u64 << 36) as f64;
-/// Upper limit of coordinates.
+/// Upper limit of coordinates: products of two stay finite.
 const LIMIT: f64 = 1e100;
 
-/// A square around an outline, to be moved to [1, 2]²: no coordinate there is too small or too large for exact predicates.
+/// A square around an outline, to be moved to [1, 2]²: no coordinate there is too small or too large for exact
+/// predicates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Frame {
     low: [f64; 2],

@@ -53,6 +53,7 @@ pub fn triangulate(outline: &Outline, settings: &MeshSettings) -> Result<PlanarM
     if !(0.0..=30.0).contains(&settings.smallest_angle) {
         return Err(OutlineError::InvalidSetting("smallest_angle"));
     }
+    // Find the largest area for the resolution.
     let area = outline.area();
     let largest = |n: usize| area / n as f64 / MEAN_TO_LARGEST;
     let (mut largest_area, wanted) = match settings.resolution {
@@ -67,6 +68,7 @@ pub fn triangulate(outline: &Outline, settings: &MeshSettings) -> Result<PlanarM
     if largest_area < largest(settings.most_triangles) {
         return Err(OutlineError::TooManyTriangles(settings.most_triangles));
     }
+    // Fill the outline; correct the area until the number of triangles is near enough.
     let mut mesh = fill(outline, largest_area, settings)?;
     for _ in 1..ATTEMPTS {
         let Some(wanted) = wanted else { break };
@@ -99,6 +101,7 @@ fn fill(
     if !refined.refinement_complete {
         return Err(OutlineError::TooManyTriangles(settings.most_triangles));
     }
+    // Collect the triangles inside, and number their vertices by first use.
     let outside: HashSet<_> = refined.excluded_faces.into_iter().collect();
     let mut vertex_of = vec![u32::MAX; triangulation.num_vertices()];
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());

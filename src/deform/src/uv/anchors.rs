@@ -91,6 +91,7 @@ pub(super) fn hold(
         if !at.iter().chain(&to).all(|x| x.abs() <= FARTHEST) {
             return Err(EditError::BadTarget(anchor));
         }
+        // Find the spot.
         let (spot, to) = match *which {
             Anchor::Vertex { vertex, to } => {
                 let vertex = only_vertex(mesh, map, vertices, anchor, vertex)?;
@@ -100,6 +101,7 @@ pub(super) fn hold(
                 place(map, vertices, at, to).ok_or(EditError::Outside(anchor))?
             }
         };
+        // Hold each spot once; anchors at one spot must agree on the target.
         match held.iter().find(|other| other.spot == spot) {
             None => held.push(Held { anchor, spot, to }),
             Some(same) if same.to == to => {}

@@ -57,6 +57,7 @@ impl FlatChart {
         &Held { anchor, spot, to }: &Held,
     ) -> Result<(), EditError> {
         let unknown = EditError::UnknownHandle(anchor);
+        // Find what the spot holds in this chart.
         let (at, grip) = match spot {
             Spot::Vertex(vertex) => {
                 // The vertex of a face left out of its chart is not there.
@@ -69,6 +70,7 @@ impl FlatChart {
                 (at, holds.grip(row))
             }
         };
+        // Pull it: a vertex beside the spot keeps its offset from it, a point needs none.
         match grip {
             Grip::Fixed if at == to => {}
             Grip::Fixed => return Err(EditError::OnBoundary(anchor)),

@@ -33,6 +33,7 @@ pub(super) struct UvMap {
 
 impl UvMap {
     pub fn new(mesh: &UvMesh) -> Self {
+        // Replace what is missing or not finite by zeros, so that all arrays are complete.
         let is_finite = |p: &[f64; 3]| p.iter().all(|x| x.is_finite());
         let finite = (mesh.positions.iter()).map(|p| if is_finite(p) { *p } else { [0.0; 3] });
         let (mut points, vertex_of) = weld(finite);
@@ -50,6 +51,7 @@ impl UvMap {
         let uvs: Vec<CornerUvs> = (unusable.iter().enumerate())
             .map(|(f, &bad)| if bad { [[0.0; 2]; 3] } else { mesh.uvs[f] })
             .collect();
+        // Join faces whose UVs agree, and find the charts and their winding.
         let joints = joints(points.len(), &faces, &uvs);
         let charts = Charts::new(&faces, &joints);
         Self {

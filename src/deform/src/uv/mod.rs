@@ -138,6 +138,7 @@ pub fn edit_uvs_from(
 ) -> Result<EditedUvs, EditError> {
     let map = UvMap::new(mesh);
     let vertices = UvVertices::new(&map);
+    // Group the anchors by chart.
     let mut held: BTreeMap<u32, Vec<Held>> = BTreeMap::new();
     for anchor in hold(mesh, &map, &vertices, anchors)? {
         let chart = match anchor.spot {
@@ -146,6 +147,7 @@ pub fn edit_uvs_from(
         };
         held.entry(chart).or_default().push(anchor);
     }
+    // Untangle and pull each of these charts.
     let positive = map.chart_orientations();
     let mut charts = Vec::new();
     let mut moved: BTreeMap<u32, [f64; 2]> = BTreeMap::new();

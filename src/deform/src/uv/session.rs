@@ -166,6 +166,7 @@ impl Editable for LiveUvs {
             let handles = grips.holds.handles(&chart.flat.body, &chart.flat.start)?;
             aims.push((grips, handles, !held.is_empty()));
         }
+        // Aim the charts whose handles have changed.
         for (chart, (grips, handles, is_held)) in self.charts.values_mut().zip(aims) {
             chart.is_held = is_held;
             if chart.live.problem().stations[0] != handles {

@@ -189,6 +189,7 @@ fn warp_grid(
     let scale =
         |places: &[[f64; 2]]| -> Vec<[f64; 2]> { places.iter().map(|&p| to_unit(p)).collect() };
     let body = Body::planar(&scale(grid.vertices()), grid.triangles());
+    // Hold the border, then let each handle take hold of its place.
     let mut holds = Holds::new(
         options
             .boundary
@@ -210,6 +211,7 @@ fn warp_grid(
             to_unit(handle.to),
         )?;
     }
+    // Pull, and convert back to pixels.
     let how = How {
         model: &options.model,
         search: options.search,

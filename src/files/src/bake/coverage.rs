@@ -6,7 +6,7 @@ use super::Corners;
 use super::triangle::nearest_on_edges;
 use crate::picture::{spans, steps};
 
-/// Rows per task.
+/// Rows per task. Fewer balance better, but more faces reach into several tasks.
 const BAND: usize = 64;
 /// Reach in texels: bilinear filtering at a point of a chart reads centers of texels less than √2 texels away.
 const REACH: f64 = 1.5;
@@ -33,6 +33,7 @@ impl Coverage {
             .iter()
             .map(|face| face.map(|uv| uv.map(|x| x * scale)))
             .collect();
+        // List the faces that reach into each band of rows.
         let mut bands: Vec<Vec<u32>> = vec![Vec::new(); side.div_ceil(BAND)];
         for (face, corners) in (0..).zip(&faces) {
             let [low, high] = extent(corners.map(|p| p[1]));
@@ -42,6 +43,7 @@ impl Coverage {
                 band.push(face);
             }
         }
+        // Cover the bands in parallel; each writes only its own texels.
         let mut texels = vec![EMPTY; side * side];
         texels
             .par_chunks_mut(BAND * side)

@@ -58,6 +58,7 @@ struct Resampling<'a> {
 impl Resampling<'_> {
     /// Computes the value of a texel: the mean over its square, which is cut off at the face if it lies at a border.
     fn texel(&self, [x, y]: [usize; 2]) -> Option<[u8; 4]> {
+        // Find the face of the texel and its place in the source.
         let face = self.coverage.at(x, y)?;
         let sampled = self.plane.faces[face as usize].as_ref()?;
         let reduced = &self.textures[sampled.texture as usize];
@@ -66,6 +67,7 @@ impl Resampling<'_> {
             .corners
             .map(|place| place.map(|x| x * reduced.scale));
         let triangle = Triangle::new(*self.coverage.corners(face))?;
+        // Average samples over the texel; at a border, those beside the face move to its nearest point.
         let is_interior = self.coverage.is_interior(x, y);
         let center = [x as f64 + 0.5, y as f64 + 0.5];
         let n = samples(&triangle.jacobian(&source), texture.is_nearest);
@@ -82,6 +84,7 @@ impl Resampling<'_> {
             sum = [0, 1, 2, 3].map(|c| sum[c] + value[c]);
         }
         let mut value = sum.map(|c| c / (n * n) as f32);
+        // Turn a direction from the old tangent frame to the new one.
         if let Some(frames) = &self.plane.frames {
             let [x, y, z, a] = value;
             let (weights, _) = triangle.nearest(center);
@@ -105,7 +108,7 @@ fn samples(jacobian: &[[f64; 2]; 2], is_nearest: bool) -> usize {
 
 // Reduction of repeating textures that are much finer than the target.
 
-/// Source texels per target texel, along a side, from which the source is halved.
+/// Source texels per target texel, along a side, from which the source is halved; at least two are left.
 const FINE: f64 = 4.0;
 /// Number of repetitions from which a texture is taken to have no chart borders that halving could mix.
 const REPEATS: f64 = 2.0;

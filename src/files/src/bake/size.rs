@@ -2,7 +2,7 @@
 
 use super::{Corners, Plane};
 
-/// Most texels of all new textures of a document: eight of 8192 × 8192.
+/// Most texels of all new textures of a document: eight of 8192 × 8192, 2 GiB.
 pub const MOST_TEXELS: u64 = 1 << 29;
 /// Smallest and largest side that are chosen automatically.
 const SIDES: [f64; 2] = [16.0, 4096.0];

@@ -66,6 +66,7 @@ pub struct BakePlane {
 impl BakePlane {
     /// Returns whether enlarged texels are shown without interpolation.
     pub fn is_nearest(&self) -> bool {
+        // `NEAREST` of WebGL, as glTF numbers filters.
         const NEAREST: usize = 9728;
         self.filters[0] == Some(NEAREST)
     }

@@ -204,7 +204,7 @@ impl Document {
         baked: Option<&BakedTextures>,
     ) -> Result<Written, DocumentError> {
         uvs.check(self.primitives())?;
-        // Where no UVs are written, what is said of those that there are stays.
+        // Without new UVs, the mark of the present ones stays.
         let is_new = uvs.corners.iter().any(Option::is_some);
         let mut written = match (self, options.format) {
             (Self::Gltf(document), _) => match if is_new { self.marked()? } else { Marked::Not } {

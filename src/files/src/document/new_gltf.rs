@@ -80,6 +80,7 @@ pub(super) fn document(
         }
         objects.push(object);
     }
+    // Read the result like any file, so that it passes the same checks.
     let upload = upload(parts, &objects, materials);
     Ok(New {
         document: GltfDocument::read(&upload)?,
@@ -158,6 +159,7 @@ impl GltfParts {
             let bounds = positions().reduce(|a, b| [0, 1, 2].map(|k| bound(a[k], b[k])));
             bounds.unwrap_or_default()
         };
+        // Positions have bounds, which glTF requires.
         let mut position = floats(n, "VEC3");
         position["min"] = json!(bound(f32::min));
         position["max"] = json!(bound(f32::max));
@@ -171,6 +173,7 @@ impl GltfParts {
             let bytes = little(uvs.iter().flatten().copied());
             attributes["TEXCOORD_0"] = self.push(bytes, 34962, floats(n, "VEC2"));
         }
+        // White everywhere is the default and needs no attribute.
         let colors = shape
             .colors
             .map(|colors| own.origins.iter().map(|&v| colors[v as usize]));
@@ -268,6 +271,7 @@ impl Vertices {
         let is_identity = of_file
             .last()
             .is_none_or(|last| *last as usize + 1 == of_file.len());
+        // Give the vertex to its first corner, and a copy to each corner that differs.
         let mut given: Vec<Option<GltfCorner>> = vec![None; of_file.len()];
         let mut copies: HashMap<(u32, CornerKey), u32> = HashMap::new();
         let mut origins = of_file.to_vec();

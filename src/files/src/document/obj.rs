@@ -97,6 +97,7 @@ impl ObjDocument {
             warnings: materials.warnings(),
             ..WriteNotes::default()
         };
+        // Rewrite the text with the new texture coordinates; without any it stays byte for byte.
         let text = match uvs.toward(0, VAxis::Up) {
             Some(corners) => {
                 let had_uvs = !self.obj.texcoords.is_empty();
@@ -123,6 +124,7 @@ impl ObjDocument {
             }
             None => self.bytes.clone(),
         };
+        // Put the material files and their pictures beside it.
         let mut files = vec![(format!("{}.obj", options.stem), text)];
         files.extend(materials.beside(&self.resources));
         Ok(Written { files, notes })

@@ -79,6 +79,7 @@ fn meshes(
     let mut meshes: Vec<NewMesh> = Vec::new();
     let mut of_objects = HashMap::new();
     let mut of_parts = HashMap::new();
+    // Open the mesh and the primitive of each part at its first triangle.
     for (face, part) in (0..).zip(parts_of_faces) {
         let mesh = *of_objects.entry(part.object).or_insert_with(|| {
             meshes.push(NewMesh {

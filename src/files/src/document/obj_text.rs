@@ -178,11 +178,13 @@ impl<'a> ObjFaces<'a> {
         let start = std::mem::replace(&mut self.n_corners, end);
         let polygon = &self.obj.corners[start..end];
         self.n_polygons += 1;
+        // A polygon without triangles has no texture coordinates.
         if polygon.len() < 3 {
             let corners = polygon.iter().map(|corner| (corner, None));
             push_face(text, corners, self.line_end);
             return;
         }
+        // Split the polygon where its triangles disagree.
         let triangles = self.n_triangles..self.n_triangles + polygon.len() - 2;
         self.n_triangles = triangles.end;
         let local = |triangle: &[u32; 3]| triangle.map(|corner| corner - start as u32);

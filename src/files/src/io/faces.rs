@@ -87,6 +87,7 @@ impl Faces {
         position: impl Fn(u32) -> (u32, [T; 3]),
     ) -> Result<(Vec<[u32; 3]>, Fanned), ReadError> {
         let mut triangles = self.triangles;
+        // Check the position of every corner.
         for &corner in triangles.as_flattened() {
             let (vertex, position) = position(corner);
             if !position.iter().all(|x| x.to_f64().is_finite()) {
@@ -95,6 +96,7 @@ impl Faces {
             }
         }
         let mut fanned = Fanned::default();
+        // Replace the fan of each polygon by triangles inside it.
         let (mut corners, mut positions, mut local) = (Vec::new(), Vec::new(), Vec::new());
         for polygon in self.polygons {
             let fan = &mut triangles[polygon.first..][..polygon.n_corners - 2];

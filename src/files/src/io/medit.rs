@@ -46,7 +46,7 @@ pub fn read(bytes: &[u8]) -> Result<Elements, ReadError> {
                 return Err(cursor.malformed("only triangles and tetrahedra are supported"));
             }
             _ if word.starts_with(b"#") => cursor.end_line(),
-            // The numbers of a section that is passed over, or its keyword.
+            // The keyword or a number of a skipped section.
             _ => {}
         }
     }

@@ -16,6 +16,7 @@ pub(super) const NO_VALUE: Rgb = [176, 176, 176];
 /// Returns the muted fill of a chart: similar lightness, hues spread by the golden angle so that neighbors in number
 /// differ.
 pub(super) fn chart(id: u32) -> Rgb {
+    // (√5 − 1)/2 of a turn: the golden angle, the other way around.
     const GOLDEN_TURN: f64 = 0.618_033_988_749_894_9;
     let turn = (0.58 + GOLDEN_TURN * f64::from(id)).fract();
     let lightness = [0.84, 0.78, 0.88][id as usize % 3];

@@ -82,6 +82,7 @@ fn ticks(ink: &mut Lines, scale: &Scale, bar: [f64; 2], y: f64, letters: f64) {
             continue;
         }
         let x = bar[0] + scale.position(tick) * (bar[1] - bar[0]);
+        // The last number stands for everything beyond it, too.
         let at_end = tick >= scale.greatest * (1.0 - 1e-9);
         let number = if at_end {
             format!("≥{tick}")
@@ -96,6 +97,7 @@ fn ticks(ink: &mut Lines, scale: &Scale, bar: [f64; 2], y: f64, letters: f64) {
         } else {
             number
         };
+        // Leave out a number that would touch the one to its right or the one at the left end.
         let half = 0.5 * text::width(&number, letters);
         if x + half + letters > free
             || (tick > scale.ideal && x - half - letters < bar[0] + letters)

@@ -6,7 +6,7 @@ use std::io::Cursor;
 
 /// Largest file, in bytes: photographs take a tenth of it.
 const MOST_FILE_BYTES: usize = 64 << 20;
-/// Most pixels of a picture; more are refused before decoding.
+/// Most pixels of a picture, 400 MB at 8 bits per channel; more are refused before decoding.
 const MOST_PIXELS: u64 = 100_000_000;
 /// Most bytes that a decoder may allocate: the picture at 16 bits per channel, and the same again.
 const MOST_BYTES: u64 = 16 * MOST_PIXELS;

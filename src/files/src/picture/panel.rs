@@ -95,6 +95,7 @@ pub(super) struct Style<'a> {
 fn square(panel: &Panel, pixels: usize, v_axis: VAxis, style: &Style) -> Canvas {
     let frame = PanelFrame::new(panel.uvs);
     let place = |face: &CornerUvs| face.map(|uv| frame.pixel(uv, pixels, v_axis));
+    // Fill the faces, flipped ones last so that they are seen.
     let mut raster = Raster::new(pixels);
     let is_flipped = |face: usize| panel.distortion.get(face).is_some_and(|d| d.flipped);
     for flipped in [false, true] {
@@ -112,12 +113,14 @@ fn square(panel: &Panel, pixels: usize, v_axis: VAxis, style: &Style) -> Canvas 
         }
     }
     let mut canvas = raster.canvas();
+    // Draw the borders of charts.
     let mut borders = Lines::new(&canvas);
     for [a, b] in border_edges(panel.uvs) {
         let [a, b] = [a, b].map(|uv| frame.pixel(uv, pixels, v_axis));
         borders.segment(a, b, border_thickness(pixels));
     }
     canvas.ink(&borders, INK, 0.9);
+    // Draw the unit square if UVs leave it.
     if !frame.is_unit {
         let mut unit = Lines::new(&canvas);
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

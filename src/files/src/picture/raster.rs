@@ -5,11 +5,12 @@ use std::ops::Range;
 use super::canvas::Canvas;
 use super::color::{BACKGROUND, INK, OVERLAP, Rgb, mix};
 
-/// Steps of a corner's coordinates per sample.
+/// Steps of a corner's coordinates per sample: 8 bits, the subpixel precision of graphics hardware.
 const STEPS: i64 = 256;
-/// Largest coordinate of corners after clamping, in samples: products of two differences stay exact.
+/// Largest coordinate of corners after clamping, in samples: 2²⁸ steps, so that products of two differences fit 58
+/// bits.
 const FARTHEST: f64 = (1 << 20) as f64;
-/// Most samples along a side; bounds the memory of a picture.
+/// Most samples along a side; bounds the memory of a picture to 67 MB.
 const MOST_SAMPLES: usize = 4096;
 /// Thickness of the line between two faces, in pixels.
 const EDGE_PIXELS: f64 = 0.8;
@@ -204,7 +205,7 @@ impl RowDistances {
             let side = (first + middle * step).signum();
             let (first, step) = (side * first, side * step);
             let crossing = (least - first) / step;
-            // A sample to spare: rounding may not decide.
+            // Spare one sample, so that rounding does not decide.
             if step > 0.0 {
                 low = low.max(crossing.ceil() + 1.0);
             } else if step < 0.0 {

@@ -10,9 +10,10 @@ use super::raster::{spans, steps};
 use super::{Image, ImageError};
 use unwrapd_method::numerics::vec2::{cross, sub};
 
-/// Most samples per pixel; stronger shrinking in one direction only is undersampled.
+/// Most samples per pixel, the usual limit of anisotropic filtering; stronger shrinking in one direction only is
+/// undersampled.
 const MOST_SAMPLES: f64 = 16.0;
-/// Longest side of a warped picture, and most pixels in it.
+/// Longest side of a warped picture, and most pixels in it: as many as a picture that is read may have.
 const LONGEST: f64 = 65_536.0;
 const MOST_PIXELS: f64 = 1e8;
 
@@ -60,6 +61,7 @@ pub fn warped(
     }
     let mut mipmaps = Mipmaps::new(image);
     let shift = origin.map(|x| x as f64);
+    // Map each pixel of a triangle back to its rest shape, and sample the picture there.
     for triangle in deformation.triangles {
         let from = triangle.map(|v| deformation.rest[v as usize]);
         let to = triangle.map(|v| sub(deformation.deformed[v as usize], shift));

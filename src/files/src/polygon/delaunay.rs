@@ -35,6 +35,7 @@ pub(super) fn fill(points: &[[f64; 2]], triangles: &mut Vec<[u32; 3]>) -> Option
     let (sites, site_of) = sites(points);
     let mut cdt = Cdt::bulk_load(sites).ok()?;
     let sides = add_sides(&mut cdt, &site_of)?;
+    // Find the corner of each side. Two sides on one directed edge are not simple.
     let mut side_of = vec![NONE; cdt.num_directed_edges()];
     for (k, side) in sides.iter().enumerate() {
         if std::mem::replace(&mut side_of[side.index()], k as u32) != NONE {
@@ -50,6 +51,7 @@ pub(super) fn fill(points: &[[f64; 2]], triangles: &mut Vec<[u32; 3]>) -> Option
             return None;
         }
     }
+    // Keep the triangles inside, which have a corner at each of their edges; those outside have none.
     let mut n_triangles = 0;
     for face in cdt.inner_faces() {
         let corners = face
@@ -71,7 +73,7 @@ pub(super) fn fill(points: &[[f64; 2]], triangles: &mut Vec<[u32; 3]>) -> Option
 fn sites(points: &[[f64; 2]]) -> (Vec<Site>, Vec<usize>) {
     let mut order: Vec<usize> = (0..points.len()).collect();
     let position = |k: usize| {
-        // What is too small to be computed with is 0 here; adding 0 takes the sign off a zero.
+        // Numbers too small to compute with become 0; adding 0 removes the sign of a zero.
         let [x, y] = points[k].map(|x| x + 0.0);
         spade::mitigate_underflow(Point2::new(x, y))
     };

@@ -135,14 +135,17 @@ impl<const D: usize> BoxTree<D> {
             let Some((bound, a, b)) = stack.pop() else {
                 return (best, Visit::Complete);
             };
+            // Skip pairs that are too far apart, and nodes of one group.
             if bound >= best || (group_of[a].is_some() && group_of[a] == group_of[b]) {
                 continue;
             }
+            // Compare the items of two leaves.
             if a >= leaves {
                 best =
                     self.closest_in_leaves([a - leaves, b - leaves], groups, best, &mut distance);
                 continue;
             }
+            // Go down to the children of both nodes.
             let from = stack.len();
             stack.extend(
                 children(a, b).map(|(a, b)| (box_distance(&self.nodes[a], &self.nodes[b]), a, b)),

@@ -1,6 +1,7 @@
 //! Coordinates as integers, so that distances and moves are compared without rounding.
 
-/// Bits of the unit: integer coordinates count multiples of 2⁻⁴⁰.
+/// Bits of the unit: integer coordinates count multiples of 2⁻⁴⁰. Fine enough that `f32` coordinates from 2⁻¹⁷ on are
+/// exact, coarse enough for products in `i128`.
 pub(super) const UNIT_BITS: u32 = 40;
 
 /// A point in these units.

@@ -10,7 +10,8 @@ use super::fixed::{Fixed, UNIT_BITS, cross, difference, dot, fixed, is_exact, pr
 use crate::mesh::Resolution;
 use serde::Serialize;
 
-/// Coordinates from here on are not judged: their products would not fit.
+/// Coordinates from here on are not judged: cross products of 2¹⁰ · 2⁴⁰ units reach 2¹⁰³, and their products with the
+/// resolution must fit 128 bits.
 const LIMIT: f64 = 1024.0;
 
 /// Verdict on the requested distance between charts, decided in integers.
@@ -51,6 +52,7 @@ pub(super) fn judge_padding(boundary: &ChartBoundary, padding: Padding) -> Paddi
     if points().flatten().any(|x| x.abs() >= LIMIT) {
         return verdict;
     }
+    // Find the pairs of charts that are too close.
     let bound = PaddingBound::new(padding.texels, side, points().all(is_exact));
     let distance = f64::from(padding.texels) / f64::from(side);
     let mut too_close = BTreeSet::new();
@@ -69,6 +71,7 @@ pub(super) fn judge_padding(boundary: &ChartBoundary, padding: Padding) -> Paddi
     });
     verdict.pairs_too_close = too_close.len();
     verdict.kept = too_close.is_empty() && visit == Visit::Complete;
+    // Measure the smallest distance for the report.
     let (gap, complete) = boundary.closest();
     verdict.reached_texels =
         (complete == Visit::Complete && gap.is_finite()).then(|| gap * f64::from(side));

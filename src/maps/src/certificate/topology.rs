@@ -4,7 +4,8 @@ use super::edges::{Halfedge, Start, UvEdges, halfedge};
 use crate::mesh::{CornerUvs, VAxis};
 use unwrapd_method::numerics::predicates::orient2d_sign;
 
-/// Tolerance for equal UVs at an edge's ends, as a share of the UV extent.
+/// Tolerance for equal UVs at an edge's ends, as a share of the UV extent: just less than a step of the grid that is
+/// written here, 2⁻²³ = 1.2e-7 of a page.
 const UV_TOLERANCE: f64 = 1e-7;
 
 /// The topology of a mesh in UV space.
@@ -214,6 +215,7 @@ impl Charts {
             reversed: vec![false; n_faces],
             contradiction: vec![false; n_faces],
         };
+        // Join linked faces; a link that contradicts the winding marks its tree.
         for link in links {
             forest.join(&link);
         }

@@ -72,11 +72,13 @@ pub fn distances_until(
     let mut distance = vec![f64::INFINITY; n];
     let mut arrival = vec![CUT; n];
     let mut queue = BinaryHeap::new();
+    // Start from all sources at once.
     for vertex in sources {
         distance[vertex as usize] = 0.0;
         queue.push(QueueEntry { key: 0.0, vertex });
     }
     while let Some(QueueEntry { key, vertex }) = queue.pop() {
+        // Skip an entry that a shorter path has replaced.
         if key > distance[vertex as usize] {
             continue;
         }

@@ -5,7 +5,7 @@ use super::distances::{Distances, Neighbors, distances};
 use crate::mesh::{CUT, Edges, Surface, UnionFind, next, origin, same_direction};
 use unwrapd_method::numerics::vec3::distance;
 
-/// Most pairs of faces at one edge that are compared.
+/// Most pairs of faces at one edge that are compared: 64 faces in each direction.
 const MOST_PAIRS: usize = 4096;
 
 /// Joins the disks of each component of a surface to one, at edges that both disks have and neither has used.

@@ -42,7 +42,7 @@ fn boundary_loops(sheet: &Sheet) -> usize {
 /// Most roots tried for the first loop of a closed sheet; large sheets get fewer.
 const MOST_ROOTS: usize = 12;
 
-/// Budget for trying roots: halfedges times roots.
+/// Budget for trying roots: halfedges times roots. Up to 166,000 halfedges all roots are tried, from a million on two.
 const ROOT_BUDGET: usize = 2_000_000;
 
 /// Returns the edges of a cut graph: cutting them makes a sheet a disk that has the holes of the sheet (merged where
@@ -56,6 +56,7 @@ const ROOT_BUDGET: usize = 2_000_000;
 pub fn cut_graph(sheet: &Sheet, neighbors: &Neighbors) -> Vec<u32> {
     let holes = Holes::new(sheet);
     let mut cut = vec![false; sheet.twin.len()];
+    // Root the graph in a hole; in a closed sheet, in a vertex with a short loop.
     let mut on_cut = vec![false; sheet.positions.len()];
     let root = holes
         .root
@@ -67,6 +68,7 @@ pub fn cut_graph(sheet: &Sheet, neighbors: &Neighbors) -> Vec<u32> {
         if loops.is_empty() {
             break;
         }
+        // Cut half of the loops, together with their paths back to the cut; in the first round only one loop.
         let taken = if first { 1 } else { loops.len().div_ceil(2) };
         for &h in &loops[..taken] {
             cut[h as usize] = true;
@@ -76,6 +78,7 @@ pub fn cut_graph(sheet: &Sheet, neighbors: &Neighbors) -> Vec<u32> {
                 }
             }
         }
+        // The first loop becomes the root: drop the path that led to it.
         if first && holes.root.is_none() {
             prune(sheet, neighbors, &mut cut);
             on_cut[root as usize] = false;
@@ -87,6 +90,7 @@ pub fn cut_graph(sheet: &Sheet, neighbors: &Neighbors) -> Vec<u32> {
             }
         }
     }
+    // Drop dead ends and return the edges that were not open already.
     prune(sheet, neighbors, &mut cut);
     sheet
         .edges()
@@ -151,10 +155,12 @@ fn shortest_loops(
     on_cut: &[bool],
     cut: &[bool],
 ) -> (Distances, Vec<u32>) {
+    // Find the distances from the cut, where edges that are open already cost nothing.
     let free = |h: u32| cut[h as usize] || sheet.twin[h as usize] == CUT;
     let sources = (0u32..).zip(on_cut).filter(|(_, on)| **on).map(|(v, _)| v);
     let length = |h: u32| if free(h) { 0.0 } else { sheet.length(h) };
     let from_cut = distances(sheet, neighbors, sources, length);
+    // Leave out the edges of the shortest paths.
     let mut in_tree = cut.to_vec();
     for &h in from_cut.arrival.iter().filter(|&&h| h != CUT) {
         in_tree[h as usize] = true;
@@ -167,8 +173,10 @@ fn shortest_loops(
             (a + b + length(h), h)
         })
         .collect();
+    // Span the faces by a tree that prefers the edges with the longest paths back.
     candidates.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let mut faces = UnionFind::new(sheet.triangles.len() + holes.count);
+    // The edges in neither tree close loops.
     let mut loops: Vec<u32> = candidates
         .into_iter()
         .filter(|&(_, h)| !faces.unite(h / 3, holes.across(sheet, h)))
@@ -186,6 +194,7 @@ fn best_root(sheet: &Sheet, neighbors: &Neighbors, holes: &Holes) -> u32 {
     let mut best = (f64::INFINITY, 0);
     let uncut = vec![false; sheet.twin.len()];
     let mut root = sheet.outermost(|_| true).unwrap_or(0);
+    // Try roots spread over the sheet, and keep the one with the shortest loop.
     for _ in 0..n_roots {
         on_cut[root as usize] = true;
         let (from_root, loops) = shortest_loops(sheet, neighbors, holes, &on_cut, &uncut);
@@ -197,6 +206,7 @@ fn best_root(sheet: &Sheet, neighbors: &Neighbors, holes: &Holes) -> u32 {
                 best = (length, root);
             }
         }
+        // Continue with the vertex farthest from all roots so far.
         candidates.push(root);
         let spread = distances(sheet, neighbors, candidates.iter().copied(), |h| {
             sheet.length(h)

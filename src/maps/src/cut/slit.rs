@@ -36,6 +36,7 @@ pub fn slits(
 }
 
 fn slit(sheet: &Sheet, neighbors: &Neighbors, branches: Branches, [a, b]: [u32; 2]) -> Vec<u32> {
+    // Cut the shortest path between the two ends; a slit has at least two edges.
     let from_a = distances(sheet, neighbors, [a], |h| sheet.length(h));
     let mut edges: Vec<u32> = from_a.path(sheet, b).collect();
     let mut on_slit = vec![false; sheet.positions.len()];
@@ -45,6 +46,7 @@ fn slit(sheet: &Sheet, neighbors: &Neighbors, branches: Branches, [a, b]: [u32; 
         edges.extend(continuation(sheet, neighbors, b, &on_slit));
         mark_ends(sheet, &edges, &mut on_slit);
     }
+    // Add branches to the farthest vertices, as long as one is too far from the slit.
     let reach = FAR * area(sheet).sqrt();
     let most = match branches {
         Branches::ToLimbs => MOST_BRANCHES,
@@ -95,7 +97,7 @@ fn area(sheet: &Sheet) -> f64 {
 
 // Pairs of vertices that are far apart.
 
-/// Most vertices whose farthest vertices are searched.
+/// Most vertices whose farthest vertices are searched: each costs one pass over the sheet.
 const MOST_ENDS: usize = 5;
 
 /// Returns at most `most` different pairs of vertices, the second the farthest from the first; `is_end` holds for both.
@@ -119,11 +121,13 @@ pub fn far_pairs(
     };
     let mut nearest = vec![f64::INFINITY; sheet.positions.len()];
     let mut pairs: Vec<[u32; 2]> = Vec::new();
+    // Begin at the vertex that is farthest from an outermost one.
     let mut next = (sheet.outermost(is_end)).and_then(|start| farthest(&from(start)));
     for _ in 0..MOST_ENDS {
         let Some(a) = next.filter(|_| pairs.len() < most) else {
             break;
         };
+        // Pair the vertex with the one farthest from it.
         let from_a = from(a);
         if let Some(b) = farthest(&from_a)
             && !pairs.contains(&[a, b])
@@ -131,6 +135,7 @@ pub fn far_pairs(
         {
             pairs.push([a, b]);
         }
+        // Continue with the vertex farthest from all first ones so far.
         for (nearest, from_a) in nearest.iter_mut().zip(from_a) {
             *nearest = nearest.min(from_a);
         }

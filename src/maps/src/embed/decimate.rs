@@ -31,7 +31,8 @@ pub(super) enum Care {
     Topology,
 }
 
-/// Least quality of a new triangle, unless there was a worse one; 1 is equilateral.
+/// Least quality of a new triangle, unless there was a worse one; 1 is equilateral. Higher values keep better shapes
+/// but end the decimation earlier.
 const LEAST_QUALITY: f64 = 0.08;
 
 /// Most neighbors that two vertices may have together for one to be collapsed onto the other, which will then have four
@@ -98,6 +99,7 @@ impl<'a> Decimation<'a> {
 
     fn pass(&mut self, left: &[u32], surplus: usize, care: Care, collapses: &mut Collapses) {
         let mut ring = Ring::default();
+        // Order the vertices by the shape that is lost without them.
         let mut order: Vec<(f64, u32)> = Vec::with_capacity(left.len());
         for &v in left {
             self.locked[v as usize] = false;
@@ -106,6 +108,7 @@ impl<'a> Decimation<'a> {
         }
         order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut surplus = surplus;
+        // Collapse the cheapest ones, and lock their rings until the next pass.
         for (_, v) in order {
             if surplus == 0 {
                 return;

@@ -33,18 +33,19 @@ const COARSEST: usize = 60;
 /// Vertices of the coarsest level if only topology counts: Tutte's map of a handful of vertices is exact enough.
 const FEWEST: usize = 8;
 
-/// Share of vertices that a level keeps.
+/// Share of vertices that a level keeps. A smaller share makes fewer levels, each farther from the next.
 const SHARE: f64 = 0.3;
 
 /// Weight of the triangles that fill holes, as a share of the weight of their area: just enough to keep holes open.
 const VIRTUAL_WEIGHT: f64 = 1e-3;
 
 /// Sweeps after the vertices of a level are back. Four halve the factorizations on the finest level, compared with one
-/// or two.
+/// or two: on a prototype, bimba_89k took 6, 4, 3 and 2 with 0, 1, 2 and 4 sweeps.
 const SWEEPS: usize = 4;
 
 /// Most Newton steps times vertices on a level, but never fewer than [`LEAST_STEPS`] steps: small levels get all the
-/// steps they want, large ones the few they need if the coarser ones are good.
+/// steps they want, large ones the few they need if the coarser ones are good. 2,000 vertices get 100 steps, 40,000
+/// and more get five.
 const STEP_BUDGET: usize = 200_000;
 
 /// Least number of steps per level; see [`STEP_BUDGET`].
@@ -78,13 +79,16 @@ pub(super) fn coarse_to_fine(
     let shape = DiskShape { positions, least };
     let mut decimation = Decimation::new(positions, &closed.triangles, closed.n_real);
     let mut levels = Vec::new();
+    // Coarsen as far as the shape allows, and map the coarsest level.
     coarsen(&mut decimation, COARSEST, Care::Shape, &mut levels);
     let mut coarsest = coarsest_map(closed, &decimation, &shape);
+    // If Tutte's map squeezed it beyond recovery, coarsen on to a handful of vertices.
     if coarsest.as_ref().is_none_or(|map| map.mean_energy >= FAR) {
         coarsen(&mut decimation, FEWEST, Care::Topology, &mut levels);
         coarsest = coarsest_map(closed, &decimation, &shape);
     }
     let mut uv = coarsest?.uv;
+    // Put the vertices back, level by level. The caller optimizes the finest level with its own energy.
     while let Some(level) = levels.pop() {
         reinsert(&level.collapses, &shape, &mut uv).ok()?;
         let system = System::new(&level.triangles, closed.n_real, &shape);

@@ -20,7 +20,8 @@ pub enum Pins {
     Two,
 }
 
-/// Most corners of a convex hull that are compared with each other; of more, as on a circle, every k-th is enough.
+/// Most corners of a convex hull that are compared with each other, two million pairs; of more, as on a circle, every
+/// k-th is enough.
 const MOST_CORNERS: usize = 2_048;
 
 /// Returns the two vertices of a loop that are farthest apart in a map. O(n log n).

@@ -41,7 +41,7 @@ impl Problem<'_> {
 
     /// Scales the map to the size of lowest energy.
     pub fn at_best_size(&self, uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
-        // To a mean area of 1: the search then starts near its end, whatever unit the map was in.
+        // Scale to a mean area of 1 first: the search then starts near its end in any unit of the map.
         let area = total_area(&self.disk.triangles, uv).abs();
         let mean_area = area.max(f64::MIN_POSITIVE) / self.rest.shapes.len() as f64;
         let uv = scaled(uv, power_of_two(1.0 / mean_area.sqrt()));

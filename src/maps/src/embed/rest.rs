@@ -64,6 +64,7 @@ pub fn rest_shapes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RestShapes
     let measures: Vec<RestMeasure> = (triangles.iter().zip(longest_edges))
         .map(|(t, (first, length))| RestMeasure::along(relative(t), first, length / longest))
         .collect();
+    // Find the least size and aspect, relative to the whole chart.
     let aspect = least_aspect(&measures);
     let size = (measures.iter())
         .map(|m| m.area.max(0.5 * aspect * m.length * m.length))
@@ -73,6 +74,7 @@ pub fn rest_shapes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RestShapes
         size: SMALLEST_SIZE * size,
         aspect,
     };
+    // Make the shapes, then scale them to a mean area of 1.
     let measured = triangles.iter().zip(&measures);
     let mut shapes: Vec<_> = measured
         .map(|(t, measure)| measure.rest_shape(relative(t), least))

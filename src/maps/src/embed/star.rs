@@ -15,10 +15,10 @@ const MOST_STEPS: usize = 30;
 /// instead of six (camelhead), fifteen instead of two (bimba_89k).
 const WORTH_ANOTHER: f64 = 0.02;
 
-/// Most halvings before a vertex stays in place.
+/// Most halvings before a vertex stays in place: a step shorter than 2⁻⁸ would hardly move it.
 const MAX_HALVINGS: usize = 8;
 
-/// Least curvature, as a share of the greatest.
+/// Least curvature, as a share of the greatest: keeps steps along flat directions finite.
 const FLATTEST: f64 = 1e-9;
 
 /// Rest shape of a triangle in the form that its energy needs: ½·weight·‖J‖² = Σ edgesᵢ |edge opposite to corner i|²,

@@ -59,6 +59,7 @@ impl Triangulation {
             stamp: 0,
             corners,
         };
+        // Glue the edges that two triangles share.
         let mut edges: Vec<(u32, u32, u32)> = (0..triangulation.corners.len() as u32)
             .map(|h| {
                 let (a, b) = (triangulation.origin(h), triangulation.origin(next(h)));
@@ -71,6 +72,7 @@ impl Triangulation {
                 triangulation.glue(g, h);
             }
         }
+        // Choose a halfedge that leaves each vertex; at the boundary the one without an opposite.
         for h in 0..triangulation.corners.len() as u32 {
             let v = triangulation.origin(h) as usize;
             if triangulation.leaving[v] == NONE || triangulation.opposite[h as usize] == NONE {

@@ -11,7 +11,8 @@ use unwrapd_method::numerics::vec3::{area_vector, distance, dot, norm, sub};
 /// hundred triangles.
 const SAME: f64 = 1e-5;
 
-/// Least distance of the boundary from itself, as a share of the disk's extent.
+/// Least distance of the boundary from itself, as a share of the disk's extent: nearer parts could touch once
+/// coordinates are rounded to `f32`.
 const APART: f64 = 1e-6;
 
 /// Unrolls the disk into the plane, in its own unit; returns `None` if that changes the length of an edge, or the
@@ -52,6 +53,7 @@ fn laid_down(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
     let mut uv: Vec<Option<[f64; 2]>> = vec![None; disk.n_vertices];
     let mut is_laid = vec![false; disk.triangles.len()];
     let mut open = BinaryHeap::new();
+    // Lay the longest edge along the first axis.
     let longest = (0..3 * disk.triangles.len() as u32)
         .map(|h| (length(disk, positions, h), h))
         .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
@@ -59,6 +61,7 @@ fn laid_down(disk: &Disk, positions: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
     uv[origin(&disk.triangles, first) as usize] = Some([0.0, 0.0]);
     uv[origin(&disk.triangles, next(first)) as usize] = Some([length_of_first, 0.0]);
     let mut halfedge = first;
+    // Lay one triangle after another, across the longest open edge first.
     loop {
         if !std::mem::replace(&mut is_laid[halfedge as usize / 3], true) {
             lay(disk, positions, halfedge, &mut uv)?;

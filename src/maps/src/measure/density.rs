@@ -26,6 +26,7 @@ impl Density {
         if !(0..topology.faces.len()).any(has_area) {
             return Density::default();
         }
+        // Collect the density of each chart, weighted by its surface area.
         let scale = faces.area_scale().sqrt();
         let densities: Vec<(f64, f64)> = faces
             .charts
@@ -36,6 +37,7 @@ impl Density {
                 (density, chart.area_3d)
             })
             .collect();
+        // Compute mean and variance, then percentiles.
         let weight: f64 = densities.iter().map(|(_, w)| w).sum();
         let mean = densities.iter().map(|(d, w)| d * w).sum::<f64>() / weight;
         let variance = densities

@@ -32,11 +32,13 @@ impl Gaps {
         if real < 2 || boundary.edges.is_empty() {
             return Gaps::default();
         }
+        // Measure relative to the unit square or, if UVs leave it, to their extent.
         let side = if in_unit_square(topology, aspect) {
             1.0
         } else {
             topology.extent()
         };
+        // Look for charts within a texel of 1024; if there are none, search for the closest pair anywhere.
         let (nearest, visit) = nearest_charts(&boundary, faces.charts.len(), side / 1024.0);
         let within = nearest.iter().copied().fold(f64::INFINITY, f64::min);
         let (gap, visit) = if within.is_finite() || visit == Visit::Truncated {

@@ -61,7 +61,7 @@ pub struct MeasureOptions<'a> {
 }
 
 impl MeasureOptions<'_> {
-    /// Largest raster; beyond it a scan line's products would not fit an i64.
+    /// Largest raster: with 16 bits per texel its coordinates have 30 bits, and a scan line's sums of two products 62.
     pub const MAX_RASTER: u32 = 1 << 14;
 }
 

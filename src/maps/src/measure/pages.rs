@@ -17,7 +17,7 @@ pub struct Page {
     pub fill: f64,
 }
 
-/// Most tiles in a row, and most rows: their numbers have four digits.
+/// Most tiles in a row, and most rows: their numbers, 1001 + u + 10 v, have four digits.
 const TILES: i64 = 10;
 const ROWS: i64 = 899;
 
@@ -30,6 +30,7 @@ pub(super) fn pages(
     aspect: f64,
     up: impl Fn(f64) -> f64,
 ) -> Vec<Page> {
+    // Find the bounds of each chart.
     let mut bounds = vec![[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; faces.charts.len()];
     for (corners, &chart) in topology.uvs.iter().zip(&topology.charts.of_face) {
         let [low, high] = &mut bounds[chart as usize];
@@ -40,6 +41,7 @@ pub(super) fn pages(
             }
         }
     }
+    // Count each chart on the page that holds the middle of its bounds.
     let mut pages: BTreeMap<u32, (usize, f64)> = BTreeMap::new();
     for (chart, [low, high]) in faces.charts.iter().zip(bounds) {
         let middle = [0, 1].map(|axis| f64::midpoint(low[axis], high[axis]));

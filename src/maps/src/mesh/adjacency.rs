@@ -5,7 +5,7 @@ use super::spread::spread;
 use super::{CUT, UnionFind, next, origin, same_direction};
 use unwrapd_method::numerics::vec3::{add_scaled, dot, sub, unit};
 
-/// Most faces on one edge that are paired by angle (which compares all pairs); more are paired in file order.
+/// Most faces on one edge that are paired by angle, which compares all 2,016 pairs; more are paired in file order.
 const MOST_FACES_COMPARED: usize = 64;
 
 /// Halfedges of a triangle list, glued in pairs.
@@ -40,6 +40,7 @@ impl Adjacency {
         let mut components = UnionFind::new(n_faces);
         let mut n_nonmanifold_edges = 0;
         let ranks = copy_ranks(triangles, edges);
+        // Glue edges with two faces; pair the faces of edges with more.
         for edge in edges.iter() {
             for h in &edge[1..] {
                 components.unite(edge[0] / 3, h / 3);
@@ -51,6 +52,7 @@ impl Adjacency {
                 pair_fan(positions, triangles, &ranks, edge, &mut twin);
             }
         }
+        // Label pieces and components, and wind each piece consistently.
         let (piece, n_pieces) = pieces(&twin);
         let (component, n_components) = components.labels();
         let turned = consistent_winding(triangles, &twin);
@@ -167,6 +169,7 @@ fn pair_fan(
     edge: &[u32],
     twin: &mut [u32],
 ) {
+    // Too many to compare: pair the faces that run in opposite directions in file order.
     if edge.len() > MOST_FACES_COMPARED {
         let (forth, back): (Vec<u32>, Vec<u32>) = edge
             .iter()
@@ -180,11 +183,12 @@ fn pair_fan(
         .iter()
         .map(|&h| away_from_edge(positions, triangles, h))
         .collect();
+    // Rank the pairs: consistent winding first, then the flatter bend, then copies of equal rank.
     let mut pairs = Vec::new();
     for j in 1..edge.len() {
         for i in 0..j {
-            // 0 where the two faces continue each other, 2·10⁶ where one is folded back onto the other. Rounded, so that
-            // copies of a face score the same.
+            // 0 where the two faces continue each other, 2·10⁶ where one is folded back onto the other. Rounded, so
+            // that copies of a face score the same.
             let bend = ((1.0 + dot(directions[i], directions[j])) * 1e6).round() as i64;
             let inconsistent = same_direction(triangles, edge[i], edge[j]);
             let mixed = ranks[edge[i] as usize / 3] != ranks[edge[j] as usize / 3];
@@ -192,6 +196,7 @@ fn pair_fan(
         }
     }
     pairs.sort_unstable();
+    // Glue greedily; a face left over stays cut open.
     for (_, _, _, i, j) in pairs {
         let (a, b) = (edge[i], edge[j]);
         if twin[a as usize] == CUT && twin[b as usize] == CUT {

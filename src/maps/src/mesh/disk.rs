@@ -6,7 +6,8 @@ use thiserror::Error;
 
 /// Triangles that form one connected, oriented, manifold surface of genus 0 with at least one boundary loop.
 ///
-/// The fields are public to be read; a `Disk` made by [`Disk::new`] is proven, and everything that maps disks relies on the proof.
+/// The fields are public to be read; a `Disk` made by [`Disk::new`] is proven, and everything that maps disks relies on
+/// the proof.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Disk {
     /// Number of vertices; each of `0..n_vertices` is used by a triangle.
@@ -182,7 +183,7 @@ fn check_umbrellas(
     opposite: &[u32],
 ) -> Result<(), NotADisk> {
     let mut n_corners = vec![0_u32; n_vertices];
-    // Where turning starts: at the boundary halfedge that leaves the vertex, else anywhere.
+    // Turning starts at the boundary halfedge that leaves the vertex, else anywhere.
     let mut first = vec![CUT; n_vertices];
     for (h, &across) in opposite.iter().enumerate() {
         let v = ends(triangles, h).0 as usize;
@@ -191,6 +192,7 @@ fn check_umbrellas(
             first[v] = h as u32;
         }
     }
+    // Turn around each vertex and count the corners reached.
     for (v, &start) in first.iter().enumerate() {
         let mut h = start as usize;
         let mut n_reached = 1;

@@ -33,6 +33,7 @@ impl Edges {
             (a.min(b), a.max(b))
         };
         let n = 3 * triangles.len() as u32;
+        // Count the halfedges of each smaller vertex.
         let mut bucket = vec![0u32; n_vertices + 1];
         for h in 0..n {
             bucket[ends(h).0 as usize + 1] += 1;
@@ -40,6 +41,7 @@ impl Edges {
         for v in 0..n_vertices {
             bucket[v + 1] += bucket[v];
         }
+        // Put each halfedge into the bucket of its smaller vertex, with the larger one as its key.
         let mut cursor = bucket.clone();
         let mut keyed = vec![(0u32, 0u32); n as usize];
         for h in 0..n {
@@ -47,6 +49,7 @@ impl Edges {
             keyed[cursor[low as usize] as usize] = (high, h);
             cursor[low as usize] += 1;
         }
+        // Sort each bucket; an edge begins where the larger vertex changes.
         let mut starts = Vec::with_capacity(n as usize / 2 + 1);
         for v in 0..n_vertices {
             let (begin, end) = (bucket[v] as usize, bucket[v + 1] as usize);

@@ -5,7 +5,8 @@ use super::edges::{Edges, next, origin};
 
 /// Number of smoothing passes. Together they remove noise a few edges wide and preserve the shape.
 const PASSES: usize = 10;
-/// Steps toward the mean of the neighbors and back, per pass.
+/// Steps toward the mean of the neighbors and back, per pass: Taubin's λ and μ, which keep frequencies below the pass
+/// band 1/0.5 − 1/0.53 = 0.11.
 const STEPS: [f64; 2] = [0.5, -0.53];
 
 impl Surface {

@@ -56,6 +56,7 @@ impl Surface {
             return Err(MeshError::TooLarge);
         }
         validate(positions, triangles)?;
+        // Weld the vertices; keep the faces with three different ones.
         let (distinct, vertex_of) = weld(positions.iter().map(|p| p.map(Into::into)));
         let mut kept = Vec::with_capacity(triangles.len());
         let mut faces = Vec::with_capacity(triangles.len());
@@ -66,6 +67,7 @@ impl Surface {
                 faces.push(face as u32);
             }
         }
+        // Glue the faces and count the defects.
         let edges = Edges::new(distinct.len(), &kept);
         let adjacency = Adjacency::new(&distinct, &kept, &edges);
         let mut defects = Defects::of_triangles(&distinct, &kept, &edges, &adjacency);

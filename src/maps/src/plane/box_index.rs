@@ -72,13 +72,15 @@ impl BoxIndex {
         let mut left = budget;
         let mut open = Vec::from_iter(self.root());
         while let Some(pair @ NodePair { nodes, below }) = open.pop() {
+            // Charge the budget for all comparisons of this pair of nodes at once.
             let [of_a, of_b] = self.children(pair);
             let Some(rest) = left.checked_sub((of_a.len() * of_b.len()) as u64) else {
                 return Visit::Truncated;
             };
             left = rest;
             for a in of_a {
-                // Of a node with itself each pair once, and only nodes, not boxes, with themselves.
+                // A node paired with itself has each pair of children once. Nodes are paired with themselves, boxes are
+                // not.
                 let first = if nodes[0] == nodes[1] {
                     a + usize::from(below == 0)
                 } else {
@@ -112,7 +114,7 @@ impl BoxIndex {
         let group_of = self.groups(groups);
         let are_apart = |a: usize, b: usize| group_of[a].is_none() || group_of[a] != group_of[b];
         let (mut best, mut left) = (f64::INFINITY, budget);
-        // Best first, nearly: of each pair of nodes the nearest children are visited first.
+        // Nearly best first: the nearest children of each pair of nodes are visited first.
         let mut open: Vec<(f64, NodePair)> =
             self.root().map(|root| (0.0, root)).into_iter().collect();
         while let Some((bound, pair @ NodePair { nodes, below })) = open.pop() {

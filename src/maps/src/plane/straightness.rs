@@ -1,6 +1,6 @@
 //! Axes of outlines.
 
-/// Number of classes into which directions are sorted, over a quarter turn.
+/// Number of classes into which directions are sorted, over a quarter turn: half a degree each.
 const CLASSES: usize = 180;
 
 /// Shares of an outline along two perpendicular directions: from the first on a chart must be upright, from the second
@@ -33,6 +33,7 @@ impl Straightness {
 /// Returns the unit vector along which, or at a right angle to which, most of an outline runs, and that share.
 fn main_axis(edges: &[[[f64; 2]; 2]]) -> Option<([f64; 2], f64)> {
     let mut classes = vec![[0.0; 3]; CLASSES];
+    // Add the length of each edge to its class, together with its direction.
     let mut perimeter = 0.0;
     for [p, q] in edges {
         let [x, y] = [q[0] - p[0], q[1] - p[1]];
@@ -54,6 +55,7 @@ fn main_axis(edges: &[[[f64; 2]; 2]]) -> Option<([f64; 2], f64)> {
         let next = classes[(i + 1) % CLASSES];
         [0, 1, 2].map(|k| classes[i][k] + next[k])
     };
+    // Take the longest pair of neighboring classes; its mean direction is the axis.
     let most = (0..CLASSES)
         .map(pair)
         .fold([0.0; 3], |best, of| if of[0] > best[0] { of } else { best });

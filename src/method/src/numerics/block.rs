@@ -188,6 +188,7 @@ fn larger_neighbors<P: Iterator<Item = (u32, u32)>>(
     n_vertices: usize,
     pairs: impl Fn() -> P,
 ) -> (Vec<usize>, Vec<u32>) {
+    // Count the pairs of each smaller vertex.
     let mut bucket_ends = vec![0; n_vertices + 1];
     for (small, _) in pairs() {
         bucket_ends[small as usize + 1] += 1;
@@ -195,6 +196,7 @@ fn larger_neighbors<P: Iterator<Item = (u32, u32)>>(
     for v in 0..n_vertices {
         bucket_ends[v + 1] += bucket_ends[v];
     }
+    // Put the larger vertices into the buckets of the smaller ones.
     let mut buckets = vec![0; bucket_ends[n_vertices]];
     let mut next = bucket_ends.clone();
     for (small, large) in pairs() {
@@ -205,6 +207,7 @@ fn larger_neighbors<P: Iterator<Item = (u32, u32)>>(
         buckets[next[small as usize]] = large;
         next[small as usize] += 1;
     }
+    // Sort each bucket and drop repetitions: stencils share pairs.
     let mut starts = vec![0];
     let mut neighbors = Vec::with_capacity(buckets.len());
     for v in 0..n_vertices {

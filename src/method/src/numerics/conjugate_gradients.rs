@@ -44,6 +44,7 @@ impl ConjugateGradients {
         values: &[f64],
         x: &mut [f64],
     ) -> Result<(), NotPositiveDefinite> {
+        // Start from x = 0, whose residual is b, along the preconditioned residual.
         let matrix = SymmetricMatrix { pattern, values };
         self.residual.copy_from_slice(x);
         x.fill(0.0);
@@ -55,6 +56,7 @@ impl ConjugateGradients {
             if size <= enough {
                 break;
             }
+            // Go to the lowest point along the direction.
             pattern.multiply(values, &self.direction, &mut self.image);
             let curvature = dot(&self.direction, &self.image);
             if curvature <= 0.0 || curvature.is_nan() {
@@ -67,6 +69,7 @@ impl ConjugateGradients {
             for (r, q) in self.residual.iter_mut().zip(&self.image) {
                 *r -= step * q;
             }
+            // Turn to the next conjugate direction.
             matrix.sweep(&self.residual, &mut self.swept)?;
             let before = std::mem::replace(&mut size, dot(&self.residual, &self.swept));
             for (d, z) in self.direction.iter_mut().zip(&self.swept) {

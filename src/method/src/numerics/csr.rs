@@ -18,6 +18,7 @@ impl Csr {
     /// Expands the lower triangle of a symmetric matrix, given by columns with increasing rows, to the whole matrix.
     pub fn of_lower(pattern: &SymmetricPattern, values: &[f64]) -> Self {
         let columns = || (0..pattern.n).map(|c| (c, pattern.col_ptr[c]..pattern.col_ptr[c + 1]));
+        // Count the entries of each row, both triangles.
         let mut indptr = vec![0; pattern.n + 1];
         for (column, entries) in columns() {
             for &row in &pattern.row_idx[entries] {
@@ -35,7 +36,7 @@ impl Csr {
             (data[next[row]], indices[next[row]]) = (value, column);
             next[row] += 1;
         };
-        // When a column is read, its row has been given all that lies left of the diagonal.
+        // Fill the rows. When a column is read, its row already has everything left of the diagonal.
         for (column, entries) in columns() {
             for k in entries {
                 let row = pattern.row_idx[k];

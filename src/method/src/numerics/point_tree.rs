@@ -1,8 +1,8 @@
 //! Nearest neighbors among points of space.
 
-/// Largest number of points that are compared one by one.
+/// Largest number of points that are compared one by one. Fewer make the tree deeper, more are compared in vain.
 const LEAF: usize = 8;
-/// Capacity for ranges that wait to be searched.
+/// Capacity for ranges that wait to be searched: one per level of the tree, and `u32` indices give at most 32 levels.
 const DEPTH: usize = 32;
 
 /// A k-d tree over points of space.
@@ -60,15 +60,18 @@ impl PointTree {
         let mut open = Vec::with_capacity(DEPTH);
         open.push((0, self.order.len(), 0.0));
         while let Some((start, end, away)) = open.pop() {
+            // Skip a range behind a plane that is farther than the best point.
             if away > best.0 {
                 continue;
             }
+            // Compare the points of a leaf one by one.
             if end - start <= LEAF {
                 for &v in &self.order[start..end] {
                     self.compare(v, to, &accepts, &mut best);
                 }
                 continue;
             }
+            // Compare the median, then search the near side before the far one.
             let middle = usize::midpoint(start, end);
             let axis = usize::from(self.axis[middle]);
             let v = self.order[middle];

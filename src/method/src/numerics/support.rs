@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-/// Number of directions, evenly spread. The hull of a circle comes out 0.3 % too large.
+/// Number of directions, evenly spread. The hull of a circle comes out 0.3 % too large: 32/π · tan(π/32) = 1.003.
 const N: usize = 32;
 
 /// Support function of a point set in 32 directions: a convex hull whose union with another costs 32 comparisons.

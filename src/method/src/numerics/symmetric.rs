@@ -42,6 +42,7 @@ fn is_positive_definite<const D: usize>(matrix: &Matrix<D>) -> bool {
 
 /// Returns eigenvalues and, as rows, eigenvectors of length 1, unordered. By cyclic Jacobi rotations.
 pub fn eigen<const D: usize>(matrix: &Matrix<D>) -> ([f64; D], Matrix<D>) {
+    // Only a bound: convergence is quadratic, and sweeps end when no entry is left to annihilate.
     const MAX_SWEEPS: usize = 20;
     let mut a = *matrix;
     let mut vectors: Matrix<D> = identity(1.0);

@@ -14,7 +14,8 @@ use crate::numerics::square::{Matrix, Square};
 /// energy. Convergence is quadratic there, so the remaining gain is far smaller.
 const TOLERANCE: f64 = 1e-9;
 
-/// Shortest step that confirms the prediction of the model.
+/// Shortest step that confirms the prediction of the model: a longer one leaves less than (1 − ½)² of the predicted
+/// decrease.
 const CONFIRMING: f64 = 0.5;
 
 /// State of a drag.
@@ -86,6 +87,7 @@ where
         handles: &Handles,
     ) -> Result<(), HandlesError> {
         handles.check(D, x.len())?;
+        // Fix the new vertices and constrain the new points, if they differ from the old ones.
         if handles.vertices != self.vertices {
             self.vertices.clone_from(&handles.vertices);
             objective.fix(&handles.vertices);
@@ -101,6 +103,7 @@ where
                 alpha: 0.0,
             });
         }
+        // Start a new path from the present map; the relaxation and the totals carry over.
         let (relaxation, summary) = (self.travel.relaxation, self.travel.summary);
         self.travel = Travel::continued(objective, x, handles, relaxation, summary)?;
         self.phase = if is_there(x, handles) {
@@ -115,7 +118,7 @@ where
         self.travel
             .points
             .pull::<D>(objective, x, SOFT, self.travel.s);
-        // With other points it is another one, and elsewhere too.
+        // The pull has changed, so the last energy no longer holds.
         self.travel.summary.energy_last = f64::NAN;
         Ok(())
     }
@@ -259,10 +262,11 @@ fn is_there(x: &[f64], handles: &Handles) -> bool {
 /// Flops beyond which a factorization takes longer than everything else in a frame, about 5 ms.
 const COSTLY: f64 = 1e8;
 
-/// Most advances per factorization.
+/// Most advances per factorization. More save factorizations, but each belongs to an ever more distant point.
 const MOST_ADVANCES: usize = 24;
 
 /// Largest gradient after an advance, as a share of its right-hand side; beyond it the factorization is renewed.
+/// Smaller values keep advances nearer to Newton's, larger ones save factorizations.
 const WORN: f64 = 0.5;
 
 /// Use of a factorization since it was made.

@@ -11,17 +11,20 @@ use super::watch::{Control, Taken, Watch};
 /// crush it.
 const STRENGTH: f64 = 10.0;
 
-/// Longest and shortest distance at which a point is pulled ahead of itself, in edges of a mean element.
+/// Longest and shortest distance at which a point is pulled ahead of itself, in edges of a mean element. Longer pulls
+/// cross open space in fewer iterations and press harder against obstacles.
 const FARTHEST_PULL: f64 = 4.0;
 const NEAREST_PULL: f64 = 0.05;
 
 /// A step longer than this share of the direction lets points be pulled farther ahead.
 const LONG: f64 = 0.9;
 
-/// Iterations between two checks of the progress.
+/// Iterations between two checks of the progress. Longer windows are more patient with points that slide along
+/// obstacles.
 const WINDOW: usize = 20;
 
-/// Least progress between two checks, as a share of the remaining distance.
+/// Least progress between two checks, as a share of the remaining distance. A smaller share flows on while points only
+/// creep.
 const LEAST_GAIN: f64 = 0.02;
 
 /// Targets of a flow.
@@ -60,6 +63,7 @@ pub fn flow(
         if objective.show(x, &stream.summary, taken, watch) == Control::Finish {
             return stream.summary.ended(Status::Stopped);
         }
+        // Stop once a whole window of iterations brings the points hardly nearer.
         if stream.summary.iterations.is_multiple_of(WINDOW) {
             let now = distance(objective, x, flow.targets);
             if now > (1.0 - LEAST_GAIN) * looked {
@@ -98,6 +102,7 @@ impl Stream {
 
     /// Runs one iteration; returns `None` if no direction and no shorter pull lowers the energy.
     fn step(&mut self, objective: &mut Objective, x: &mut [f64], flow: &Flow) -> Option<Taken> {
+        // Pull each point toward a place a little ahead of it, and find Newton's direction there.
         let ahead = ahead(objective, x, flow.targets, self.pull * flow.edge);
         objective.set_constraints(self.alpha, &ahead);
         let energy = objective.value(x);
@@ -108,6 +113,7 @@ impl Stream {
             &mut self.direction,
             &mut self.summary.factorizations,
         )?;
+        // Take a step; without one, continue only with a safer matrix or a shorter pull.
         let search = Search {
             x,
             direction: &self.direction,
@@ -125,6 +131,7 @@ impl Stream {
         } else if !self.relaxation.after_useless_direction() && self.pull <= NEAREST_PULL {
             return None;
         }
+        // Pull farther ahead after a full step, less far after a short one.
         let times = if length > LONG {
             2.0
         } else {

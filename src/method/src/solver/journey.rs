@@ -11,17 +11,19 @@ use super::travel::{SOFT, Travel};
 use super::watch::{Continued, Control, Taken, Watch};
 use crate::numerics::square::{Matrix, Square};
 
-/// Least progress of a round of advances that makes another round worthwhile, as a share of the path.
+/// Least progress of a round of advances that makes another round worthwhile, as a share of the path. A smaller share
+/// allows more rounds that bring little.
 pub(super) const LEAST_PROGRESS: f64 = 1e-3;
 
 /// Share of their distance that points may keep after hardening: the pull is 10⁶ times as strong at the end, so points
 /// that can arrive come nearer by about that factor.
 pub(super) const HARDENED: f64 = 1e-3;
 
-/// Rounding error of the distance of points from their targets, as a share of their coordinates.
+/// Rounding error of the distance of points from their targets, as a share of their coordinates: about 5,000 units in
+/// the last place.
 pub(super) const ROUNDING: f64 = 1e-12;
 
-/// Strength of the constraints at the end, relative to the energy's mean curvature.
+/// Strength of the constraints at the end, relative to the energy's mean curvature: six decades above [`SOFT`].
 pub(super) const HARD: f64 = 1e9;
 
 /// Tolerance to which the free vertices settle before stuck handles try again: see [`Settings::tolerance`].
@@ -111,17 +113,20 @@ where
             let Some(handles) = self.stations.get(self.station) else {
                 return Ok(());
             };
+            // Move toward the present station.
             objective.fix(&handles.vertices);
             let counted = Continued {
                 watch,
                 before: self.before.iterations,
             };
             self.is_paused = (self.travel).arrive(objective, x, settings, pace, &counted);
+            // Stop at the last station, or where the handles are stuck, slow or stopped.
             let status = self.travel.summary.status;
             let is_last = self.station + 1 >= self.stations.len();
             if is_last || matches!(status, Status::TargetsUnreachable | Status::Stopped) {
                 return Ok(());
             }
+            // Continue to the next station; the relaxation found here carries over.
             self.station += 1;
             self.before = self.summary();
             let relaxation = self.travel.relaxation;
@@ -145,6 +150,7 @@ where
         pace: Pace,
         watch: &dyn Watch,
     ) -> bool {
+        // Refuse a start outside the domain; show a valid one.
         if !self.summary.energy_first.is_finite() {
             return false;
         }
@@ -152,6 +158,7 @@ where
             self.summary.status = Status::Stopped;
             return false;
         }
+        // Advance and settle in rounds, as long as each brings the handles farther.
         loop {
             let (before, begun) = (self.s, self.summary.iterations);
             if self.advance(objective, x, settings, pace, watch) == Control::Finish
@@ -159,10 +166,12 @@ where
             {
                 return false;
             }
+            // At the targets: let the points of soft constraints arrive.
             if self.s >= 1.0 {
                 self.harden(objective, x, settings, watch);
                 return false;
             }
+            // Give up where a round brought hardly any progress; pause where it was only slow.
             let is_spent = self.summary.iterations >= settings.max_iterations;
             let is_stuck = is_spent || self.s < before + LEAST_PROGRESS;
             let is_slow = pace.is_missed(self.s - before, self.summary.iterations - begun);
@@ -212,6 +221,7 @@ where
             before: before.iterations,
         };
         let left = settings.max_iterations.saturating_sub(before.iterations);
+        // Short of the targets, settle only as far as it may make room for the handles.
         let (most, tolerance) = if self.s < 1.0 {
             (left.min(MOST_SETTLING), settings.tolerance.min(SETTLED))
         } else {

@@ -28,10 +28,11 @@ pub struct Search<'a> {
 /// its margin, so that the next direction is not stuck at the barrier.
 const SAFETY: f64 = 0.95;
 
-/// Armijo constant: share of the decrease predicted by the slope that a step must reach.
+/// Armijo constant: share of the decrease predicted by the slope that a step must reach. The customary value (Nocedal
+/// and Wright 2006, section 3.1).
 const SUFFICIENT: f64 = 1e-4;
 
-/// Most halvings: a step below 2⁻⁴⁰ has no relevant effect.
+/// Most halvings: a step below 2⁻⁴⁰, about 1e-12, has no relevant effect.
 const MAX_HALVINGS: usize = 40;
 
 /// Returns the longest of the steps t, t/2, t/4, … that lowers the energy sufficiently, with its end point in `trial`;

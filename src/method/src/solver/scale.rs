@@ -19,6 +19,7 @@ pub fn best_scale(value: &dyn Fn(&[f64]) -> f64, x: &[f64]) -> f64 {
         }
         value(&scaled)
     };
+    // Double, then halve, as long as that helps. Doubling also passes sizes at which the energy is infinite.
     let mut best = (energy(0.0), 0.0_f64);
     for direction in [1.0, -1.0] {
         while best.1.abs() < 30.0 {
@@ -34,6 +35,7 @@ pub fn best_scale(value: &dyn Fn(&[f64]) -> f64, x: &[f64]) -> f64 {
     if !best.0.is_finite() {
         return 1.0;
     }
+    // Refine by the lowest points of two parabolas.
     let mut exponent = best.1;
     for width in [1.0, NARROW] {
         let around = [-width, 0.0, width].map(|offset| energy(exponent + offset));

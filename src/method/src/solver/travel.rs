@@ -19,10 +19,12 @@ const FIRST_ADVANCE: f64 = 1.0;
 const LEAST_ADVANCE: f64 = 1e-4;
 
 /// Share of the distance to the first inversion that an advance may take. A smaller share means more and shorter
-/// advances.
+/// advances: when it was chosen, 0.5 took a third more iterations on the reference problems
+/// (`tests/bench/reference.py`).
 const SAFETY: f64 = 0.9;
 
-/// Largest rise of the energy above twice the predicted one, as a share of the energy.
+/// Largest rise of the energy above twice the predicted one, as a share of the energy. Larger values allow longer
+/// advances, smaller ones keep the map nearer to the minimum on the way.
 const SURPRISE: f64 = 2.0;
 
 /// Least reference energy for that comparison, as a share of the sum of the weights: at rest any advance would exceed
@@ -33,7 +35,7 @@ const UNSTRAINED: f64 = 0.02;
 pub(super) const PATIENCE: usize = 20;
 
 /// Strength of soft constraints relative to the energy's mean curvature while they move; at the end it rises tenfold at
-/// a time.
+/// a time. Stronger ones keep points nearer to their paths but make the Hessian stiffer.
 pub(super) const SOFT: f64 = 1e3;
 
 /// State of the handles along their path.
@@ -125,6 +127,7 @@ where
         watch: &dyn Watch,
     ) -> Control {
         self.points.pull::<D>(objective, x, SOFT, self.s);
+        // Count iterations without progress, and measure the pace in windows of iterations.
         let mut stuck = 0;
         let (mut passed, mut looked) = (self.s, self.summary.iterations);
         while self.s < 1.0 && stuck < PATIENCE && self.summary.iterations < settings.max_iterations
@@ -136,6 +139,7 @@ where
             if since >= pace.window {
                 (passed, looked) = (self.s, self.summary.iterations);
             }
+            // Advance together with a Newton step, and show the iterate.
             let before = self.s;
             let Some(sigma) = self.iterate(objective, x) else {
                 break;
@@ -182,6 +186,7 @@ where
     /// Tries advances together with the Newton step; returns `false` if no advance of a relevant length is acceptable.
     fn step(&mut self, objective: &mut Objective, x: &mut [f64]) -> bool {
         while self.stride > LEAST_ADVANCE {
+            // Aim at the end of the advance, with the targets of the points there.
             let to = (self.s + self.stride).min(1.0);
             if self.aim(objective, x, to).is_err() {
                 break;
@@ -194,8 +199,10 @@ where
                 self.stride *= 2.0;
                 return true;
             }
+            // Halve the advance; shorten it further where an inversion is near.
             self.stride *= 0.5 * largest.clamp(0.2, 1.0);
         }
+        // No advance is acceptable: restore the targets and try a short one in the next iteration.
         self.points.pull::<D>(objective, x, SOFT, self.s);
         self.stride = 4.0 * LEAST_ADVANCE;
         false

@@ -133,10 +133,12 @@ impl CagedDocument {
         let document = Document::read(upload)?;
         limits::check(&options.limits, &document)?;
         check_format(&document, options.format)?;
+        // Refuse handles that name vertices: users do not know those of the cage.
         let is_vertex = |handle: &Handle| matches!(handle, Handle::Vertex { .. });
         if let Some(handle) = handles.iter().position(is_vertex) {
             return Err(ProblemError::VertexOfCage { handle }.into());
         }
+        // Build the cage, and split the triangles if asked to.
         let positions = positions(&document);
         let cage = Cage::around(&surfaces(&document, &positions), options.n_voxels)?;
         let document = match options.surfaces {
@@ -147,6 +149,7 @@ impl CagedDocument {
                 document.subdivided(&cuts)?
             }
         };
+        // Bind the handles, and hold the parts without any.
         let mut problem = Problem::new(Body::from(cage.mesh()), handles, &options.model)?;
         let idle_parts = problem.hold_idle_parts();
         Ok(Self {

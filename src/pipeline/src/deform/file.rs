@@ -40,6 +40,7 @@ fn deform_body(
     options: &DeformOptions,
     tracker: &Tracker,
 ) -> Result<Deformed, PipelineError> {
+    // Read the body, bind the handles, and take the given start.
     tracker.stage(Stage::Read);
     let source = Source::read(upload, options.triangles, &options.caller.limits)?;
     let format = options.format.unwrap_or_else(|| source.format(upload));
@@ -50,6 +51,7 @@ fn deform_body(
         problem.start = start;
         problem.untangle_start()?;
     }
+    // Solve.
     let file = |x: &[f64]| source.frame(format, &problem, x);
     let frames = Frames {
         tracker,
@@ -57,6 +59,7 @@ fn deform_body(
     };
     let viewer: Option<&dyn Watch> = if options.frames { Some(&frames) } else { None };
     let solved = solve(&problem, options.plan(), tracker, viewer)?;
+    // Write the deformed body.
     tracker.stage(Stage::Write);
     Ok(Deformed {
         files: source.files(

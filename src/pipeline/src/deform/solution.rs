@@ -175,7 +175,7 @@ struct Trace<'a> {
 
 impl Watch for Trace<'_> {
     fn iterate(&self, iterate: &Iterate) -> Control {
-        // Where one stage follows another the last iterate is shown again.
+        // Skip the first iterate of a further stage: it is the last one of the stage before.
         let mut iterates = self.iterates.borrow_mut();
         let is_new = iterates
             .last()

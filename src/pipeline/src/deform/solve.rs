@@ -25,9 +25,11 @@ pub fn solve_file(
     options.check()?;
     let tracker = Tracker::new(observer, options.caller.budget(options.budget));
     in_pool(options.caller.workers(options.workers), || {
+        // Read the problem.
         tracker.stage(Stage::Read);
         let (mut problem, elements) = read(upload, &options.caller.limits)?;
         problem.search = options.pulling.search;
+        // Solve it; frames show each iterate in the format of the result.
         let file = |x: &[f64]| options.format.write(&elements, &problem, x);
         let frames = Frames {
             tracker: &tracker,
@@ -35,6 +37,7 @@ pub fn solve_file(
         };
         let viewer: Option<&dyn Watch> = if options.frames { Some(&frames) } else { None };
         let solved = solve(&problem, options.plan(), &tracker, viewer)?;
+        // Write the result.
         tracker.stage(Stage::Write);
         let stem = options.caller.stem(upload);
         Ok(Deformed {

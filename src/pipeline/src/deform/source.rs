@@ -174,6 +174,7 @@ pub struct PlanarMap<'a> {
 impl<'a> PlanarMap<'a> {
     /// Creates the map from the mesh at rest, with the vertices of the document, and its deformed vertices.
     pub fn new(rest: &Elements, to: &'a [[f64; 2]]) -> Self {
+        // Sum the Jacobians of the triangles at each vertex, weighted by area.
         let mut jacobians = vec![[[0.0; 2]; 2]; to.len()];
         let mut areas = vec![0.0; to.len()];
         for &[a, b, c] in &rest.triangles {

@@ -40,6 +40,7 @@ impl Merged {
             merged
                 .triangles
                 .extend(triangles.map(|t| t.map(|v| v + first)));
+            // Begin a part where the mesh changes; its primitives extend it.
             if last.replace(primitive.mesh) != Some(primitive.mesh) {
                 merged.parts.push(Part {
                     vertices: first..first,

@@ -36,6 +36,7 @@ impl Prepared {
     pub fn read(upload: &Upload, options: &Options, plan: &Plan) -> Result<Self, PipelineError> {
         let document = Document::read(upload)?;
         limits::check(&options.caller.limits, &document)?;
+        // Choose the grouping, and reject what cannot be written.
         let group_by = match options.format {
             // An OBJ file has one UV space, whatever was asked for.
             OutputFormat::Obj => GroupBy::Scene,
@@ -49,6 +50,7 @@ impl Prepared {
                 "new textures for an OBJ file from another format than glTF: write .glb or .gltf";
             return Err(DocumentError::UnsupportedOutput(what.to_owned()).into());
         }
+        // Convert the document to the form of the output.
         let old_uvs = if plan.reads_uvs() {
             OldUvs::Kept
         } else {
@@ -57,6 +59,7 @@ impl Prepared {
         check_edges(document.primitives(), options)?;
         let texture = document.texture_of(options.sets.source());
         let conversion = document.for_output(options.format, old_uvs)?;
+        // Renumber the given seams if vertices have changed their numbers.
         let mut seams = options.clone();
         if let (Some(GivenSeams::Edges(edges)), Some(vertices)) =
             (&options.seams, &conversion.vertices)
@@ -85,7 +88,7 @@ fn can_rebake(document: &Document, format: OutputFormat) -> bool {
 /// Renumbers [checked](check_edges) edges of a file for each primitive that now contains them. `vertices` are the
 /// original numbers of the vertices of all primitives.
 fn renumbered(edges: &[[u32; 2]], vertices: &[u32], primitives: &[Primitive]) -> Vec<[u32; 2]> {
-    // Copies of a vertex lie in one place, so that the first of each primitive will do.
+    // Copies of a vertex lie in one place, so the first in each primitive is enough.
     let mut numbers: HashMap<u32, Vec<(usize, u32)>> = edges
         .as_flattened()
         .iter()

@@ -122,7 +122,7 @@ fn unwrap_in_pool(
     let arrays = UvArrays::new(&document, &uvs, v_axis, notes, &origins);
     seconds.write = watch.lap();
     let noticed = document.warnings().to_vec();
-    // What was written is read next: both would take twice the memory.
+    // Free the document before the written one is read: both would take twice the memory.
     drop(primitives);
     drop(document);
 
@@ -233,15 +233,17 @@ pub fn new_uvs(
         let (mut rest, mut still) = (atlas.grid.as_slice(), atlas.still.as_slice());
         let mut first = 0;
         for &index in &group.primitives {
+            // Take the primitive's part of the grid.
             let (own, others) = rest.split_at(primitives[index].triangles.len());
             let mut uvs: Vec<Corners> = own.iter().map(|face| from_grid(face, v_axis)).collect();
             let next = first + own.len() as u32;
+            // Faces of islands that stay in place keep the UVs of the document.
             let (inside, beyond) = still.split_at(still.partition_point(|&face| face < next));
             if !inside.is_empty()
                 && let Some(given) = document.corner_uvs(index, options.sets.source())?
             {
                 for face in inside.iter().map(|face| (face - first) as usize) {
-                    // What is less than a step below a page lies on its border.
+                    // A UV less than a step below a page belongs on its border.
                     uvs[face] = given[face].map(|uv| uv.map(|x| (x as f32).max(0.0)));
                 }
             }

@@ -71,6 +71,7 @@ impl BoundReport {
             most.zip(measured)
                 .is_none_or(|(most, measured)| measured <= most)
         };
+        // Compare the surface; if it misses a bound, compare the smoothed one, where that is bounded.
         let surface_keeps = keeps(Some(bound.mean), measured.sym_dirichlet_mean)
             && keeps(bound.stretch, measured.stretch_p99);
         let smoothed_distortion = match bound.of {
@@ -101,6 +102,7 @@ impl BoundReport {
 
     /// Describes which bounds are missed, by how much, and where it is worst.
     pub(crate) fn shortfall(&self) -> String {
+        // List the bounds that are missed.
         let mut parts = Vec::new();
         if let Some(reached) = (self.smoothed_distortion.or(self.distortion))
             .filter(|&reached| reached > self.max_distortion)
@@ -123,6 +125,7 @@ impl BoundReport {
                 "the 99th percentile of the stretch, {percent:.1} %, exceeds the bound of {asked:.1} %"
             ));
         }
+        // Add the worst chart, and the number of charts to which the bounds yielded.
         let worst = self.worst_chart.map(|worst| {
             let percent = stretch_percent(worst.distortion);
             let WorstChart {

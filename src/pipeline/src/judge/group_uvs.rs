@@ -48,6 +48,7 @@ impl GroupUvs {
                         group: group.label.clone(),
                         texcoord,
                     })?;
+            // Append the primitive, with its vertices renumbered.
             let first = gathered.positions.len() as u32;
             gathered
                 .positions

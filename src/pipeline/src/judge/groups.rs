@@ -16,7 +16,7 @@ use unwrapd_maps::measure::{self, Measures};
 use unwrapd_maps::mesh::{Resolution, VAxis};
 
 /// Maximum number of texels of all coverage rasters together, and minimum side of each. Up to 256 groups get the
-/// finest raster.
+/// finest raster of 4096²: 2³²/256 = 4096².
 const MOST_RASTER_TEXELS: u64 = 1 << 32;
 const COARSEST_RASTER: u32 = 256;
 

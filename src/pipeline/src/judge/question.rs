@@ -31,7 +31,7 @@ impl Question {
             Marked::Stale => question.warning = Some(stale()),
             Marked::Fits(mark) => {
                 let with_terms = options.with_terms(&mark.terms);
-                // Not every number that a file has can be asked for.
+                // A record may hold numbers that options do not allow.
                 if with_terms.check().is_ok() {
                     question.options = with_terms;
                     question.mark = Some(*mark);

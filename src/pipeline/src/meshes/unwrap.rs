@@ -123,7 +123,7 @@ fn corner_uvs(atlases: &[Unwrapped], given: Option<&[CornerUvs]>) -> Vec<CornerU
     let mut uvs = atlas.corner_uvs();
     if let Some(given) = given {
         for face in atlas.still.iter().map(|&face| face as usize) {
-            // What is less than a step below a page lies on its border.
+            // A UV less than a step below a page belongs on its border.
             uvs[face] = given[face].map(|uv| uv.map(|x| f64::from((x as f32).max(0.0))));
         }
     }

@@ -134,6 +134,7 @@ fn sides(
 /// Warns if there was nothing to resample, and of textures whose charts are so close that bilinear filtering at the
 /// border of one reads texels of another.
 pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning> {
+    // Find the textures in which charts come too near.
     let mut sides: Vec<u32> = baked.files.iter().map(|(side, _)| *side).collect();
     sides.sort_unstable();
     sides.dedup();
@@ -148,6 +149,7 @@ pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning>
         );
         Warning::new("charts_near", message)
     });
+    // Say why nothing was resampled.
     let nothing = baked.plan.planes.is_empty() && baked.plan.kept.is_empty();
     let nothing = nothing.then(|| {
         if baked.has_colors_only {

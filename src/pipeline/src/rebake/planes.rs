@@ -47,6 +47,7 @@ impl<'a> Bake<'a> {
                 wrap: source.wrap,
                 is_nearest: wanted.is_nearest(),
             };
+            // Append the places of its faces, with frames for a normal map.
             let places = self.places(index, source)?;
             if wanted.encoding == Encoding::Normal {
                 self.extend_frames(&mut frames, index, &places)?;

@@ -60,6 +60,7 @@ impl<'a> Accessor<'a> {
             columns => columns * column_size.next_multiple_of(4),
         };
         let count = required(object, "count")?;
+        // Find the elements, and check that all of them lie within the bytes.
         let base = if object.get("bufferView").is_some() {
             Some(strided(body, object, count, element_size)?)
         } else {

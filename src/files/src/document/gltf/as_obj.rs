@@ -60,12 +60,14 @@ pub(super) fn write(
             });
         }
     }
+    // Collect warnings about everything that is lost.
     notes.textures_affected = textures_affected(document, uvs, baked)?;
     let warnings = texture_warnings(document, &notes);
     notes.warnings.extend(warnings);
     notes.warnings.extend(losses(document)?);
     notes.warnings.extend(pictures.warnings());
 
+    // Put the files together.
     let material_file = format!("{stem}.mtl");
     let named = (!described.is_empty()).then_some(material_file.as_str());
     let mut files = vec![(
@@ -146,6 +148,7 @@ fn described(
     pictures: &mut ObjPictures,
     notes: &mut WriteNotes,
 ) -> Result<Vec<Material>, DocumentError> {
+    // Convert each material in use once.
     let mut used = BTreeSet::new();
     for primitive in &document.primitives {
         used.extend(material_of(body, primitive.mesh, primitive.primitive)?);
@@ -159,6 +162,7 @@ fn described(
             described.push(of_gltf(object, name.clone(), map, &mut lost));
         }
     }
+    // Warn of the parts that MTL cannot hold.
     if !lost.is_empty() {
         let counted: Vec<String> = lost
             .iter()

@@ -28,6 +28,7 @@ pub(super) fn plan(
     groups: &[Group],
     unreadable: &BTreeMap<usize, String>,
 ) -> Result<BakePlan, DocumentError> {
+    // Find the textures of every material that a group uses.
     let users = users(document, groups)?;
     let first_of_equals = images::first_of_equals(&document.body, &document.resources)?;
     let mut slots: BTreeMap<usize, Vec<Slot>> = users
@@ -38,6 +39,7 @@ pub(super) fn plan(
         })
         .collect();
     keep_frames_together(&users, &mut slots);
+    // List the textures that stay, then plan those of each group.
     let mut plan = BakePlan {
         kept: kept(document, &slots)?,
         ..BakePlan::default()
@@ -159,6 +161,7 @@ fn plan_group(
 ) {
     let first = plan.planes.len();
     for (&material, slots) in slots {
+        // Skip materials that no primitive of the group uses.
         let primitives: BTreeSet<usize> = users[&material].intersection(members).copied().collect();
         if primitives.is_empty() {
             continue;
@@ -188,6 +191,7 @@ fn plan_group(
                 plan.normal_mapped.extend(&primitives);
             }
         }
+        // Record the planes of the material.
         if !planes.is_empty() {
             plan.materials.push(MaterialPlanes {
                 material,

@@ -10,6 +10,7 @@ use crate::document::{BakedTexture, BakedTextures, DocumentError, WriteNotes};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Number of this wrapping mode in glTF, that of WebGL.
 const CLAMP_TO_EDGE: usize = 33071;
 
 /// Assigns the new textures, sampled by set `set`, to the materials, and returns the files of all images. A material
@@ -41,6 +42,7 @@ pub(super) fn insert(
         let texture = json!({"sampler": sampler, "source": image});
         textures.push(push(&mut body.json, "textures", texture)?);
     }
+    // Point the texture infos of each material to its planes.
     for of_material in &baked.plan.materials {
         let material = own_material(document, body, of_material)?;
         for (slot, plane) in &of_material.slots {

@@ -47,12 +47,14 @@ pub(super) fn join(
         json: Value::Null,
         bin: Vec::new(),
     };
+    // Append the needed buffers whole, so that the offsets within them stay.
     let mut bases = Vec::with_capacity(buffers.len());
     for (buffer, needed) in buffers.iter().zip(&needed) {
         let bytes = buffer.as_deref().filter(|_| *needed);
         bases.push(bytes.map(|bytes| body.push_bytes(bytes)));
     }
     reserve(&mut body, &json, &buffers)?;
+    // Move or decode every view.
     for (index, view) in array_or_empty(&mut json, "bufferViews")?
         .iter_mut()
         .enumerate()
@@ -69,6 +71,7 @@ pub(super) fn join(
             error => error,
         })?;
     }
+    // Leave one buffer, without URI and compression.
     if json.get("buffers").is_some() {
         array_mut(&mut json, "buffers")?.truncate(1);
     }
@@ -100,6 +103,7 @@ fn load<'a>(
     let mut undefined = MAX_UNDEFINED;
     for (index, buffer) in items(json, "buffers")?.iter().enumerate() {
         let length = required(buffer, "byteLength")?;
+        // Take the bytes from the URI or the GLB; undefined ones are zeros, within a limit.
         let bytes = match buffer.get("uri") {
             Some(Value::String(uri)) => match uri::resolve(uri, &upload.resources) {
                 Err(DocumentError::MissingResource(_)) if meshopt::is_fallback(buffer) => None,
@@ -113,6 +117,7 @@ fn load<'a>(
                 Some(Cow::Owned(vec![0; length]))
             }
         };
+        // Cut the bytes to the stated length.
         let short = || invalid(format!("buffers[{index}] is shorter than its `byteLength`"));
         buffers.push(match bytes {
             Some(Cow::Borrowed(bytes)) => {

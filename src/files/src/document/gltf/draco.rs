@@ -83,6 +83,7 @@ fn decode(
 ) -> Result<Value, DocumentError> {
     let (bytes, _) = body.view(required(compressed, "bufferView")?)?;
     let mesh = decode_stream(bytes, *budget)?;
+    // Store the attributes that have no uncompressed data.
     for (name, id) in attribute_ids(compressed)? {
         let accessor = accessor_of(&primitive, name)?;
         let object = item(&body.json, "accessors", accessor)?;
@@ -107,6 +108,7 @@ fn decode(
             bounds::set(object, &packed, component, width);
         }
     }
+    // Store the faces.
     store_indices(body, &mut primitive, &mesh, budget)?;
     Ok(primitive)
 }
@@ -195,10 +197,12 @@ fn store_indices(
     mesh: &Mesh,
     budget: &mut usize,
 ) -> Result<(), DocumentError> {
+    // Use the accessor of the indices, or a new one.
     let accessor = match unsigned(primitive, "indices")? {
         Some(accessor) => accessor,
         None => body.push_accessor(json!({"componentType": 5125, "count": 0, "type": "SCALAR"}))?,
     };
+    // Keep the stated type if it is wide enough.
     let stated = Component::from_code(required(
         item(&body.json, "accessors", accessor)?,
         "componentType",
@@ -212,6 +216,7 @@ fn store_indices(
         }
         _ => needed,
     };
+    // Write the corners, and drop the members that no longer hold.
     let mut packed = Vec::with_capacity(mesh.num_faces() * 3 * component.size());
     for corner in mesh.faces().iter().flatten() {
         component.push(f64::from(corner.0), &mut packed);

@@ -91,6 +91,7 @@ pub(super) fn decode(extension: &Value, data: &[u8]) -> Result<Vec<u8>, Document
             "meshopt mode, filter and stride contradict each other",
         ));
     }
+    // Refuse sizes that the data cannot have before anything is allocated.
     let size = count
         .checked_mul(stride)
         .filter(|size| size / MAX_RATIO <= data.len())
@@ -99,6 +100,7 @@ pub(super) fn decode(extension: &Value, data: &[u8]) -> Result<Vec<u8>, Document
                 "a compressed buffer view claims too many bytes".to_owned(),
             )
         })?;
+    // Decode, reverse the filter, and take the bytes.
     let mut words = vec![0u64; size.div_ceil(8)];
     if !decode_into(&mut words, mode, count, stride, data) {
         return Err(invalid("its meshopt data is damaged"));

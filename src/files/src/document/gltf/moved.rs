@@ -78,10 +78,12 @@ impl SurfaceMoves<'_> {
         old: usize,
     ) -> Result<usize, DocumentError> {
         let places = self.positions.read(self.body, positions)?;
+        // Charge the budget: at most four numbers of four bytes per vertex.
         self.budget = self
             .budget
             .checked_sub(16 * places.len())
             .ok_or_else(|| DocumentError::LimitExceeded("moved vertices".to_owned()))?;
+        // Move the values.
         let is_position = name == "POSITION";
         let (values, width) = match name {
             "POSITION" => (self.map.positions(&places).into_flattened(), 3),
@@ -91,6 +93,7 @@ impl SurfaceMoves<'_> {
             }
             _ => (self.tangents(&places, old)?, 4),
         };
+        // Write them to a new accessor with the other properties of the old one.
         let packed: Vec<u8> = values.into_iter().flat_map(f32::to_le_bytes).collect();
         let mut object: Value = item(&self.body.json, "accessors", old)?.clone();
         for member in ["byteOffset", "sparse", "normalized", "min", "max"] {

@@ -81,6 +81,7 @@ impl<'a> ObjPictures<'a> {
             .get("uri")
             .and_then(Value::as_str)
             .filter(|uri| !uri::is_data(uri));
+        // A supplied file keeps its name; a missing one stays a reference.
         if let Some(path) = path {
             let found = uri::member(path, self.resources);
             let Some((name, bytes)) = found else {
@@ -88,12 +89,13 @@ impl<'a> ObjPictures<'a> {
                     .insert(path.chars().filter(|c| !c.is_control()).take(120).collect());
                 return Some(path.replace(['\n', '\r'], ""));
             };
-            // It keeps its name, which others may not have then.
+            // Reserve the name, so that no other file gets it.
             self.taken
                 .name(name.rsplit_once('.').map_or(name, |(stem, _)| stem));
             self.files.insert(name.to_owned(), bytes.to_vec());
             return Some(name.to_owned());
         }
+        // An image inside the document gets a file, named after the image or the document.
         let bytes = images::bytes(self.body, image, self.resources).ok()?;
         let given = object
             .get("name")

@@ -83,6 +83,7 @@ impl Origin {
             let old = self.lengths[&collection];
             let is_live = |n: &usize| live.contains(&(collection, *n));
             let mut order: Vec<Option<usize>> = (0..old).map(|n| Some(n).filter(is_live)).collect();
+            // Put new objects in the places of removed ones, and the others at the end.
             let mut new = (old..lengths[&collection]).filter(is_live);
             for slot in order.iter_mut().filter(|slot| slot.is_none()) {
                 *slot = new.next();
@@ -95,6 +96,7 @@ impl Origin {
             let fixed = last.map_or(0, |(_, n)| n + 1).min(order.len());
             let empty = (0..fixed).filter(|&n| order[n].is_none());
             held.extend(empty.map(|n| (collection, n)));
+            // Number the objects that remain.
             let mut to = vec![None; lengths[&collection]];
             for (place, from) in order.into_iter().flatten().enumerate() {
                 to[from] = Some(place);
@@ -168,6 +170,7 @@ const ALIGNMENT: usize = 4;
 
 /// Removes the bytes that lie in no buffer view. Views that overlap still do so.
 fn repack_bytes(body: &mut Body) -> Result<(), DocumentError> {
+    // Sort the ranges of all views.
     let mut ranges = Vec::new();
     for (index, view) in items(&body.json, "bufferViews")?.iter().enumerate() {
         let start = unsigned(view, "byteOffset")?.unwrap_or(0);
@@ -177,6 +180,7 @@ fn repack_bytes(body: &mut Body) -> Result<(), DocumentError> {
         return Ok(());
     }
     ranges.sort_unstable();
+    // Copy each run of overlapping views at once, so that they still share their bytes.
     let old = std::mem::take(&mut body.bin);
     let mut offsets = vec![0; ranges.len()];
     let mut rest = ranges.as_slice();
@@ -198,6 +202,7 @@ fn repack_bytes(body: &mut Body) -> Result<(), DocumentError> {
             offsets[*index] = base + begin - start;
         }
     }
+    // Write the new offsets.
     let views = array_mut(&mut body.json, "bufferViews")?;
     for (view, offset) in views.iter_mut().zip(offsets) {
         if offset > 0 || view.get("byteOffset").is_some() {

@@ -38,6 +38,7 @@ pub(super) fn collect(body: &Body) -> Result<Collected, DocumentError> {
             let Some(read) = read else {
                 continue;
             };
+            // Bound the sum over all primitives, which may share accessors.
             n_vertices += read.positions.len();
             n_faces += read.triangles.len();
             if n_vertices.max(n_faces) > MAX_ELEMENTS {
@@ -93,6 +94,7 @@ fn read(
     let mut positions = positions.read(body, accessor)?;
     check_attributes(body, primitive, positions.len())?;
     let mut indices = indices(body, primitive, positions.len())?;
+    // Keep only the vertices used of an accessor that is shared.
     let used = is_shared
         .then(|| compact(&mut indices, &positions))
         .flatten();
@@ -104,6 +106,7 @@ fn read(
         );
     }
     let triangles = faces(&indices, mode);
+    // Refuse faces with positions that are not finite; unused vertices may hold anything.
     let is_finite = |v: &u32| positions[*v as usize].iter().all(|x| x.is_finite());
     if let Some(vertex) = triangles.as_flattened().iter().find(|v| !is_finite(v)) {
         return Err(DocumentError::NonFinitePosition(format!("vertex {vertex}")));

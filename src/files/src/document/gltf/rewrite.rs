@@ -79,6 +79,7 @@ pub(super) fn rewrite(
         gather_vertices(document, body, &mut changed, &gather)?;
         note.sources = Some(gather);
     }
+    // Write the new UVs, and the tangents if they are new.
     let texcoords = split.keys.iter().flat_map(|key| match key {
         Some((bits, _)) => bits.map(f32::from_bits),
         None => [0.0; 2],
@@ -230,16 +231,19 @@ fn rejoined(
     }
     // A vertex without a face was not split, and is in a class of its own.
     classes = refined(&classes, |v| (!seen[v]).then_some(v));
+    // Divide the vertices by everything that stays.
     let rest = accessors(changed)?;
     for &accessor in &rest {
         let (packed, size) = packed(document, accessor)?;
         classes = refined(&classes, |v| &packed[element(v) * size..][..size]);
     }
+    // Divide them by what was removed.
     let mut of_set = vec![0; n];
     for accessor in accessors(old)?.into_iter().filter(|a| !rest.contains(a)) {
         let (packed, size) = packed(document, accessor)?;
         of_set = refined(&of_set, |v| &packed[element(v) * size..][..size]);
     }
+    // Rank the vertices that agree in both, and join those of equal rank that agree in what stays.
     let mut twins: HashMap<(u32, u32), u32> = HashMap::new();
     let ranks: Vec<u32> = (0..n)
         .map(|v| {
@@ -249,6 +253,7 @@ fn rejoined(
         })
         .collect();
     let numbers = refined(&classes, |v| ranks[v]);
+    // Keep the first vertex of each number.
     let mut kept: Vec<u32> = Vec::new();
     for (vertex, &number) in numbers.iter().enumerate() {
         if number as usize == kept.len() {

@@ -82,6 +82,7 @@ fn interpolated(
     own: Vec<f64>,
     added: &[AddedVertex],
 ) -> Result<Vec<f32>, DocumentError> {
+    // Refuse numbers that have no mean.
     if name.starts_with("JOINTS") || name.starts_with("WEIGHTS") {
         return Err(DocumentError::Indivisible("a skin".to_owned()));
     }
@@ -90,10 +91,12 @@ fn interpolated(
     }
     let width = accessor.width;
     let mut values = own;
+    // Append the weighted means of the added vertices.
     for vertex in added {
         let at = |corner: usize, k: usize| values[vertex.corners[corner] as usize * width + k];
         let mean = |k| (0..3).map(|c| vertex.weights[c] * at(c, k)).sum::<f64>();
         let mut numbers: Vec<f64> = (0..width).map(mean).collect();
+        // Directions keep length 1; a tangent takes its handedness from the nearest corner.
         if name == "NORMAL" || name == "TANGENT" {
             let length = numbers.iter().take(3).map(|x| x * x).sum::<f64>().sqrt();
             if length > 0.0 {

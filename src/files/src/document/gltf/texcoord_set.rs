@@ -62,6 +62,7 @@ pub(super) fn choose(
     options: &WriteOptions,
     plan: Option<&BakePlan>,
 ) -> Result<(Vec<Option<Choice>>, Textures), DocumentError> {
+    // Group the primitives by mesh or, if textures are made for them, all together.
     let mut textures = Textures::new();
     let mut meshes: BTreeMap<usize, Vec<Candidate>> = BTreeMap::new();
     for (index, primitive) in document.primitives.iter().enumerate() {
@@ -73,6 +74,7 @@ pub(super) fn choose(
         }
     }
     let mut choices: Vec<Option<Choice>> = document.primitives.iter().map(|_| None).collect();
+    // Choose one set for each group.
     for candidates in meshes.into_values() {
         let reused = reusable(&candidates, mark, options);
         let set = set_for(&candidates, uvs.layout, options, reused)?;

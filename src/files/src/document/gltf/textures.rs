@@ -115,6 +115,7 @@ impl TexturePlace {
             _ => return,
         };
         for (key, child) in children {
+            // Extras belong to applications and refer to nothing.
             if key == "extras" {
                 continue;
             }
@@ -123,6 +124,7 @@ impl TexturePlace {
             } else {
                 format!("{slot}/{key}")
             };
+            // A texture info has an index and a telling name; search everything else.
             let key = key.to_ascii_lowercase();
             let texture = child.get("index").and_then(as_unsigned);
             if let Some(texture) = texture.filter(|_| key.ends_with("texture")) {

@@ -114,6 +114,7 @@ pub(super) fn write_indices(
             note.converted_to_triangles = true;
         }
     }
+    // Choose the type, and keep the other properties of an old accessor.
     let needed = Component::for_indices(note.vertices_after);
     let (mut object, component) = match unsigned(primitive, "indices")? {
         Some(old) => {
@@ -125,6 +126,7 @@ pub(super) fn write_indices(
         }
         None => (json!({}), needed),
     };
+    // Write the indices to a new view and accessor.
     let mut packed = Vec::with_capacity(indices.len() * component.size());
     for index in &indices {
         component.push(f64::from(*index), &mut packed);

@@ -145,6 +145,7 @@ fn release_textures(
     textures: &Textures,
     notes: &mut WriteNotes,
 ) {
+    // Collect the textures that sampled a replaced set: those of primitives and of materials.
     let replaced = choices.iter().flatten().filter(|choice| choice.had_set);
     let mut released = Vec::new();
     let mut sets = BTreeSet::new();
@@ -169,6 +170,7 @@ fn release_textures(
             .map_or(&[][..], |textures| &textures.uses);
         released.extend(uses.iter().filter(|texture| texture.set == set));
     }
+    // Report them, and remove their transforms.
     for texture in released {
         notes.textures_affected.push(affected(json, texture));
         if remove_transform(json, texture) {
@@ -276,6 +278,7 @@ fn set_warnings(
             samplers.extend(samplers_of_set_0(document, choice, textures));
         }
     }
+    // Say why these UVs are not in set 0, and name the sets that were filled.
     let elsewhere = elsewhere.into_iter().map(|(set, (meshes, samplers))| {
         let meshes = names::of_meshes(document, &meshes);
         let samplers = listed(samplers.iter().map(String::as_str));

@@ -112,10 +112,12 @@ impl MtlReader<'_> {
         let color_map = self.map("map_kd");
         let mut color = self.color("kd").unwrap_or(new.color);
         if color == [0.0; 3] && color_map.is_some() {
-            // Written by tools that take a map for all of the color.
+            // Tools that take the color from the map alone write black.
             color = [1.0; 3];
         }
+        // `Tr` is the opposite of `d`.
         let opacity = self.number("d").or(self.number("tr").map(|tr| 1.0 - tr));
+        // Take the roughness, or else convert the shininess as Blender does.
         let shine = self.number("ns");
         let from_shine = shine.map(|ns| 1.0 - (ns.clamp(0.0, 1000.0) / 1000.0).sqrt());
         let roughness = self.number("pr").or(from_shine).unwrap_or(new.roughness);
@@ -204,7 +206,7 @@ impl MtlReader<'_> {
         let normal = self.map("norm");
         let bump = self.map("map_bump").or_else(|| self.map("bump"));
         match (normal, bump) {
-            // The strength of normal maps is said where bump maps have it.
+            // The strength of a normal map is in a bump map of the same picture.
             (Some(normal), Some(bump)) if bump.shows_same(&normal) => (Some(bump), false),
             (Some(normal), Some(_)) => {
                 self.lost.insert("map_bump".to_owned());
@@ -237,7 +239,7 @@ impl MtlReader<'_> {
         };
         match keyword {
             "tf" => all(1.0),
-            // What is lit from nowhere looks like what is lit.
+            // An ambient map equal to the color map changes nothing.
             "map_ka" => self.words.get("map_kd").is_some_and(|map| map == rest),
             "ns" | "ps" | "aniso" | "anisor" => all(0.0) || keyword == "ns",
             _ => false,

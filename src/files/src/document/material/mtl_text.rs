@@ -39,12 +39,14 @@ fn push_material(text: &mut String, material: &Material) -> std::fmt::Result {
         let [coat, roughness] = material.coat.map(short);
         writeln!(text, "Pc {coat}\nPcr {roughness}")?;
     }
+    // Illumination models: constant color, diffuse, diffuse with highlights.
     let model = match (material.is_unlit, is_matte) {
         (true, _) => 0,
         (false, true) => 1,
         (false, false) => 2,
     };
     writeln!(text, "illum {model}")?;
+    // Write the maps.
     if let Some(map) = &material.color_map {
         push_map(text, "map_Kd", "", map)?;
         if material.is_cut_out {
@@ -60,7 +62,7 @@ fn push_material(text: &mut String, material: &Material) -> std::fmt::Result {
     }
     if let Some(map) = &material.normal_map {
         push_map(text, "norm", "", map)?;
-        // Where Blender looks for it, and has its strength.
+        // Blender looks here for the map and its strength.
         push_map(
             text,
             "map_Bump",

@@ -44,6 +44,7 @@ pub(in crate::document) fn material(
     let clearcoat = |key: &str| number(of("KHR_materials_clearcoat", key), 0.0);
     let normal_map = at("/normalTexture").and_then(&mut map);
     let strength = number(at("/normalTexture/scale"), 1.0);
+    // Count the parts that MTL cannot hold.
     for part in lost_parts(object, mode) {
         *lost.entry(part).or_default() += 1;
     }

@@ -5,6 +5,7 @@ use crate::document::{Warning, warning};
 use serde_json::{Map as Members, Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Number of this wrapping mode in glTF, that of WebGL.
 const CLAMP_TO_EDGE: usize = 33071;
 
 /// Materials of a new glTF file with their textures.
@@ -58,6 +59,7 @@ impl<'a> GltfMaterials<'a> {
         );
         let mut json = json!({"name": material.name, "pbrMetallicRoughness": pbr});
         self.put_normal_map(&mut json, material, folder);
+        // Emission above 1 becomes a strength, in an extension.
         let glow = material.emission.into_iter().fold(0.0, f64::max);
         if glow > 0.0 {
             let strength = glow.max(1.0);

@@ -44,7 +44,7 @@ pub fn read(bytes: &[u8]) -> Result<Elements, ReadError> {
             (b"Nodes", Version::V41) => reader.nodes_41()?,
             (b"Elements", Version::V22) => reader.elements_22()?,
             (b"Elements", Version::V41) => reader.elements_41()?,
-            // What is passed over may hold any byte, also `$`, up to its end mark.
+            // A skipped section may contain any byte, even `$`, up to its end mark.
             _ if name.starts_with(b"End") => {}
             _ => {
                 let end = [b"$End", name].concat();

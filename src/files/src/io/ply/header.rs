@@ -51,7 +51,7 @@ pub(super) fn header(bytes: &[u8]) -> Result<Header, ReadError> {
     let mut encoding = None;
     let mut at = 0;
     loop {
-        // The next line.
+        // Find the next line and its ending.
         let rest = &bytes[at..];
         let length = rest.iter().position(|&b| b == b'\n' || b == b'\r');
         let length = length.ok_or_else(|| malformed(at, "the header has no end"))?;
@@ -61,7 +61,7 @@ pub(super) fn header(bytes: &[u8]) -> Result<Header, ReadError> {
         } else {
             1
         };
-        // Its meaning.
+        // Interpret it.
         let mut line_words = words(line);
         match line_words.next().unwrap_or_default() {
             b"end_header" => {

@@ -112,6 +112,7 @@ fn read_records(
         list: Vec::new(),
     };
     for _ in 0..element.count {
+        // Keep the scalars and the wanted list, and skip other lists.
         for (k, property) in element.properties.iter().enumerate() {
             match property.kind {
                 Kind::Scalar(scalar) => record.scalars[k] = data.next(scalar)?,

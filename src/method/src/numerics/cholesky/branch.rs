@@ -184,21 +184,24 @@ impl Vectors {
 
 // One front: factors its panel and forms its update.
 
-/// Columns that are factored before everything to their right is updated with a matrix product.
+/// Columns that are factored before everything to their right is updated with a matrix product. Wider blocks make the
+/// products larger but leave more of the work to the kernels of this module.
 const BLOCK: usize = 96;
 
 /// Height from which a panel no longer stays in the innermost cache; below it the kernels of this module are faster.
 const LARGE: usize = 320;
 
-/// Rows of a product per task.
+/// Rows of a product per task. Fewer balance better, more multiply faster.
 const TASK_ROWS: usize = 256;
 
 /// Factors the panel of a front, which holds the assembled matrix.
 fn factor_panel(front: &Front, panel: &mut [f64]) -> Result<(), NotPositiveDefinite> {
     let (height, stride) = (front.height(), front.stride());
+    // Factor a panel that stays in the cache at once, a larger one in blocks of columns.
     let block = if height < LARGE { front.pivots } else { BLOCK };
     for from in (0..front.pivots).step_by(block.max(1)) {
         let to = front.pivots.min(from + block);
+        // Subtract the products with the columns factored so far.
         if from > 0 {
             let (left, right) = panel.split_at_mut(from * stride);
             let left = MatRef::from_column_major_slice_with_stride(left, height, from, stride);
@@ -214,6 +217,7 @@ fn factor_panel(front: &Front, panel: &mut [f64]) -> Result<(), NotPositiveDefin
                 left.submatrix(0, 0, to - from, from),
             );
         }
+        // Factor the columns of the block.
         let columns = FactorColumns {
             panel,
             stride,

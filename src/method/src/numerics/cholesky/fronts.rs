@@ -26,7 +26,7 @@ pub(super) struct Front {
     pub parent: u32,
     /// Children: a range of [`Fronts::children`].
     pub children: Range<usize>,
-    /// Depth, modulo 2.
+    /// Depth below the root; its parity chooses the stack of the update.
     pub depth: usize,
 }
 
@@ -94,6 +94,7 @@ impl Fronts {
             runs: Vec::new(),
             children: Vec::with_capacity(n),
         };
+        // Find the children and the rows of each front, children before parents.
         let children = fronts.gather_children(&supernodes.parent);
         let mut seen = vec![NONE; graph.n()];
         for (k, children) in children.into_iter().enumerate() {
@@ -110,11 +111,13 @@ impl Fronts {
                 depth: 0,
             });
         }
+        // Find the depths from the roots down.
         for k in (0..n).rev() {
             if fronts.list[k].parent != NONE {
                 fronts.list[k].depth = fronts.list[fronts.list[k].parent as usize].depth + 1;
             }
         }
+        // Find the places of each front's rows in its parent.
         for k in 0..n {
             let start = fronts.runs.len();
             if fronts.list[k].parent != NONE {

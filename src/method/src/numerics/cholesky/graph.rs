@@ -21,6 +21,7 @@ impl Graph {
             assert_eq!(column[0], block * v, "a column starts on the diagonal");
             column[block..].iter().step_by(block).map(|row| row / block)
         };
+        // Count the neighbors of each vertex.
         let mut starts = vec![0; n + 1];
         for v in 0..n {
             for w in larger(v) {
@@ -31,6 +32,7 @@ impl Graph {
         for v in 0..n {
             starts[v + 1] += starts[v];
         }
+        // Fill the lists. Vertices come in order, so each list is increasing.
         let mut neighbors = vec![0; starts[n] as usize];
         let mut next = starts.clone();
         for v in 0..n {

@@ -3,12 +3,13 @@
 //! Written for vectors of any width (pulp chooses at run time). A tile of eight columns is held in registers while all
 //! columns to its left are subtracted from it, so that the panel is written once.
 
-// What is not inlined into the function that pulp compiles for the processor at hand is compiled for the oldest one.
+// Only code inlined into the function that pulp compiles for the processor at hand uses its vectors; everything else is
+// compiled for the oldest processor.
 #![expect(clippy::inline_always)]
 
 use faer::traits::pulp::{Simd, WithSimd};
 
-/// Columns of a tile, and rows of the smallest strip.
+/// Columns of a tile, and rows of the smallest strip: numbers in the widest vector, of 512 bits.
 pub(super) const LANES: usize = 8;
 
 /// Eight columns of a factor's diagonal block, with reciprocals on the diagonal.

@@ -115,10 +115,11 @@ fn layout(fronts: &Fronts) -> (Vec<EntryPlace>, Vec<Extent>) {
     let branch_of = branches(fronts);
     let n_branches = branch_of.iter().max().map_or(1, |&b| b as usize + 1);
     let mut extents: Vec<Extent> = (0..n_branches).map(|_| Extent::default()).collect();
-    // Of each branch and stack of updates: the present height.
+    // Present heights of the two stacks of updates of each branch.
     let mut heights = vec![[0_usize; 2]; n_branches];
     let mut places = Vec::with_capacity(fronts.list.len());
     for (k, front) in fronts.list.iter().enumerate() {
+        // Lay the panels and vectors of a branch one after another; push each update onto the stack of its parity.
         let branch = branch_of[k] as usize;
         let (extent, height) = (&mut extents[branch], &mut heights[branch]);
         let now = &mut height[front.depth % 2];
@@ -137,6 +138,7 @@ fn layout(fronts: &Fronts) -> (Vec<EntryPlace>, Vec<Extent>) {
         extent.pivots += front.pivots;
         extent.below += front.below;
         extent.highest = extent.highest.max(front.height());
+        // Pop the updates of the children, which the front has received. Those in other branches stay where they are.
         for &child in &fronts.children[front.children.clone()] {
             if branch_of[child as usize] as usize == branch {
                 height[(front.depth + 1) % 2] -= fronts.list[child as usize].update_len();
@@ -150,6 +152,7 @@ fn layout(fronts: &Fronts) -> (Vec<EntryPlace>, Vec<Extent>) {
 /// trunk, the last.
 fn branches(fronts: &Fronts) -> Vec<u32> {
     let n = fronts.list.len();
+    // Sum the work of each subtree.
     let mut work: Vec<f64> = fronts.list.iter().map(Front::flops).collect();
     for k in 0..n {
         let parent = fronts.list[k].parent;
@@ -163,11 +166,13 @@ fn branches(fronts: &Fronts) -> Vec<u32> {
         .zip(&work)
         .filter(|(front, _)| front.parent == NONE);
     let total: f64 = roots.map(|(_, work)| work).sum();
+    // Keep a small factorization in the trunk: tasks would cost more than they save.
     let share = if total < PARALLEL_FROM {
         0.0
     } else {
         TASK_SHARE
     };
+    // From the roots down, begin a branch at each subtree that is small enough for a task.
     let mut branch_of = vec![NONE; n];
     let mut n_branches = 0;
     for k in (0..n).rev() {
@@ -183,6 +188,7 @@ fn branches(fronts: &Fronts) -> Vec<u32> {
             n_branches += 1;
         }
     }
+    // The rest is the trunk.
     for branch in branch_of.iter_mut().filter(|branch| **branch == NONE) {
         *branch = n_branches;
     }
@@ -197,7 +203,8 @@ fn branches(fronts: &Fronts) -> Vec<u32> {
 /// of them; at a million vertices it is the difference between 55 and 250 billion multiplications.
 const DISSECTED_FROM: usize = 100_000;
 
-/// Number of vertices in space, where separators are larger and a bad order costs more.
+/// Number of vertices in space, where separators are larger and a bad order costs more: at 94,000 tetrahedra dissection
+/// took a factorization from 1.42 s to 0.53 s on one thread (`tests/bench/solids.rs`, `cage-56`).
 const SOLIDS_DISSECTED_FROM: usize = 2_000;
 
 /// Returns an order of the vertices, of `block` unknowns each, that keeps the factor sparse: `order[new] = old`.
@@ -297,12 +304,14 @@ impl Scatter {
             for j in first..first + front.pivots / size {
                 let column = (j - first) * size;
                 let own = order[j];
+                // The block on the diagonal.
                 scatter.blocks.push(Block {
                     from: pattern.col_ptr[size * own as usize] as u32,
                     stride: stride(graph, own, size),
                     to: (column * front.stride() + column) as u32,
                     kind: FrontKind::Diagonal,
                 });
+                // The blocks of neighbors that are eliminated later.
                 for &i in reordered.of(j as u32).iter().filter(|&&i| i as usize > j) {
                     let row = front.row(i, size, &fronts.rows);
                     let to = column * front.stride() + row;

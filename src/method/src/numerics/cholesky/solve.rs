@@ -1,6 +1,7 @@
 //! Forward and backward substitution with the factor.
 
-// What is not inlined into the function that pulp compiles for the processor at hand is compiled for the oldest one.
+// Only code inlined into the function that pulp compiles for the processor at hand uses its vectors; everything else is
+// compiled for the oldest processor.
 #![expect(clippy::inline_always)]
 
 use faer::traits::pulp::{Simd, WithSimd};
@@ -33,6 +34,7 @@ impl WithSimd for Forward<'_> {
         } = self.branch;
         for &k in fronts.iter() {
             let (front, place) = plan.front(k);
+            // Gather the right-hand side at the pivots and add the contributions of the children.
             let local = &mut vectors.local[..front.height()];
             local.fill(0.0);
             plan.gather(front, self.b, local);
@@ -48,9 +50,11 @@ impl WithSimd for Forward<'_> {
                     }
                 }
             }
+            // Solve for the pivots, one tile after another.
             for first in (0..front.pivots).step_by(LANES) {
                 SolveTile::new(front, &panels[place.panel..], first).forward(simd, local);
             }
+            // Store the solution at the pivots and the contribution to the rows below.
             let (own, below) = local.split_at(front.padded());
             vectors.pivots[place.pivots..][..front.pivots].copy_from_slice(&own[..front.pivots]);
             vectors.below[place.below..][..front.below].copy_from_slice(&below[..front.below]);
@@ -80,15 +84,18 @@ impl WithSimd for Backward<'_> {
         } = self.branch;
         for &k in fronts.iter().rev() {
             let (front, place) = plan.front(k);
+            // Load the result of the forward pass at the pivots and the solution in the rows below.
             let local = &mut vectors.local[..front.height()];
             local.fill(0.0);
             let pivots = &mut vectors.pivots[place.pivots..][..front.pivots];
             local[..front.pivots].copy_from_slice(pivots);
             local[front.padded()..][..front.below]
                 .copy_from_slice(&vectors.below[place.below..][..front.below]);
+            // Solve for the pivots, the last tile first.
             for first in (0..front.pivots).step_by(LANES).rev() {
                 SolveTile::new(front, &panels[place.panel..], first).backward(simd, local);
             }
+            // Store the solution, and pass it on to the rows below the children.
             pivots.copy_from_slice(&local[..front.pivots]);
             for (child, at) in plan.children(front) {
                 let other = others.get_mut(at.branch as usize);
@@ -136,7 +143,7 @@ impl<'a> SolveTile<'a> {
         let height = local.len();
         let (own, below) = local[self.first..].split_at_mut(LANES);
         let mut factors = [simd.splat_f64s(0.0); LANES];
-        // Columns that there are not read the first one's rows and count nothing.
+        // Missing columns read the rows of the first and are multiplied by 0.
         let mut columns = [&self.column(0, height)[LANES..]; LANES];
         for c in 0..self.width {
             let column = self.column(c, height);

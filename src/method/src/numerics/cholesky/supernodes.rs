@@ -123,10 +123,12 @@ fn amalgamate(parent: &[u32], sizes: &mut [SupernodeSize], block: usize) -> Vec<
 /// latter's own.
 fn renumber(starts: &[u32], parent: &[u32], joined: &[u32]) -> Supernodes {
     let n = parent.len();
+    // Collect the members of each group that remains.
     let mut members: Vec<Vec<u32>> = vec![Vec::new(); n];
     for (k, &into) in joined.iter().enumerate() {
         members[into as usize].push(k as u32);
     }
+    // Number the groups that remain, and find their parents among them.
     let kept: Vec<u32> = (0..n as u32).filter(|&k| joined[k as usize] == k).collect();
     let mut rank = vec![NONE; n];
     for (i, &k) in kept.iter().enumerate() {
@@ -138,6 +140,7 @@ fn renumber(starts: &[u32], parent: &[u32], joined: &[u32]) -> Supernodes {
             p => rank[joined[p as usize] as usize],
         })
         .collect();
+    // Put groups and columns in postorder.
     let postorder = tree::postorder(&kept_parent);
     let mut found = Supernodes {
         order: Vec::with_capacity(starts[n] as usize),

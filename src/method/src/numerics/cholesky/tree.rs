@@ -32,6 +32,7 @@ pub(super) fn elimination_tree(graph: &Graph) -> Vec<u32> {
 /// Numbers every tree of a forest from its leaves up, subtree by subtree: `order[new] = old`.
 pub(super) fn postorder(parent: &[u32]) -> Vec<u32> {
     let n = parent.len();
+    // List the children of each vertex. Later ones are put in front of the list first, so each list is increasing.
     let (mut first_child, mut sibling) = (vec![NONE; n], vec![NONE; n]);
     let mut roots = Vec::new();
     for v in (0..n as u32).rev() {
@@ -43,6 +44,7 @@ pub(super) fn postorder(parent: &[u32]) -> Vec<u32> {
             }
         }
     }
+    // Walk each tree depth first; an explicit stack, because trees can be as deep as they have vertices.
     let mut order = Vec::with_capacity(n);
     let mut stack = Vec::new();
     while let Some(root) = roots.pop() {
@@ -74,6 +76,7 @@ pub(super) fn reordered(parent: &[u32], order: &[u32]) -> Vec<u32> {
 /// their leaves. From: Gilbert, Ng, Peyton 1994, An Efficient Algorithm to Compute Row and Column Counts.
 pub(super) fn column_counts(graph: &Graph, parent: &[u32]) -> Vec<u32> {
     let n = parent.len();
+    // Find the first descendant of each column.
     let mut first_descendant: Vec<u32> = (0..n as u32).collect();
     for j in 0..n {
         if parent[j] != NONE {
@@ -81,6 +84,7 @@ pub(super) fn column_counts(graph: &Graph, parent: &[u32]) -> Vec<u32> {
             first_descendant[p] = first_descendant[p].min(first_descendant[j]);
         }
     }
+    // Count each leaf of a row subtree, and take one off where the paths of two successive leaves meet.
     let mut ancestor: Vec<u32> = (0..n as u32).collect();
     let mut last_leaf = vec![NONE; n];
     let mut counts: Vec<i32> = (0..n as u32)
@@ -105,6 +109,7 @@ pub(super) fn column_counts(graph: &Graph, parent: &[u32]) -> Vec<u32> {
             ancestor[j as usize] = parent[j as usize];
         }
     }
+    // Sum the counts from the leaves up.
     for j in 0..n {
         if parent[j] != NONE {
             counts[parent[j] as usize] += counts[j];

@@ -16,7 +16,7 @@ impl Objective {
         for (term, slots) in self.terms.iter().zip(&self.slots) {
             self.model.add(term.as_ref(), slots, x, tau);
         }
-        // Before the constraints: their strength says nothing of the energy's.
+        // Measure before the constraints are added: their strength is not the energy's.
         self.model.measure();
         if let (Some(constraints), Some(slots)) = (&self.constraints, self.slots.last()) {
             self.model.add(constraints, slots, x, tau);
