@@ -117,7 +117,7 @@ impl Hand for BodyHand {
     fn reset(&mut self) {
         self.held.session.reset();
         for handle in &self.border {
-            // A body at rest held where it is: nothing contradicts that.
+            // This cannot fail: handles at rest contradict nothing.
             let _ = self.held.session.add(handle.clone());
         }
     }

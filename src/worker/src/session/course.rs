@@ -34,6 +34,7 @@ impl Course {
         upload: &Upload,
         limits: Limits,
     ) -> Result<Self, Failure> {
+        // Open the body, the picture or the UVs of the input.
         let (hand, handles): (Box<dyn Hand>, Value) = match kind {
             Kind::Deform => {
                 let options: DeformOptions = read(options, limits)?;
@@ -56,6 +57,7 @@ impl Course {
                 return Err(Failure::new("invalid_options", detail));
             }
         };
+        // Add the handles of the options, named by their positions in the list.
         let mut course = Self {
             hand,
             step: 0,
