@@ -61,6 +61,7 @@ impl Walk<'_> {
             } else {
                 self.root.join(&folder)
             };
+            // Skip the output folder.
             let is_apart = !folder.as_os_str().is_empty() && path.canonicalize().ok() == self.apart;
             if is_apart && self.apart.is_some() {
                 continue;
@@ -69,6 +70,7 @@ impl Walk<'_> {
                 path: path.clone(),
                 error,
             };
+            // Sort the entries into folders to visit, links to report, and meshes.
             for entry in fs::read_dir(&path).map_err(unreadable)? {
                 let entry = entry.map_err(unreadable)?;
                 let name = entry.file_name();

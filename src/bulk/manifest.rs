@@ -24,6 +24,7 @@ pub fn assets_of(
 ) -> Result<Vec<Asset>, ListError> {
     let mut assets = Vec::new();
     let mut inputs = BTreeSet::new();
+    // Parse the lines, and name the line of an error.
     for (number, line) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
         let line = line.strip_suffix(b"\r").unwrap_or(line);
         if line.is_empty() {
@@ -42,6 +43,7 @@ pub fn assets_of(
             cause,
         })?);
     }
+    // Check the assets together.
     if assets.is_empty() {
         return Err(ListError::NoAssets(name.to_owned()));
     }

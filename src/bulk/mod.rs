@@ -1,4 +1,4 @@
-//! Many files through one command, without a queue of our own.
+//! Processing of many files by one command, without a queue of our own.
 //!
 //! A run is a stateless task over a list of assets, or over one shard of it, so that any launcher of processes can
 //! drive it: a shell, HyperQueue, Ray, Slurm, a Kubernetes Indexed Job. Its state lies beside the outputs:
@@ -10,8 +10,8 @@
 //!   between the files and the record costs that asset's time again, and changes nothing.
 //! - **No coordination.** Each asset has a record of its own, so shards share nothing. Two processes that do the same
 //!   asset write the same bytes.
-//! - **One bad mesh is one row.** Assets are computed in child processes with limits, like the jobs of the service;
-//!   whatever happens to one ends as a row of the summary with its code.
+//! - **One bad mesh is one row.** Assets are computed in child processes with limits, like the jobs of the service.
+//!   Every failure of one becomes a row of the summary with its code.
 //!
 //! The summary is made from the rows of a run, including kept ones. So a run without a shard after all shards does
 //! what is missing and summarizes everything.

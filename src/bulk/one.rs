@@ -35,7 +35,7 @@ pub(super) async fn asset<W: Worker>(order: &Order, worker: &W, index: usize) ->
         && !(same.may_pass() || same.was_cut_short(time_limit))
         && !(order.retries && same.has_failed())
     {
-        // The record may have another name of the input.
+        // The record may be from a run in which the input had another name.
         let Row {
             seconds, status, ..
         } = same.row.clone();
@@ -84,7 +84,7 @@ async fn done<W: Worker>(
         let asset = &order.assets[index];
         block_in_place(|| published(order, asset, &folder, &made, old))
     });
-    // What stays there takes space only until the end of the run.
+    // The folder is removed at the end of the run anyway.
     let _ = fs::remove_dir_all(&folder);
     made
 }
@@ -128,7 +128,7 @@ fn published(
     made: &[String],
     old: Option<&Record>,
 ) -> Result<Published, Failure> {
-    // A record holds for files as it lists them: from here on they change.
+    // Remove the record first: it vouches for files that change from here on.
     let forgotten = order.place.remove(&Place::record(asset));
     forgotten.map_err(|error| unwritten(&error))?;
     let mut figures = None;
@@ -148,6 +148,7 @@ fn published(
         put(&order.place, &path, &content, is_own)?;
         files.push((path, content.len() as u64));
     }
+    // The report is among the files of every worker.
     let figures = figures.ok_or_else(|| Failure::new("internal_error", "there is no report"))?;
     Ok((figures, files))
 }

@@ -98,6 +98,7 @@ impl Recipe {
 
 // Temporary folder on a local disk.
 
+/// Prefix of the folders of all processes, and the name of the lock file in each.
 const PREFIX: &str = "unwrapd-bulk-";
 const LOCK: &str = "lock";
 
@@ -145,7 +146,7 @@ fn is_abandoned(folder: &Path) -> bool {
 
 impl Drop for Scratch {
     fn drop(&mut self) {
-        // What is left is removed by a later process.
+        // A later process removes what is left.
         let _ = fs::remove_dir_all(&self.path);
     }
 }

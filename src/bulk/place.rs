@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 use std::{fs, io};
 
-/// Age above which an unfinished file was left by a killed process.
+/// Age above which an unfinished file was left by a killed process. Files are written in seconds, but the clocks of
+/// machines that share the folder may differ by hours.
 const PART_AGE: Duration = Duration::from_hours(24);
 
 /// An output folder, with the state of runs in `.unwrapd`.
@@ -26,7 +27,7 @@ impl Place {
             root: root.to_path_buf(),
         };
         fs::create_dir_all(place.parts())?;
-        // Whatever else is wrong with the folder shows now.
+        // Write a probe, so that any other defect of the folder shows now.
         let probe = place.part();
         fs::write(&probe, [])?;
         fs::remove_file(&probe)?;
@@ -91,7 +92,7 @@ impl Place {
 fn write_whole(path: &Path, part: &Path, content: &[u8]) -> io::Result<()> {
     let written = written(part, content).and_then(|()| fs::rename(part, path));
     if let Err(error) = written {
-        // The first error is the one to tell.
+        // Only the first error is reported.
         let _ = fs::remove_file(part);
         return Err(error);
     }

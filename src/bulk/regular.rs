@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Maximum size of a file in bytes, as far as lengths in a GLB can count: 4 GiB.
+/// Maximum size of a file in bytes: 4 GiB, since a GLB stores its length as a 32-bit number.
 pub const MOST_BYTES: u64 = 1 << 32;
 
 /// Reads a regular file, or the target of a link to one.

@@ -33,6 +33,7 @@ pub async fn run<W: Worker>(
     let mut running = JoinSet::new();
     let mut places = HashMap::new();
     loop {
+        // Start assets while there are free slots.
         while running.len() < order.concurrency.max(1)
             && let Some(index) = waiting.next()
         {
@@ -40,6 +41,7 @@ pub async fn run<W: Worker>(
             let handle = running.spawn(async move { one::asset(&order, &*worker, index).await });
             places.insert(handle.id(), index);
         }
+        // Wait for the next asset, or for the stop.
         let ended = tokio::select! {
             ended = running.join_next_with_id() => ended,
             () = &mut stop => {
@@ -50,6 +52,7 @@ pub async fn run<W: Worker>(
         let Some(ended) = ended else {
             break;
         };
+        // Turn a panic into a row, and report the row.
         let (id, (row, fate)) = ended.unwrap_or_else(|error| {
             let asset = &order.assets[places[&error.id()]];
             let row = Row::new(asset, 0.0, broken(&error).into());

@@ -144,6 +144,7 @@ impl FromStr for ShardChoice {
 impl ShardChoice {
     /// Determines the shard; `variable` reads the environment.
     pub fn resolved(self, variable: impl Fn(&str) -> Option<String>) -> Result<Shard, ShardError> {
+        // A fixed shard needs no scheduler.
         let given = match self {
             Self::Fixed(shard) => return Ok(shard),
             Self::Auto(given) => given,
@@ -159,11 +160,12 @@ impl ShardChoice {
             range,
         } in SCHEDULERS
         {
+            // Use the first scheduler that provides an index.
             let Some(index) = number(name)? else {
                 continue;
             };
             let told = count.map(number).transpose()?.flatten();
-            // Of an array with gaps, or one that does not begin at 0, the count is not that of the shards.
+            // If an array has gaps or does not begin at 0, its number of tasks is not the number of shards.
             let is_whole = match range.map(|names| names.map(number)) {
                 Some([least, greatest]) => {
                     least? == Some(0) && greatest?.map(|greatest: u64| greatest + 1) == told

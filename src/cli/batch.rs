@@ -91,7 +91,7 @@ pub(super) fn run_with<W: Worker>(
     let unwritable = |error| Failure::other(format!("cannot write to {}: {error}", to.display()));
     let place = Place::open(to).map_err(unwritable)?;
     let mut display = BulkDisplay::new(assets.len(), &args.accept, args.quiet);
-    // Read the records, or do the work.
+    // Read the records of earlier runs, or do the work until a signal stops it.
     let rows = if args.summary_only {
         bulk::recorded(&assets, &place)
     } else {
@@ -114,7 +114,7 @@ pub(super) fn run_with<W: Worker>(
             })
         })?
     };
-    // Summarize.
+    // Write the summary and judge the totals.
     let totals = Totals::of(&rows, &args.accept);
     display.finish(&totals);
     conclude(args, &place, &rows, &totals, &summary)

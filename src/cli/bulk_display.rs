@@ -46,11 +46,13 @@ impl<'a> BulkDisplay<'a> {
 
     /// Shows a finished asset.
     pub(super) fn see(&mut self, row: &Row, fate: Fate) {
+        // Count the asset.
         match fate {
             Fate::Kept => self.n_kept += 1,
             Fate::Done => self.n_done += 1,
         }
         self.n_made += usize::from(fate == Fate::Done && matches!(row.status, Status::Written(_)));
+        // Print a line: on a terminal only for rejected assets, since the bar shows the others.
         let is_accepted = row.is_accepted(self.gates);
         let is_told = match fate {
             Fate::Kept => false,

@@ -53,6 +53,7 @@ struct UnknownFiles {
     quarantine_days: Option<f64>,
 }
 
+/// Seconds per day.
 const DAY_SECONDS: f64 = 86_400.0;
 
 /// Runs the command.
@@ -62,6 +63,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 async fn check(args: &Args) -> Result<(), Failure> {
+    // Open the store.
     let data = &args.store.data;
     if args.store.database.is_none() && !data.exists() {
         return Err(Failure::other(format!("there is no {}", data.display())));
@@ -69,6 +71,7 @@ async fn check(args: &Args) -> Result<(), Failure> {
     let store = args.store.opened().await?;
     let url = blobs_url(data, args.blobs.as_deref()).map_err(Failure::other)?;
     let blobs = blobs_at(&url).map_err(|error| failed(&error))?;
+    // Compare, print, and fail if anything was found.
     let found = compared(args, &store, blobs.as_ref()).await;
     let (found, quarantined) = found.map_err(|error| failed(&error))?;
     let printed = PrintedCheck::of(&found, &quarantined);

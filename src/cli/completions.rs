@@ -15,6 +15,6 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, mut program: clap::Command) {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut program, "unwrapd", &mut script);
-    // As with any output, a reader may go away.
+    // The reader may have closed the pipe, as with any output.
     let _ = io::stdout().write_all(&script);
 }

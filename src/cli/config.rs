@@ -48,6 +48,7 @@ struct SettingRow {
 
 /// Runs the command; `typed` are the matches of its arguments.
 pub(super) fn run(args: &Args, program: &clap::Command, typed: &ArgMatches) -> Result<(), Failure> {
+    // Collect the options of `serve` and the variables of S3.
     let serve = program.find_subcommand("serve");
     let derived = args.serve.derived();
     let options = serve.into_iter().flat_map(clap::Command::get_arguments);
@@ -59,9 +60,11 @@ pub(super) fn run(args: &Args, program: &clap::Command, typed: &ArgMatches) -> R
         .into_iter()
         .chain(S3.map(|(name, is_secret)| SettingRow::of_s3(name, is_secret)))
         .collect();
+    // Warn of misspelled variables.
     for variable in unknown(program) {
         warn_of(format!("no option reads {variable}"));
     }
+    // Print the rows.
     if args.json {
         return print_json(&rows);
     }

@@ -53,7 +53,7 @@ pub(super) fn warn_of(message: impl Display) {
 
 /// Prints requested output on standard output, regardless of the destination of lines.
 pub(super) fn print(text: impl Display) {
-    // As with `say`, a reader may go away.
+    // The reader may have closed the pipe, as with `say`.
     let _ = writeln!(io::stdout(), "{}", escaped(&text.to_string()));
 }
 

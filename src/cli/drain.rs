@@ -8,7 +8,8 @@ use super::console::print;
 use super::failure::Failure;
 use super::local_call::Local;
 
-/// Interval between checks of running jobs.
+/// Interval between checks of running jobs. A longer interval delays the end of the command, a shorter one sends more
+/// requests.
 const PAUSE: Duration = Duration::from_millis(500);
 
 /// The arguments of `drain`.

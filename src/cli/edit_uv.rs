@@ -60,6 +60,7 @@ pub(super) fn texture_map(args: &TextureArgs) -> Result<(), Failure> {
 
 /// Runs an edit; exits with 4 if the UV set is not proven to be bijective, with 5 if targets cannot be reached.
 fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
+    // Check options and paths before the work.
     let (input, to) = (&args.mapped.input, &args.target.output);
     let mut options = EditOptions {
         format: output_format(to, args.files.format)?,
@@ -69,6 +70,7 @@ fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
     options.check().map_err(Failure::of_options)?;
     let (report, output) = (&args.files.report, &args.files.output);
     let outputs = Outputs::check(to, &[report], &[input, anchors], output)?;
+    // Read the inputs and edit.
     options.anchors = parse_anchors(&read_file(anchors)?)?;
     let upload = read_upload(input)?;
     let outputs = outputs.with_resources_of(&upload);
@@ -76,6 +78,7 @@ fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
     let edited = edit_document(&upload, editing, &options, &display);
     display.finish()?;
     let edited = edited?;
+    // Write the result, even one without a certificate, and report.
     let written = outputs.write(&edited.files, &[(report, &json(&edited.report)?)])?;
     if output.talk.json {
         print_json(&edited.report)?;

@@ -11,9 +11,10 @@ use super::work_args::seconds;
 use unwrapd_server::http::{Connections, origin};
 use unwrapd_server::jobs::access::{KeyRing, KeyStore};
 
-/// Default maximum number of connections.
+/// Default maximum number of connections. It needs a limit of 8,448 open files: two per connection and `OTHER_FILES`.
 const MOST_CONNECTIONS: u64 = 4096;
-/// Number of open files reserved for everything else.
+/// Number of open files reserved for everything else: database connections, files of jobs, pipes of children. A higher
+/// number leaves fewer connections where the limit of open files is low.
 const OTHER_FILES: u64 = 256;
 
 /// Access to the service, and time limits for silent clients.

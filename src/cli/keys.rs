@@ -10,9 +10,9 @@ use super::store_args::StoreArgs;
 use unwrapd_server::jobs::Timestamp;
 use unwrapd_server::jobs::access::{Key, KeyId, KeyStore, KeyText, NewKey, Owner, Scopes};
 
-/// Maximum length of a note in characters.
+/// Maximum length of a note in characters, so that the list keeps one line per key.
 const MOST_OF_NAME: usize = 100;
-/// Maximum lifetime of a key: a hundred years.
+/// Maximum lifetime of a key: a hundred years. A key that must not expire has no lifetime at all.
 const LONGEST: Duration = Duration::from_hours(100 * 365 * 24);
 
 /// The arguments of `keys`.
@@ -141,7 +141,7 @@ async fn create(args: &Create) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Minimum number of digits of a secret: 256 bits.
+/// Minimum number of hexadecimal digits of a secret: 256 bits, as in generated keys.
 const SECRET_DIGITS: usize = 64;
 
 async fn add(args: &Add) -> Result<(), Failure> {
@@ -166,10 +166,10 @@ async fn add(args: &Add) -> Result<(), Failure> {
         life: None,
         parent: None,
     };
-    // Add it, and then look at what is stored.
+    // Add it, then compare the stored key with it.
     let store = args.store.opened().await?;
     let added = store.add_key(&new).await;
-    // It may be there already: another process may have been faster.
+    // The error is ignored at first: the key may exist already, or another process may have been faster.
     let keys = store.keys().await;
     let keys = keys.map_err(|error| Failure::other(format!("no keys read: {error}")))?;
     match (keys.iter().find(|known| known.id == new.id), added) {

@@ -7,8 +7,9 @@ use std::time::Duration;
 
 use super::listen::ADDRESS_FILE;
 
+/// Timeout of connecting and of each read. It is below the 5 s that the health check of the container image allows.
 const TIMEOUT: Duration = Duration::from_secs(3);
-/// Maximum length of a response in bytes.
+/// Maximum length of a response in bytes, far above that of the responses that are read here.
 const MOST: u64 = 64 << 10;
 
 /// Which service is called.

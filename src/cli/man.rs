@@ -25,7 +25,7 @@ pub(super) fn run(args: &Args, mut program: clap::Command) -> Result<(), Failure
     let mut text = Vec::new();
     let rendered = Man::new(page.clone()).render(&mut text);
     rendered.map_err(|error| Failure::other(error.to_string()))?;
-    // As with any output, a reader may go away.
+    // The reader may have closed the pipe, as with any output.
     let _ = io::stdout().write_all(&text);
     Ok(())
 }

@@ -67,8 +67,8 @@ use unwrapd_server::jobs::Program;
 ///
 /// Exits the process on a usage error, and after printing help.
 pub fn run(arguments: Vec<OsString>, program: std::io::Result<Program>) -> u8 {
-    // `compute FOLDER` is one job of the service, `draw FOLDER` one picture of a result, `session FOLDER` one live session, started by
-    // `serve` with the folder of it: no help, suggestion or completion knows them.
+    // Commands of child processes, each with its folder: `compute` is one job, `draw` one picture of a result,
+    // `session` one live session. They are left out of help, suggestions and completions.
     if let [_, word, folder, ..] = &arguments[..] {
         if word == "compute" {
             return unwrapd_worker::compute(Path::new(folder));

@@ -77,7 +77,7 @@ impl Outputs {
         inputs: &[&Path],
         args: &OutputArgs,
     ) -> Result<Self, Failure> {
-        // Only one result can go to standard output, and one input come from standard input.
+        // At most one result can go to standard output, and one input can come from standard input.
         let others = others.iter().filter_map(|path| path.as_deref());
         let places: Vec<&Path> = [main].into_iter().chain(others).collect();
         let n_printed = count_standard(&places) + usize::from(args.talk.json);
@@ -95,7 +95,7 @@ impl Outputs {
             inputs: inputs.iter().map(|path| path.to_path_buf()).collect(),
             is_forced: args.force,
         };
-        // Files must be writable, distinct, and no inputs.
+        // Check that the files are writable, distinct, and no inputs.
         let mut files: Vec<PathBuf> = Vec::new();
         for path in places.into_iter().filter(|path| !is_stream(path)) {
             outputs.check_apart(path)?;
@@ -107,7 +107,7 @@ impl Outputs {
             }
             files.push(file);
         }
-        // Lines about the result go where no result does.
+        // Direct lines about the result to a stream that carries no result.
         console::direct(match (args.talk.quiet || args.talk.json, n_printed) {
             (true, _) => Lines::None,
             (false, 0) => Lines::Output,
@@ -134,6 +134,7 @@ impl Outputs {
         files: &[(String, Vec<u8>)],
         others: &[(&Option<PathBuf>, &[u8])],
     ) -> Result<WrittenFiles, Failure> {
+        // Collect the contents, the main file last, so that its presence proves the others.
         let mut contents: Vec<(PathBuf, &[u8])> = Vec::new();
         for (path, bytes) in others {
             contents.extend(path.iter().map(|path| (path.clone(), *bytes)));
@@ -155,6 +156,7 @@ impl Outputs {
         if let Some((_, bytes)) = files.first() {
             contents.push((self.main.clone(), bytes));
         }
+        // Write all, and list what was written.
         write_all(&contents)?;
         let files = contents.iter().rev().filter(|(path, _)| !is_stream(path));
         Ok(WrittenFiles(
@@ -198,7 +200,7 @@ impl WrittenFiles {
     }
 }
 
-/// Maximum number of files named in the last line of a command.
+/// Maximum number of files named in the last line of a command, so that the line stays readable.
 const MOST_NAMED: usize = 4;
 
 fn count_standard(paths: &[&Path]) -> usize {
@@ -296,13 +298,13 @@ fn write_all(contents: &[(PathBuf, &[u8])]) -> Result<(), Failure> {
         .collect();
     let failed = |path: &Path, error: &io::Error| {
         for (path, _) in &files {
-            // Not all were written; the first error is the one to tell.
+            // Remove what was written; only the first error is reported.
             let _ = fs::remove_file(part(path));
         }
         Failure::other(format!("cannot write {}: {error}", path.display()))
     };
     for (path, bytes) in &files {
-        // What belongs to a result may have a folder of its own; that of the result itself was checked before.
+        // Files beside a result may lie in a subfolder; the folder of the result itself was checked before.
         fs::create_dir_all(parent(path)).map_err(|error| failed(path, &error))?;
         fs::write(part(path), bytes).map_err(|error| failed(path, &error))?;
     }

@@ -13,7 +13,8 @@ use super::work_args::WorkArgs;
 use unwrapd_server::jobs::{Blobs, JobStore, Jobs, Settings};
 use unwrapd_server::store::{RecordStore, blobs_at};
 
-/// Time for connections and computations to end after the stop signal and the grace period.
+/// Time for connections and computations to end after the stop signal and the grace period. A longer time delays the
+/// exit if a client does not close its connection; a shorter one cuts off responses.
 const STOP_TIME: Duration = Duration::from_secs(10);
 
 /// Runs a process on its folder until it ends.

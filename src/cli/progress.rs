@@ -12,7 +12,7 @@ use super::output::{Talk, write_whole};
 use unwrapd_method::solver::Control;
 use unwrapd_pipeline::{Observer, Progress, Stage};
 
-/// Number of steps of the bar.
+/// Number of steps of the bar: ten per displayed percent.
 const STEPS: u64 = 1000;
 
 /// Shows progress, provides the time, and writes frames.
@@ -152,7 +152,7 @@ fn stage_text(progress: &Progress) -> String {
             "pull, iteration {}, energy {:.6}",
             progress.iteration, progress.energy
         ),
-        // Packing cuts charts further: their number is known at its end.
+        // Packing may cut charts further, so their number is known only at its end.
         Stage::Pack => "pack the charts".into(),
         Stage::Bake => "resample the textures".into(),
         Stage::Write => "write".into(),

@@ -41,6 +41,7 @@ pub(super) struct Args {
 
 /// Runs the command.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    // Check options and paths before the work.
     let (input, to) = (&args.mapped.input, &args.target.output);
     let mut options = RepackOptions {
         format: output_format(to, args.files.format)?,
@@ -56,6 +57,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         options.islands = given_islands(islands)?;
         options.check()?;
     }
+    // Read the input and pack.
     let began = Instant::now();
     let upload = read_upload(input)?;
     let outputs = outputs.with_resources_of(&upload);
@@ -63,6 +65,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let outcome = repack_document(&upload, &options, &display);
     display.finish()?;
     let outcome = outcome?;
+    // Write the result, report, and judge it by the gates.
     let written = outputs.write(&outcome.files, &[(report, &json(&outcome.report)?)])?;
     if output.talk.json {
         print_json(&outcome.report)?;

@@ -98,6 +98,7 @@ fn days(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Seconds per day.
 const DAY_SECONDS: f64 = 86_400.0;
 
 impl Args {
@@ -154,6 +155,7 @@ pub(super) fn run(args: &Args, program: Program) -> Result<(), String> {
 }
 
 async fn serve(args: &Args, program: Program) -> Result<(), String> {
+    // Derive the settings.
     let text = |error: &dyn std::fmt::Display| error.to_string();
     let settings = args.job_settings(program);
     let grace = settings.grace;

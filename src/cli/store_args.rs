@@ -109,7 +109,7 @@ const NAMES: [&str; 7] = [
     "blobs",
     "scratch",
 ];
-/// Permission bits: access of group and others, of others alone, of the group, and special bits.
+/// Permission bits of POSIX: access of group and others, of others alone, of the group, and special bits.
 const GROUP_AND_OTHERS: u32 = 0o077;
 const OTHERS: u32 = 0o007;
 const GROUP_WRITES: u32 = 0o020;
@@ -127,7 +127,7 @@ fn make_private(folder: &Path, has_database: DatabaseAddress) -> Result<(), Stri
     let mut builder = DirBuilder::new();
     builder.recursive(true).mode(0o700);
     builder.create(folder).map_err(failed)?;
-    // Find out who shares it.
+    // Find out whether a group shares it, and deny access to everybody else.
     let found = folder.metadata().map_err(failed)?;
     let is_own = |data: &Metadata| is_owner(data.uid());
     let is_of_group =
@@ -145,7 +145,7 @@ fn make_private(folder: &Path, has_database: DatabaseAddress) -> Result<(), Stri
     }
     // Tighten the folder and our files in it.
     if found.mode() & denied != 0 {
-        // A folder such as /tmp is meant for all.
+        // A sticky folder, such as /tmp, is meant for all users.
         if is_own(&found) && found.mode() & STICKY == 0 {
             tighten(folder, &found, denied);
         } else {

@@ -5,14 +5,15 @@ use unwrapd_maps::certificate::Certificate;
 use unwrapd_maps::measure::Page;
 use unwrapd_pipeline::{GroupReport, stretch_percent};
 
-/// Maximum number of lines, without head and totals.
+/// Maximum number of lines, without head and totals: the table fits on a screen together with the rest of the output.
 const LINES: usize = 10;
-/// Maximum length of a name in characters.
+/// Maximum length of a name in characters. Longer names make lines wrap on more terminals.
 const NAME: usize = 28;
 
 /// Prints the quality of atlases: uncertified ones first, then the largest. If there are more than ten, the last line
 /// sums up the rest.
 pub(super) fn print(groups: &[GroupReport]) {
+    // Choose the atlases to show.
     let mut order: Vec<&GroupReport> = groups.iter().collect();
     order.sort_by_key(|group| (group.is_certified(), usize::MAX - group.measures.size.faces));
     let n_shown = if order.len() <= LINES {
@@ -20,7 +21,6 @@ pub(super) fn print(groups: &[GroupReport]) {
     } else {
         LINES - 1
     };
-    // Choose the atlases to show.
     let (shown, rest) = order.split_at(n_shown);
     let width = shown
         .iter()
@@ -123,6 +123,7 @@ struct Sums {
 
 impl Sums {
     fn of(groups: &[&GroupReport]) -> Self {
+        // Add up counts, and areas times means.
         let mut sums = Self::default();
         let mut fills = Vec::new();
         for group in groups {
@@ -151,6 +152,7 @@ impl Sums {
                 *sums.overlapping.get_or_insert(0) += pairs;
             }
         }
+        // Average over the pages.
         let n = fills.len();
         sums.filled = (n > 0).then(|| fills.iter().sum::<f64>() / n as f64);
         sums

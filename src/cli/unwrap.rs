@@ -12,9 +12,11 @@ use unwrapd_pipeline::{self as pipeline, AtlasPicture, CommandOptions, Outcome};
 
 /// Runs the command.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    // Check options and paths before the work.
     let options = args.options()?;
     options.check()?;
     let outputs = args.outputs()?;
+    // Read the input and unwrap.
     let began = Instant::now();
     let upload = read_upload(&args.input)?;
     let outputs = outputs.with_resources_of(&upload);
@@ -23,6 +25,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let outcome = pipeline::unwrap_document(&upload, &options, &display);
     display.finish()?;
     let outcome = outcome?;
+    // Draw the requested pictures.
     let report = json(&outcome.report)?;
     let mut others = vec![(&files.report, report.as_slice())];
     let pictures = &args.pictures;
@@ -34,6 +37,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             .iter()
             .map(|png| (&pictures.heatmap, png.as_slice())),
     );
+    // Write the result, report, and judge it by the gates.
     let written = outputs.write(&outcome.files, &others)?;
     if files.output.talk.json {
         print_json(&outcome.report)?;

@@ -26,8 +26,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if args.quiet {
         console::direct(Lines::None);
     }
+    // Judge the file.
     let upload = read_upload(&args.mapped.input)?;
     let verified = verify_document(&upload, &args.options)?;
+    // Print what was required, and the certificates.
     if args.json {
         print_json(&verified)?;
     } else {
@@ -52,6 +54,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         }
     }
     warn(&verified.warnings);
+    // Fail if a requirement does not hold.
     if !verified.certified {
         let lacking = verified.lacking.join(", ");
         return Err(Failure::uncertified(format!("not valid: {lacking}")));

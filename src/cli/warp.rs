@@ -36,6 +36,7 @@ pub(super) struct Args {
 /// Runs `warp`; exits with 4 if the map has an inverted triangle, or is not bijective with a fixed border, and with 5
 /// if targets cannot be reached.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    // Check options and paths before the work.
     let mut options = WarpOptions {
         caller: caller(&args.output),
         ..args.options.clone()
@@ -44,12 +45,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     check_png(&args.output)?;
     let (report, inputs) = (&args.report, [args.input.as_path(), &args.handles]);
     let outputs = Outputs::check(&args.output, &[report], &inputs, &args.files)?;
+    // Read the inputs and warp.
     options.handles = parse_handles(&read_file(&args.handles)?)?;
     let upload = read_upload(&args.input)?;
     let display = Display::new(&args.files.talk);
     let warped = warp_file(&upload, &options, &display);
     display.finish()?;
     let warped = warped?;
+    // Write the result, even one without a certificate, and report.
     let written = outputs.write(&warped.files, &[(report, &json(&warped.report)?)])?;
     if args.files.talk.json {
         print_json(&warped.report)?;

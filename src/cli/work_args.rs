@@ -7,7 +7,8 @@ use super::watch_args::WatchArgs;
 use unwrapd_server::jobs::{self, Deployment, Program, Rules};
 use unwrapd_worker::Computations;
 
-/// Default memory limit of a job in bytes.
+/// Default memory limit of a job in bytes. A higher limit admits larger meshes, but jobs that run together may then
+/// exhaust the machine.
 pub(super) const JOB_MEMORY: u64 = 8 << 30;
 
 /// Where records and files are, and what a job may use.
@@ -175,6 +176,7 @@ pub(super) fn cores() -> usize {
 /// Returns the memory of the machine or of the container in bytes; `u64::MAX` if neither can be read.
 pub(super) fn machine_memory() -> u64 {
     let read = |path| std::fs::read_to_string(path).unwrap_or_default();
+    // Read the memory of the machine.
     let total = read("/proc/meminfo")
         .lines()
         .find_map(|line| {
@@ -185,6 +187,7 @@ pub(super) fn machine_memory() -> u64 {
                 .ok()
         })
         .map_or(u64::MAX, |kib| kib << 10);
+    // Read the limit of the container, of cgroup version 2 or 1. The word `max` does not parse and means no limit.
     let limit = |path| read(path).trim().parse().unwrap_or(u64::MAX);
     let container = limit("/sys/fs/cgroup/memory.max");
     let container = container.min(limit("/sys/fs/cgroup/memory/memory.limit_in_bytes"));

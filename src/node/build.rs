@@ -1,4 +1,4 @@
-//! What linkers of other systems must be told of an addon.
+//! Linker settings that an addon needs on some systems.
 
 fn main() {
     napi_build::setup();

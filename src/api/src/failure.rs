@@ -23,7 +23,7 @@ impl Failure {
     }
 }
 
-/// The folder of a computation, or its process, could not be used.
+/// Converts the error of a folder of a computation, or of its process.
 impl From<std::io::Error> for Failure {
     fn from(error: std::io::Error) -> Self {
         let code = match error.kind() {

@@ -1,6 +1,7 @@
 //! The table of file formats: their names and contents. Detection by content lives with the readers.
 
-/// Number of bytes of a file that are searched to detect its format.
+/// Number of bytes of a file that are searched to detect its format. OBJ is recognized by its first vertex and SVG by
+/// its root element; either may follow long comments.
 pub const SEARCHED_BYTES: usize = 1 << 20;
 
 /// A file format that is read or written.

@@ -1,4 +1,4 @@
-//! Limits of a computation, whatever its options request.
+//! Limits of a computation, which its options cannot exceed.
 
 use serde::{Deserialize, Serialize};
 

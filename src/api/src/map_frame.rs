@@ -4,9 +4,9 @@
 /// Name of the file with the latest frame in the folder of an attempt.
 pub const MAPS: &str = "maps";
 
-/// Length of the header of a frame in bytes.
+/// Length of the header of a frame in bytes: kind, padding and number, aligned to eight bytes.
 const HEADER: usize = 16;
-/// First byte of a frame.
+/// First byte of a frame. Meshes and frames of live sessions begin with 1 and 2.
 const FRAME: u8 = 3;
 /// Byte range of the frame's number.
 const NUMBER: std::ops::Range<usize> = 8..HEADER;

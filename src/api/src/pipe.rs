@@ -17,7 +17,7 @@ pub const BAKED: u8 = b'B';
 /// From the child: the reason why there is no session.
 pub const FAILED: u8 = b'E';
 
-/// Maximum length of a record in bytes, more than any frame has.
+/// Maximum length of a record in bytes, more than any frame has. A larger length means that the stream is out of step.
 const MOST_BYTES: usize = 1 << 30;
 
 /// Returns the five bytes before a record: its tag and its length.

@@ -19,7 +19,8 @@ pub const OUTCOME: &str = "outcome.json";
 /// Name of the file with a [`Failure`](crate::Failure).
 pub const ERROR: &str = "error.json";
 
-/// Exit code of a child without space for its output. It may not even be able to write that to a file.
+/// Exit code of a child without space for its output, which may be unable to write a file that says so. The number is
+/// that of `EX_TEMPFAIL` in sysexits.h.
 pub const NO_SPACE: i32 = 75;
 
 /// Returns the name of the n-th input file in the folder of an attempt.
@@ -45,7 +46,7 @@ pub struct Task {
     pub limits: Limits,
     /// Memory limit in bytes.
     pub memory: u64,
-    /// When an atlas is drawn.
+    /// Time at which the pictures of an atlas are drawn.
     pub pictures: Pictures,
 }
 

@@ -11,12 +11,14 @@ use super::job::Problem;
 use crate::bulk::trouble::Trouble;
 use unwrapd_api::Failure;
 
-/// First pause between attempts, and the maximum after doubling.
+/// First pause between attempts, and the maximum after doubling. Shorter pauses burden a busy service, longer ones
+/// leave it idle after it has recovered.
 const FIRST_PAUSE: Duration = Duration::from_millis(250);
 const LONGEST_PAUSE: Duration = Duration::from_secs(30);
-/// Time after which a request is given up, and the service counts as gone.
+/// Time after which a request is given up, and the service counts as gone: long enough for a restart. The help of
+/// `submit` promises it.
 const PATIENCE: Duration = Duration::from_mins(10);
-/// Timeout between two bytes. The service may delay a response, and files may be large.
+/// Timeout between two bytes, far above the `WAIT_SECONDS` for which the service may delay a response.
 const SILENCE: Duration = Duration::from_mins(2);
 
 /// Reason why a service cannot be used.
@@ -74,7 +76,7 @@ impl Client {
                 "it does not begin with http:// or https://".to_owned(),
             ));
         }
-        // Another part of the process may have chosen already.
+        // The call fails if another part of the process has chosen a provider already.
         let _ = rustls::crypto::ring::default_provider().install_default();
         let http = reqwest::Client::builder()
             .read_timeout(SILENCE)
@@ -125,7 +127,7 @@ impl Client {
                     self.is_given_up.store(false, Ordering::Relaxed);
                     return Ok(answer);
                 }
-                // Retry what may pass, after the pause that the service asks for, if any.
+                // Temporary errors are retried, after the pause that the service asks for.
                 Ok(answer) if may_pass(answer.status()) => {
                     let told = retry_after(&answer);
                     (refusal(answer).await.detail, told)
@@ -133,6 +135,7 @@ impl Client {
                 Ok(answer) => return Err(refusal(answer).await),
                 Err(error) => (text(&error), None),
             };
+            // Give up for all requests of the run once one of them has waited too long.
             let is_over = PATIENCE <= begin.elapsed() || self.is_given_up.load(Ordering::Relaxed);
             if is_over {
                 self.is_given_up.store(true, Ordering::Relaxed);

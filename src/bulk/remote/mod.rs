@@ -22,7 +22,8 @@ use client::{Client, answered, unreadable};
 use job::{Job, State};
 use unwrapd_api::{Failure, output_file};
 
-/// Seconds for which the service may delay a response about a job.
+/// Seconds for which the service may delay a response about a job: half of the 60 that it accepts. Longer waits keep
+/// connections open, shorter ones repeat the request more often.
 const WAIT_SECONDS: u8 = 30;
 
 /// Unwraps each asset as a job of a service.
@@ -63,7 +64,7 @@ impl Remote {
     /// Submits the job of an asset. Returns a new job, or the one that an earlier submission created.
     async fn submitted(&self, task: &Task<'_>) -> Result<Job, Failure> {
         let url = self.client.url(&["v1", "jobs"]);
-        // A run that refuses copies does not want the job of one that takes them.
+        // A run that refuses copies must not find the job of a run that accepts them.
         let suffix = if self.is_fresh { "-fresh" } else { "" };
         let key = format!("{}-{}{suffix}", task.digest, task.attempt);
         let answer = self.client.answer(|http| {

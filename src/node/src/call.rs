@@ -1,4 +1,4 @@
-//! Calls of the library from JavaScript: how they end.
+//! Calls of the library from JavaScript: cancellation and errors.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
@@ -10,14 +10,14 @@ use napi_derive::napi;
 use unwrapd::pipeline::{Observer, PipelineError, Progress};
 use unwrapd::solver::Control;
 
-/// Why there is no result.
+/// Reason why there is no result.
 #[napi(object)]
 pub struct Failure {
-    /// A stable name, the same as in the problems of the HTTP service.
+    /// Stable code, as in the problems of the HTTP service.
     pub code: String,
-    /// The exit status of the command line.
+    /// Exit status of the command line.
     pub exit_code: u8,
-    /// One sentence.
+    /// Description in one sentence.
     pub message: String,
 }
 
@@ -32,7 +32,7 @@ impl From<PipelineError> for Failure {
 }
 
 impl Failure {
-    /// A mistake of this program.
+    /// Creates the failure of a bug in this program.
     pub fn internal(message: impl Into<String>) -> Self {
         Self {
             code: "internal_error".to_owned(),
@@ -42,7 +42,7 @@ impl Failure {
     }
 }
 
-/// Ends the calls that it is given to.
+/// Token that cancels the calls it is passed to.
 #[napi]
 #[derive(Clone, Default)]
 pub struct Cancellation {
@@ -51,32 +51,32 @@ pub struct Cancellation {
 
 #[napi]
 impl Cancellation {
-    /// Of calls that are to go on for now.
+    /// Creates a token that is not cancelled.
     #[napi(constructor)]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The calls fail at their next report of progress.
+    /// Makes the calls fail at their next report of progress.
     #[napi]
     pub fn cancel(&self) {
         self.is_cancelled.store(true, Ordering::Relaxed);
     }
 }
 
-/// What the library sees of a call.
+/// Observer of a call, with its start time and its token.
 struct Link {
     begin: Instant,
     cancellation: Cancellation,
 }
 
 impl Observer for Link {
-    /// Leaves the library by unwinding once nobody waits for a result: an early end would still pack and judge one.
+    /// Unwinds out of the library once the call is cancelled: an early end would still pack and judge a result.
     fn progress(&self, _: &Progress) -> Control {
         if !self.cancellation.is_cancelled.load(Ordering::Relaxed) {
             return Control::Continue;
         }
-        // What is dropped on the way out reports, too.
+        // Destructors may report progress during unwinding, and a second panic would abort the process.
         if !panicking() {
             resume_unwind(Box::new("cancelled"));
         }
@@ -88,7 +88,7 @@ impl Observer for Link {
     }
 }
 
-/// Runs work on this thread. What unwinds out of it stays here: JavaScript goes on.
+/// Runs work on this thread. Catches panics, so that JavaScript continues.
 pub fn run<T>(
     cancellation: Cancellation,
     work: impl FnOnce(&dyn Observer) -> Result<T, PipelineError>,

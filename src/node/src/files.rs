@@ -1,4 +1,4 @@
-//! Files as bytes, on a thread of the pool that Node has for work.
+//! Files as bytes, unwrapped on a thread of Node's pool.
 
 use std::collections::HashMap;
 use std::mem;
@@ -12,14 +12,14 @@ use unwrapd::pipeline::{self, Options, Outcome};
 use crate::call::{Cancellation, Failure, run};
 use crate::options::{json, parsed};
 
-/// A file with those that it refers to.
+/// A file with the files that it references.
 #[napi(object, object_to_js = false)]
 pub struct File {
-    /// Its name, which tells the format where the bytes do not.
+    /// File name; its extension decides the format if the bytes do not.
     pub name: String,
     /// Its bytes.
     pub bytes: Uint8Array,
-    /// The files that it refers to, by relative path.
+    /// Referenced files by relative path.
     pub resources: HashMap<String, Uint8Array>,
 }
 
@@ -36,25 +36,25 @@ impl From<File> for Upload {
     }
 }
 
-/// A file that was written.
+/// An output file.
 #[napi(object, object_from_js = false)]
 pub struct WrittenFile {
-    /// Its path relative to the main one.
+    /// Path relative to the main file.
     pub name: String,
     /// Its bytes.
     pub bytes: Uint8Array,
 }
 
-/// A document that was unwrapped.
+/// Result of unwrapping a document.
 #[napi(object, object_from_js = false)]
 pub struct Written {
-    /// The written files, the main one first.
+    /// Output files, the main one first.
     pub files: Vec<WrittenFile>,
     /// The report as JSON.
     pub report: String,
 }
 
-/// A document that is to be unwrapped.
+/// Task of unwrapping a document.
 pub struct Unwrapping {
     upload: Upload,
     options: String,

@@ -1,7 +1,7 @@
 //! The native part of the npm package `unwrapd`: typed arrays, bytes and JSON in and out of the library.
 //!
-//! What JavaScript users see is written in JavaScript, beside this crate; it hands over arrays of the types that are named
-//! here and options as JSON objects, as the service takes them. Errors are values, which it throws.
+//! The public interface is written in JavaScript, beside this crate. It passes arrays of the types declared here, and
+//! options as JSON objects in the format of the service. Errors are returned as values, which the JavaScript throws.
 
 #![allow(
     clippy::needless_pass_by_value,

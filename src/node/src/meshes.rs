@@ -1,4 +1,4 @@
-//! Meshes given as arrays, on the thread that calls: those who call wait for the result.
+//! Meshes given as arrays, unwrapped on the calling thread.
 
 use napi::bindgen_prelude::{Either, Float32Array, Uint32Array};
 use napi_derive::napi;
@@ -10,7 +10,7 @@ use unwrapd::pipeline::{
 use crate::call::{Cancellation, Failure, run};
 use crate::options::{json, parsed};
 
-/// A mesh: arrays of three positions, UVs and normals for each vertex, and of the vertices of triangles.
+/// A mesh: positions, UVs and normals of the vertices, and the vertices of the triangles.
 #[napi(object, object_to_js = false)]
 pub struct Mesh {
     /// Three coordinates for each vertex.
@@ -39,13 +39,13 @@ impl Mesh {
     }
 }
 
-/// Rows of N numbers each.
+/// Splits a flat array into rows of N numbers.
 fn rows<const N: usize>(flat: &[f32]) -> Vec<[f64; N]> {
     let rows = flat.as_chunks::<N>().0.iter();
     rows.map(|row| row.map(f64::from)).collect()
 }
 
-/// What the corners of triangles have of what the vertices have.
+/// Returns the values of the corners of triangles from those of the vertices.
 fn corners<const N: usize>(
     triangles: &[[u32; 3]],
     of_vertices: &[[f64; N]],
@@ -60,13 +60,13 @@ fn corners<const N: usize>(
 /// A mesh in which every vertex has one UV.
 #[napi(object, object_from_js = false)]
 pub struct Welded {
-    /// For each vertex that of the given mesh.
+    /// Vertex of the given mesh for each vertex.
     pub origins: Uint32Array,
     /// Three vertices for each triangle, in the given order.
     pub indices: Uint32Array,
     /// Two coordinates for each vertex, v up.
     pub uvs: Float32Array,
-    /// For each triangle its chart, counted over all meshes.
+    /// Chart of each triangle, counted over all meshes.
     pub charts: Uint32Array,
 }
 
@@ -98,11 +98,13 @@ fn made<O: DeserializeOwned>(
     options: &str,
     make: fn(&[MeshArrays], &O, &dyn Observer) -> Result<UnwrappedMeshes, PipelineError>,
 ) -> Result<Atlas, Failure> {
+    // Unwrap or repack the meshes.
     let meshes = (meshes.iter().map(Mesh::taken)).collect::<Result<Vec<_>, _>>()?;
     let options = parsed::<O>(options)?;
     let unwrapped = run(Cancellation::default(), |observer| {
         make(&meshes, &options, observer)
     })?;
+    // Weld corners with equal vertices and UVs.
     let all = meshes.iter().zip(unwrapped.uvs).zip(unwrapped.charts);
     let welded = all.map(|((mesh, uvs), charts)| {
         let welded = WeldedUvs::new(&mesh.triangles, &uvs);

@@ -50,18 +50,22 @@ fn reported(attempt: AttemptResult<()>, folder: &Path) -> u8 {
 type AttemptResult<T> = Result<T, (u8, Failure)>;
 
 fn attempt(folder: &Path) -> AttemptResult<()> {
+    // Listen to the server first: a child whose server is gone must exit.
     let finish = Arc::new(AtomicBool::new(false));
     let maps = Arc::new(Maps::new(folder));
     listen(&finish, &maps).map_err(internal)?;
+    // Read the task, and limit the memory before reading the input.
     let task: Task = read_json(folder, TASK).map_err(internal)?;
     contain(task.memory).map_err(internal)?;
     let reporter = Reporter::start(finish, Frames::new(folder), maps).map_err(internal)?;
     let upload = read_upload(folder, &task.input).map_err(internal)?;
+    // Do the work.
     let work = Work::new(task.kind, task.options).map_err(|e| refusal(&e))?;
     let mut made = work
         .run(&upload, task.limits, &reporter)
         .map_err(|e| refusal(&e))?;
     made.complete(task.pictures).map_err(|e| refusal(&e))?;
+    // Write the files, and the outcome last: it makes them valid.
     let mut output = Vec::new();
     for (index, (role, name, bytes)) in made.files.into_iter().enumerate() {
         std::fs::write(folder.join(output_file(index)), &bytes).map_err(unwritten)?;
@@ -93,7 +97,7 @@ fn drawn(folder: &Path) -> AttemptResult<()> {
 /// Limits the memory of this process, in bytes.
 pub fn contain(memory: u64) -> std::io::Result<()> {
     setrlimit(Resource::RLIMIT_DATA, memory, memory)?;
-    // A crash is reported by its signal; an image of the memory would only fill the disk.
+    // The signal reports a crash; a core dump would only fill the disk.
     Ok(setrlimit(Resource::RLIMIT_CORE, 0, 0)?)
 }
 

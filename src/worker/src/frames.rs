@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use unwrapd_api::{OutputFile, output_file, sha256};
 
-/// Maximum bytes of a job's frames. No frame is written once this is reached.
+/// Maximum bytes of a job's frames. No frame is written once this is reached. It equals the default limit of an
+/// upload, and like that it bounds the disk space of a job.
 const MOST_BYTES: u64 = 256 << 20;
 
 /// Frames of an attempt.

@@ -1,4 +1,4 @@
-//! Maps under way in the compute child, kept and sent only while somebody watches.
+//! Maps under way in the compute child, kept and sent only while a client watches.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -10,20 +10,22 @@ use crate::map_frame::{self, ChartKey};
 use unwrapd_api::{MAPS, Message, frame_header};
 use unwrapd_layout::charts::MapUnderway;
 
-/// Minimum time between frames.
+/// Minimum time between frames. Ten frames per second look continuous; more would only cost encoding and bandwidth.
 const INTERVAL: Duration = Duration::from_millis(100);
-/// Average rate limit of frames in bytes per second.
+/// Average rate limit of frames in bytes per second, 64 Mbit/s. A higher rate shows large maps more often, but takes
+/// more of the client's network.
 const RATE: f64 = 8e6;
-/// Maximum size of a frame in bytes; further maps are left out.
+/// Maximum size of a frame in bytes; further maps are left out. At the rate limit, a pause of four seconds follows it.
 const MOST_BYTES: usize = 32 << 20;
-/// Time after a request for which somebody is taken to be watching, because the next request is on its way.
+/// Time after a request for which a client is assumed to be watching, because its next request is on the way. A longer
+/// time encodes maps for clients that are gone; a shorter one loses maps of clients on slow networks.
 const WATCHED: Duration = Duration::from_secs(3);
 
 /// The newest maps not yet sent.
 pub(crate) struct Maps {
     folder: PathBuf,
     start: Instant,
-    /// Set while somebody waits for a frame.
+    /// Set while a client waits for a frame.
     is_asked: AtomicBool,
     /// End of watching, in milliseconds since the start.
     watched: AtomicU64,
@@ -57,7 +59,7 @@ impl Maps {
         self.is_asked.store(true, Ordering::Release);
     }
 
-    /// Keeps a map if somebody watches, and sends a frame if one is due. Without watchers this costs two loads.
+    /// Keeps a map if a client watches, and sends a frame if one is due. Without watchers this costs two loads.
     pub fn take(&self, surface: usize, map: &MapUnderway) {
         let until = self.watched.load(Ordering::Relaxed);
         let is_watched = || (self.start.elapsed().as_millis() as u64) < until;
@@ -90,7 +92,7 @@ impl Maps {
         kept.bytes = 0;
         kept.next = now + INTERVAL.max(Duration::from_secs_f64(frame.len() as f64 / RATE));
         self.is_asked.store(false, Ordering::Release);
-        // A frame that cannot be written is one that a slow watcher misses.
+        // Skip a frame that cannot be written, as slow watchers do.
         let partial = self.folder.join("maps.partial");
         let written = std::fs::write(&partial, frame);
         if written

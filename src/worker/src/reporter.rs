@@ -15,7 +15,7 @@ use unwrapd_layout::charts::MapUnderway;
 use unwrapd_method::solver::Control;
 use unwrapd_pipeline::{self as pipeline, Observer};
 
-/// Minimum time between two reports of one stage.
+/// Minimum time between two reports of one stage. Forty reports per second look continuous; each wakes the server.
 const TELL_INTERVAL: Duration = Duration::from_millis(25);
 
 /// Silence after which an estimate is sent, so that clients see progress at least once a second.
@@ -116,7 +116,7 @@ impl Told {
 
 impl Observer for Reporter {
     fn progress(&self, progress: &pipeline::Progress) -> Control {
-        // Flat charts are laid out without an iteration: there is no energy then, and no smallest face.
+        // Flat charts are laid out without an iteration, so they have no energy and no smallest face.
         let has_iterate = (progress.iteration, progress.energy, progress.smallest) != (0, 0.0, 0.0);
         let progress = Progress {
             stage: Some(progress.stage),

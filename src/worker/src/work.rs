@@ -105,7 +105,7 @@ fn atlas(outcome: pipeline::Outcome) -> Made {
 
 fn measure(upload: &Upload, options: &MeasureOptions, _: &dyn Observer) -> WorkResult {
     let report = pipeline::measure_document(upload, options)?;
-    // Nothing was asked for that could be proven.
+    // A measurement requests nothing that could be proven.
     let worth = Worth {
         certified: None,
         ..worth_of(&report)
@@ -206,7 +206,7 @@ impl Made {
 
     /// Adds the report, and derives the verdict of the job from it.
     fn reported(mut self, report: &impl Serialize, worth: Worth, warnings: &[Warning]) -> Self {
-        // Reports are plain data, which serialization cannot refuse.
+        // Reports are plain data, so serialization cannot fail.
         let bytes = serde_json::to_vec_pretty(report).unwrap_or_default();
         self.add("report", "report.json", bytes);
         self.verdict = Verdict {

@@ -1,6 +1,6 @@
 //! The macro that declares options.
 
-/// Declares a struct of options and all that follows from them.
+/// Declares a struct of options, and derives its JSON, its schema and its command line from the declaration.
 ///
 /// ```text
 /// options! {
@@ -13,15 +13,12 @@
 /// ```
 ///
 /// `under` is the heading of the help. An option without a default is absent, off or empty unless
-/// it is given. `in` is its range, `value` what the help calls its value, and `also` another name,
-/// which is not shown. `arg(…)` and
-/// `schema(…)` are further attributes for clap and utoipa, where an option needs any.
+/// it is given. `in` is its range, `value` the placeholder of its value in the help, and `also` an alias that is not
+/// shown. `arg(…)` and `schema(…)` are further attributes for clap and utoipa.
 ///
-/// Three blocks may follow. `files` are options that JSON has like the others, and that the command
-/// line reads from files or tells from a file's name: it declares those itself, with
-/// [`about`](super::OptionSet::about) as their help. `groups` are
-/// sets of options that this one consists of. `untold` are fields that are no options: code sets
-/// them.
+/// Three blocks may follow. `files` are options that JSON has like the others, but that the command line reads from
+/// files or derives from a file's name: it declares those itself, with [`about`](super::OptionSet::about) as their
+/// help. `groups` are sets of options that this one consists of. `untold` fields are not options; code sets them.
 #[macro_export]
 macro_rules! options {
     (@default) => { Default::default() };

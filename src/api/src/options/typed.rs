@@ -13,7 +13,7 @@ pub fn typed<T: Serialize>(value: &T) -> String {
             .as_f64()
             .map_or(number.to_string(), |number| number.to_string()),
         Ok(value) => value.to_string(),
-        // Defaults are plain data, which serialization cannot refuse.
+        // Defaults are plain data, so serialization cannot fail.
         Err(_) => String::new(),
     }
 }

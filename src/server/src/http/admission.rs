@@ -27,16 +27,19 @@ pub(super) async fn admit(
     mut request: Request,
     next: Next,
 ) -> Result<Response, Problem> {
+    // Authenticate the caller and check its scopes.
     let needed = needed(request.method(), path.as_str());
     let peer = request.extensions().get().copied();
     let caller = match caller(&app, request.headers(), peer, &needed).await {
         Ok(caller) => caller,
         Err(problem) => {
-            // The answer comes at once. Meanwhile the body is read, or the connection would be reset before the answer is seen.
+            // Answer at once, and read the body meanwhile: closing a connection with unread data would reset it before
+            // the client sees the answer.
             tokio::spawn(drain_refused(request));
             return Err(problem);
         }
     };
+    // Count the request against the rate limit of its owner.
     let taken = app.requests.as_ref();
     let taken = taken.map(|requests| requests.take(caller.owner().clone()));
     let mut response = if let Some(Err(standing)) = taken {
@@ -52,6 +55,7 @@ pub(super) async fn admit(
             next.run(request).await
         }
     };
+    // Report the rest of the limit with every answer.
     if let Some(Ok(standing) | Err(standing)) = taken {
         standing.tell(response.headers_mut());
     }

@@ -55,12 +55,14 @@ impl Asset {
 
 /// Responds with the file, or that it is unchanged. A query `v=` with the present version allows caching for good.
 pub(super) fn answer(asset: &'static Asset, query: Option<&str>, headers: &HeaderMap) -> Response {
+    // Choose the representation and its entity tag.
     let made = asset.made();
     let is_compressed = !made.gzip.is_empty() && accepts_gzip(headers);
     let suffix = if is_compressed { "-gzip" } else { "" };
     let tag = format!("\"{}{suffix}\"", made.version);
     let is_versioned = query.and_then(|query| query.strip_prefix("v=")) == Some(&made.version);
     let kept = if is_versioned { FOR_GOOD } else { ASK };
+    // Send it, unless the client has it.
     let mut response = if names(headers, header::IF_NONE_MATCH, &tag) {
         StatusCode::NOT_MODIFIED.into_response()
     } else if is_compressed {
@@ -69,6 +71,7 @@ pub(super) fn answer(asset: &'static Asset, query: Option<&str>, headers: &Heade
     } else {
         asset.content.into_response()
     };
+    // Set the headers, on a 304 as well, so that clients update their copy (RFC 9110, 15.4.5).
     let set = response.headers_mut();
     for (name, value) in [
         (header::CONTENT_TYPE, asset.content_type),

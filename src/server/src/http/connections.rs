@@ -63,7 +63,7 @@ pub(super) async fn serve(
         let stop = stop.clone();
         open.spawn(async move {
             let mut connection = pin!(connection.with_upgrades());
-            // What goes wrong here is the client's going away, or its silence.
+            // Errors mean that the client is gone or silent.
             let is_ended = tokio::select! {
                 _ = connection.as_mut() => true,
                 () = stop.cancelled() => false,
@@ -81,7 +81,8 @@ pub(super) async fn serve(
 
 // Connection limits, global and per address.
 
-/// Delay after a temporary error, such as too many open files.
+/// Delay after a temporary error, such as too many open files. Accepting again at once would fail in the same way and
+/// keep a core busy.
 const PAUSE: Duration = Duration::from_millis(200);
 
 /// Accepts connections within the limits.
@@ -128,11 +129,11 @@ async fn accepted(listener: &TcpListener) -> (TcpStream, SocketAddr) {
     loop {
         match listener.accept().await {
             Ok((stream, address)) => {
-                // A frame behind a reply would else wait for the reply's acknowledgment: 40 ms.
+                // Otherwise a frame behind a reply would wait up to 40 ms for the acknowledgment of the reply.
                 let _ = stream.set_nodelay(true);
                 return (stream, address);
             }
-            // The client has gone already.
+            // The client is gone already.
             Err(error) if is_of_client(&error) => {}
             Err(error) => {
                 tracing::error!(%error, "no connection can be accepted");
@@ -152,10 +153,10 @@ fn is_of_client(error: &Error) -> bool {
 // Refusal of connections whose address has too many. They have a few slots of their own, so that they delay
 // nobody else.
 
-/// Time for the request of a refused client.
+/// Time for the request of a refused client. Silent clients take one of the slots for refusals this long.
 const TIME: Duration = Duration::from_secs(1);
-/// Maximum number of refusals under way. Clients that send at once are answered before they are pushed out; each
-/// connection takes an open file.
+/// Maximum number of refusals under way. Each takes an open file; with fewer slots, clients are pushed out before
+/// they are answered. `tests/bench/hostile.py --fresh --elsewhere` measures the effect on other clients.
 const MOST: usize = 32;
 
 /// Connections waiting for their refusal, oldest first.
@@ -180,10 +181,12 @@ impl Refused {
     /// Answers the request of a connection with a refusal, then closes it. Closes it without an answer if no request
     /// comes within a second, or if it is the oldest of too many. Never waits.
     pub fn add(&mut self, stream: TcpStream) {
+        // Make room.
         self.waiting.retain(|one| !one.is_finished());
         if self.waiting.len() == MOST {
             self.waiting.pop_front();
         }
+        // Answer in a task of its own, so that the gate does not wait.
         let service = TowerToHyperService::new(self.answer.clone());
         let counted = Counted::refused();
         let answered = async move {
@@ -191,7 +194,7 @@ impl Refused {
             let mut http1 = Builder::new();
             let connection = http1.keep_alive(false);
             let connection = connection.serve_connection(TokioIo::new(stream), service);
-            // What goes wrong here is the client's going away, or its silence.
+            // Errors mean that the client is gone or silent.
             let _ = tokio::time::timeout(TIME, connection).await;
         };
         let waiting = AbortOnDropHandle::new(tokio::spawn(answered));

@@ -77,15 +77,18 @@ pub(super) async fn create_job(
     headers: HeaderMap,
     request: Request,
 ) -> Result<Response, Problem> {
+    // Receive the upload, and check its headers and its webhook.
     let wishes = Wishes::read(&headers)?;
     let received = upload::receive(&app, None, request).await?;
     if let Some(webhook) = &received.handling.webhook {
         check_webhook(&app, webhook)?;
     }
+    // Store and queue the job.
     let (submission, _folder) = received.into_submission(caller.owner(), wishes, false);
     let job = match app.jobs.submit(submission).await? {
         Submitted::New(job) | Submitted::Replay(job) => job,
     };
+    // Wait for its end if the client prefers that.
     let Some(wait) = preferred_wait(&headers) else {
         return Ok(located(&app, StatusCode::ACCEPTED, &job));
     };

@@ -110,7 +110,7 @@ pub(super) async fn answer(
     headers: &HeaderMap,
 ) -> Result<Response, Problem> {
     let tag = file.tag(job);
-    // Validate what the client has.
+    // Compare the entity tag with the client's copy.
     if names(headers, header::IF_NONE_MATCH, &tag) {
         return Ok((StatusCode::NOT_MODIFIED, [(header::ETAG, tag)]).into_response());
     }
@@ -118,7 +118,7 @@ pub(super) async fn answer(
     let bytes = opened.bytes();
     let is_same =
         (headers.get(header::IF_RANGE)).is_none_or(|given| given.as_bytes() == tag.as_bytes());
-    // Find the requested range.
+    // Find the requested range. If the file has changed since the client's first part, send all of it.
     let range = match headers.get(header::RANGE).filter(|_| is_same) {
         Some(value) => range(value, bytes),
         None => Ok(None),

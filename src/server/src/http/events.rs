@@ -104,6 +104,7 @@ fn server_sent(events: Subscription, app: Arc<App>, caller: Caller) -> Response 
         let sent = sent.data(serde_json::to_string(&event).unwrap_or_default());
         Some((Ok::<_, Infallible>(sent), events))
     });
+    // End with the service, or when the key is no longer valid.
     let end = async move {
         tokio::select! {
             () = app.stop.cancelled() => {}
@@ -112,12 +113,13 @@ fn server_sent(events: Subscription, app: Arc<App>, caller: Caller) -> Response 
     };
     let stream = stream.take_until(end);
     let events = Sse::new(stream).keep_alive(KeepAlive::new().interval(KEEP_ALIVE));
-    // Proxies such as nginx would collect events before they pass them on.
+    // Tell proxies such as nginx not to buffer events.
     ([("x-accel-buffering", "no")], events).into_response()
 }
 
 /// Sends events until the last one, the close message of the client, the end of its key, or the stop of the service.
 async fn relay(mut socket: WebSocket, mut events: Subscription, app: Arc<App>, caller: Caller) {
+    // Send events and pings until something ends the connection; its close code says what.
     let mut lapsed = pin!(app.keys.lapsed(&caller));
     let mut quiet = tokio::time::interval(KEEP_ALIVE);
     let code = loop {
@@ -142,6 +144,7 @@ async fn relay(mut socket: WebSocket, mut events: Subscription, app: Arc<App>, c
             return;
         }
     };
+    // Close, and wait for the client's answer.
     let close = CloseFrame {
         code,
         reason: "".into(),

@@ -20,11 +20,11 @@ use super::{connections, counted, observation};
 use crate::jobs::{Jobs, StoreResult, meters};
 use crate::sessions::Sessions;
 
-/// Upper bounds of histogram buckets in seconds: from a response to a job of ten minutes.
+/// Upper bounds of histogram buckets in seconds: from a fast response to a job of ten minutes, the default time limit.
 const SECONDS: [f64; 13] = [
     0.005, 0.025, 0.1, 0.25, 1.0, 2.5, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0,
 ];
-/// Interval at which pending samples of histograms are merged.
+/// Interval at which pending samples of histograms are merged: the default of `metrics-exporter-prometheus`.
 const UPKEEP: Duration = Duration::from_secs(5);
 
 /// Gauges with their descriptions.
@@ -126,7 +126,7 @@ impl Exposition {
         gauge!(BLOBS_UP).set(f64::from(u8::from(blobs.is_ok())));
         if !is_up {
             meters::store_failed();
-            // What is not known is no number: the last one would look like news.
+            // The age is unknown now, and its last value would look current.
             gauge!(OLDEST).set(f64::NAN);
         }
         self.look_at_process();

@@ -11,7 +11,8 @@ use super::missing::job_not_found;
 use super::problem::{Code, Problem};
 use crate::jobs::JobId;
 
-/// Maximum time for which a request may wait for a job, in seconds.
+/// Maximum time for which a request may wait for a job, in seconds. Longer waits keep connections open; clients can
+/// repeat the request instead.
 pub(super) const MAX_WAIT_SECONDS: u64 = 60;
 
 /// The `{id}` of the path. A malformed id is treated as unknown.

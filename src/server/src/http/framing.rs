@@ -20,6 +20,7 @@ pub(super) fn is_named(name: &str, kind: Kind) -> bool {
 
 /// Detects the format of a file, among those that the kind reads.
 pub(super) fn format(catalog: &dyn Catalog, path: &Path, kind: Kind) -> Result<Format, Problem> {
+    // Detect the format from the first bytes.
     let mut file = File::open(path)?;
     let size = file.metadata()?.len();
     let mut head = Vec::new();
@@ -27,6 +28,7 @@ pub(super) fn format(catalog: &dyn Catalog, path: &Path, kind: Kind) -> Result<F
         .take(SEARCHED_BYTES as u64)
         .read_to_end(&mut head)?;
     let format = catalog.format(&head, size, kind.reads());
+    // Check the framing of glTF: its JSON must be complete and well-formed.
     match format {
         Some(Format::Glb) => glb(&mut file, size)?,
         Some(Format::Gltf) => {

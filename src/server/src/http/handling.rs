@@ -6,7 +6,7 @@ use super::problem::{Code, Problem};
 use crate::jobs::{GateError, Gates, Handling, Metadata, Webhook};
 use unwrapd_api::Kind;
 
-/// Permitted priorities.
+/// Permitted priorities. The OpenAPI document repeats the bounds.
 const PRIORITIES: RangeInclusive<i32> = -100..=100;
 
 /// Settings received so far.

@@ -15,6 +15,8 @@ use crate::jobs::access::{Caller, Owner};
 use crate::jobs::{JobId, Listing, Metadata, Order, State as JobState, Timestamp};
 use unwrapd_api::Kind;
 
+/// Default and maximum number of jobs per page, by convention. The OpenAPI document repeats them. Larger pages mean
+/// fewer requests but slower responses.
 const DEFAULT_PAGE: u32 = 50;
 const MAX_PAGE: u32 = 200;
 
@@ -175,6 +177,7 @@ pub(super) async fn retry_jobs(
     caller: Caller,
     Parameters(query): Parameters<RetryQuery>,
 ) -> Result<Response, Problem> {
+    // Translate the query to that of a list of failed jobs.
     let code = query.code.clone();
     let query = ListQuery {
         state: None,
@@ -188,6 +191,7 @@ pub(super) async fn retry_jobs(
         cursor: query.cursor,
     };
     let listing = query.listing(DEFAULT_PAGE)?;
+    // Requeue them.
     let retried = app
         .jobs
         .retry_failed(&caller.reach(), listing, code.as_deref())

@@ -77,7 +77,7 @@ async fn hear(stream: &mut SplitStream<WebSocket>, session: &Session) -> Option<
             Ok(Message::Binary(_) | Message::Ping(_) | Message::Pong(_)) => Ok(()),
         };
         if said.is_err() {
-            // The session is about to say why.
+            // The child is gone: wait for the reason, which `tell` sends.
             session.ended().await;
         }
     }
@@ -89,13 +89,16 @@ async fn tell(
     sink: &mut SplitSink<WebSocket, Message>,
     session: &Session,
 ) -> Option<(u16, String)> {
+    // Subscribe before sending the mesh, so that no reply is missed.
     let (mut frames, mut replies) = (session.frames(), session.replies());
     sink.send(Message::Binary(session.mesh.clone()))
         .await
         .ok()?;
     let mut quiet = tokio::time::interval(KEEP_ALIVE);
+    // Send the present frame first, even if it does not change any more.
     frames.mark_changed();
     loop {
+        // The end comes before replies, and replies before frames, which may be skipped.
         let message = tokio::select! {
             biased;
             why = session.ended() => return Some(closing(why)),

@@ -14,7 +14,8 @@ use super::problem::{Code, Problem};
 use crate::jobs::access::Caller;
 use crate::jobs::{NextMaps, State, Subscription};
 
-/// Maximum wait for a frame.
+/// Maximum wait for a frame. It stays below the timeouts of common proxies, such as the 60 s of nginx; shorter waits
+/// mean more requests while nothing moves.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Which frame.
@@ -51,10 +52,12 @@ pub(super) async fn watch_maps(
     PathId(id): PathId,
     Parameters(query): Parameters<MapsQuery>,
 ) -> Result<Response, Problem> {
+    // Subscribe to the job.
     let reach = caller.reach();
     let Some(events) = app.jobs.subscribe(&reach, id).await? else {
         return Err(missing(&app, &reach, id).await);
     };
+    // Wait for the next frame of the running attempt, or for an end.
     let next = async {
         if is_running(events).await {
             app.jobs.next_maps(id, query.after.unwrap_or(0)).await

@@ -149,6 +149,7 @@ pub async fn serve(
     settings: Settings,
     stop: CancellationToken,
 ) -> std::io::Result<()> {
+    // Build the state and the router.
     let app = Arc::new(App {
         jobs,
         sessions,
@@ -162,11 +163,13 @@ pub async fn serve(
         sockets: TaskTracker::new(),
     });
     let router = router::router(Arc::clone(&app)).map_err(std::io::Error::other)?;
+    // End the sessions on a stop: their WebSockets would keep connections open.
     let (stopping, sessions) = (stop.clone(), Arc::clone(&app.sessions));
     let ended = tokio::spawn(async move {
         stopping.cancelled().await;
         sessions.stop().await;
     });
+    // Serve, then wait for sessions and sockets to end.
     connections::serve(listener, router, &app.settings.connections, stop).await;
     ended.await.map_err(std::io::Error::other)?;
     app.sockets.close();

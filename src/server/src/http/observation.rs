@@ -12,7 +12,8 @@ use crate::jobs::JobId;
 
 /// Header with the id of a request, in both directions.
 pub(super) const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");
-/// Maximum length of a client's request id in characters.
+/// Maximum length of a client's request id in characters: room for a UUID or a trace id with a prefix. Longer ids
+/// would let clients fill the log.
 const LONGEST_ID: usize = 64;
 /// Header with the trace that a request is part of (W3C Trace Context).
 const TRACE: &str = "traceparent";
@@ -29,6 +30,7 @@ pub(super) fn describe() {
 
 /// Runs a request under its id, and logs and counts it.
 pub(super) async fn observe(request: Request, next: Next) -> Response {
+    // Run the request in a span with its id.
     let id = request_id(request.headers());
     let route = request.extensions().get::<MatchedPath>();
     let route = route.map_or("", MatchedPath::as_str).to_owned();
@@ -38,6 +40,7 @@ pub(super) async fn observe(request: Request, next: Next) -> Response {
     let began = Instant::now();
     let mut response = next.run(request).instrument(span.clone()).await;
     let (seconds, status) = (began.elapsed().as_secs_f64(), response.status().as_u16());
+    // Log the answer, count it and record its time.
     span.in_scope(|| {
         if status < 500 {
             tracing::debug!(status, seconds, "answered");
@@ -49,6 +52,7 @@ pub(super) async fn observe(request: Request, next: Next) -> Response {
     counter!(REQUESTS, "method" => method, "route" => route.clone(), "status" => status)
         .increment(1);
     histogram!(SECONDS, "method" => method, "route" => route).record(seconds);
+    // Tell the client the id.
     if let Ok(id) = HeaderValue::from_str(&id) {
         response.headers_mut().insert(REQUEST_ID, id);
     }

@@ -69,6 +69,7 @@ pub(super) fn preamble() -> OpenApi {
 
 /// Returns the complete document as text. Operations at `open` paths need no key.
 pub(super) fn document(mut api: OpenApi, catalog: &dyn Catalog, open: &[String]) -> String {
+    // Add the parts that the handlers do not declare.
     api.components
         .get_or_insert_default()
         .schemas
@@ -80,6 +81,7 @@ pub(super) fn document(mut api: OpenApi, catalog: &dyn Catalog, open: &[String])
     document["webhooks"] = webhooks();
     schemas::merge_groups(&mut document["components"]["schemas"]);
 
+    // Describe the uploads, each with the options of its kinds.
     let all = Kind::ALL.map(schemas::options);
     let all: BTreeSet<&str> = all.into_iter().collect();
     describe_upload(&mut document, "/v1/jobs", &Vec::from_iter(all));
@@ -87,6 +89,7 @@ pub(super) fn document(mut api: OpenApi, catalog: &dyn Catalog, open: &[String])
     describe_upload(&mut document, "/v1/sessions", &pulled);
     describe_upload(&mut document, "/v1/unwrap", &["Options"]);
     describe_upload(&mut document, "/v1/measure", &["MeasureOptions"]);
+    // Correct what the attributes of handlers cannot express.
     let paths = &mut document["paths"];
     let report = &mut paths["/v1/jobs/{id}/report"]["get"]["responses"]["200"];
     report["content"]["application/json"]["schema"] = schemas::any_report();
@@ -98,6 +101,7 @@ pub(super) fn document(mut api: OpenApi, catalog: &dyn Catalog, open: &[String])
     for status in ["200", "202"] {
         paths["/v1/jobs"]["post"]["responses"][status]["links"] = links();
     }
+    // Complete every operation, and add its keys and scopes.
     for operations in members(paths) {
         members(operations).for_each(complete);
     }
@@ -113,12 +117,13 @@ fn members(value: &mut Value) -> impl Iterator<Item = &mut Value> {
 /// Completes an operation: adds a default problem, makes absent parameters absent rather than null, and describes
 /// files and ranges of files as bytes.
 fn complete(operation: &mut Value) {
-    // A range of a file has the media types of the file, and both are bytes.
+    // Give a range of a file the media types of the file; both are bytes.
     if !operation["responses"]["206"].is_null() {
         let mut content = operation["responses"]["200"]["content"].clone();
         members(&mut content).for_each(|of_type| of_type["schema"] = bytes());
         operation["responses"]["206"]["content"] = content;
     }
+    // Describe files as bytes, unless they are JSON or text.
     for response in members(&mut operation["responses"]) {
         for (media_type, content) in response
             .get_mut("content")
@@ -138,7 +143,7 @@ fn complete(operation: &mut Value) {
         "description": "Any other error",
         "content": { "application/problem+json": { "schema": reference("Problem") } },
     });
-    // Parameters are absent rather than null.
+    // Make parameters absent rather than null.
     let parameters = operation
         .get_mut("parameters")
         .and_then(Value::as_array_mut);
@@ -184,6 +189,7 @@ fn links() -> Value {
 
 /// Describes the request that is posted to the `webhook` of a job.
 fn webhooks() -> Value {
+    // Describe the notice.
     let header = |name: &str, description: &str| {
         json!({
             "name": name, "in": "header", "required": true, "schema": { "type": "string" },
@@ -223,6 +229,7 @@ fn webhooks() -> Value {
             "data": data,
         },
     });
+    // Describe its delivery.
     json!({ "jobEnded": { "post": {
         "operationId": "jobEnded",
         "tags": ["jobs"],
@@ -259,6 +266,7 @@ fn table_of_codes() -> Value {
 
 /// Describes the request body of an upload: a form or raw bytes, with options in the form or the query.
 fn describe_upload(document: &mut Value, path: &str, options: &[&str]) {
+    // Add the options to the query.
     let is_job = OF_ANY_KIND.contains(&path);
     let parameters = schemas::parameters(&document["components"]["schemas"], options);
     let options: Vec<Value> = options.iter().map(|name| reference(name)).collect();
@@ -359,6 +367,7 @@ fn describe(document: &mut Value, open: &[String]) {
 }
 
 fn ask(operation: &mut Value, method: &str, path: &str) {
+    // Name the scopes. The empty alternative stands for services without keys.
     let method = method.to_ascii_uppercase();
     let method = Method::from_bytes(method.as_bytes()).unwrap_or_default();
     let scopes: Vec<&str> = needed(&method, path).into_iter().map(Scope::word).collect();
@@ -369,10 +378,11 @@ fn ask(operation: &mut Value, method: &str, path: &str) {
         Code::MissingScope,
         Code::RateLimited,
     ];
-    // What a page of another site must not do: change something, or open a WebSocket.
+    // Pages of other sites must not change anything or open a WebSocket.
     if method != Method::GET || !operation["responses"]["101"].is_null() {
         codes.push(Code::ForeignOrigin);
     }
+    // Merge the rejections into the declared responses of the same status.
     let mut refusals = json!(problems(&codes));
     let challenge = json!({ "description": "How to send a key", "schema": { "type": "string" } });
     refusals["401"]["headers"] = json!({ "WWW-Authenticate": challenge });

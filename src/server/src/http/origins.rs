@@ -95,7 +95,7 @@ fn names_one_host(headers: &HeaderMap) -> bool {
 fn is_host(value: &HeaderValue) -> bool {
     let Some(authority) = (value.to_str().ok()).and_then(|text| text.parse::<Authority>().ok())
     else {
-        // An empty one is that of a request for no host.
+        // A request that is not for a host has an empty field.
         return value.is_empty();
     };
     let rest = authority.as_str().strip_prefix(authority.host());

@@ -27,12 +27,13 @@ use super::results::check_succeeded;
 use crate::jobs::access::Caller;
 use crate::jobs::{Job, JobId, Scratch};
 
-/// Size in bytes from which files need the larger records of ZIP64.
+/// Size in bytes from which files need the larger records of ZIP64, since ZIP stores sizes as 32-bit numbers.
 const LARGE: u64 = u32::MAX as u64;
 
-/// Maximum number of archives that one owner receives at a time: each is a copy on the disk until it is sent.
+/// Maximum number of archives that one owner receives at a time: each is a copy on the disk until it is sent. A higher
+/// limit lets one owner fill the disk, a lower one makes scripts wait.
 const MOST_OF_OWNER: usize = 16;
-/// Retry delay for an owner at that limit, in seconds.
+/// Retry delay for an owner at that limit, in seconds. It is unknown when a download will end.
 const LATER: u64 = 5;
 
 /// Get all files that a job produced as one ZIP.
@@ -52,6 +53,7 @@ pub(super) async fn get_files(
     caller: Caller,
     PathId(id): PathId,
 ) -> Result<Response, Problem> {
+    // Check the job and the limit of its owner.
     let job = existing(&app, &caller.reach(), id).await?;
     check_succeeded(&job)?;
     let seat = Crowds::enter(&app.archives, caller.owner().clone(), Some(MOST_OF_OWNER));
@@ -59,13 +61,15 @@ pub(super) async fn get_files(
         let detail = format!("an owner can receive {MOST_OF_OWNER} archives at a time");
         return Err(Problem::new(Code::RateLimited, detail).retried_after(LATER));
     };
+    // Build the archive on a thread for blocking work.
     let name = format!("{}.zip", job.id);
     let handle = Handle::current();
     let packed = tokio::task::spawn_blocking(move || packed(&app, &job, &handle)).await;
     let (scratch, file, bytes) = packed.map_err(|error| Problem::internal(&error))??;
+    // Send it.
     let mut blocks = ReaderStream::new(tokio::fs::File::from_std(file));
     let content = poll_fn(move |context| {
-        // The folder goes with the answer, and so does the place of its owner.
+        // The closure owns the folder and the seat, so both are released with the response.
         let _ = (&scratch, &seat);
         blocks.poll_next_unpin(context)
     });
@@ -81,6 +85,7 @@ pub(super) async fn get_files(
 
 /// Builds the archive in a folder of its own. Returns the folder, the open file and its size in bytes.
 fn packed(app: &App, job: &Job, handle: &Handle) -> Result<(Scratch, File, u64), Problem> {
+    // Create the file.
     app.jobs.has_room()?;
     let folder = app
         .jobs
@@ -112,13 +117,14 @@ fn packed(app: &App, job: &Job, handle: &Handle) -> Result<(Scratch, File, u64),
             archive.write_all(&block?)?;
         }
     }
-    // Draw and add the pictures.
+    // Draw the pictures and add them.
     for &picture in job.pictures() {
         let content = handle.block_on(download::picture(app, job, picture))?;
         let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
         archive.start_file(picture.role(), options)?;
         archive.write_all(&content)?;
     }
+    // Rewind the file for the response.
     let mut file = archive.finish()?;
     let bytes = file.stream_position()?;
     file.rewind()?;

@@ -7,9 +7,9 @@ use super::problem::{Code, Problem};
 
 /// Names of the part that holds the input.
 pub(super) const INPUT_PARTS: [&str; 3] = ["mesh", "image", "problem"];
-/// Maximum number of files of an upload.
+/// Maximum number of files of an upload. Each is a file on disk and an entry of the record.
 pub(super) const MAX_FILES: usize = 4096;
-/// Maximum length of a resource path in bytes.
+/// Maximum length of a resource path in bytes. With `MAX_FILES`, it bounds the names in a record to 4 MiB.
 const MAX_NAME: usize = 1024;
 /// Maximum length of a text part in bytes: enough for options with some thousand handles.
 const MAX_TEXT_BYTES: u64 = 256 << 10;

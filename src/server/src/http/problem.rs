@@ -41,7 +41,7 @@ pub(super) struct Problem {
     retry_after: u32,
 }
 
-/// Default retry delay in seconds.
+/// Default retry delay in seconds, for problems whose duration is unknown.
 const USUAL_PAUSE: u32 = 5;
 
 impl Problem {
@@ -124,7 +124,7 @@ impl From<StoreError> for Problem {
             }
             StoreError::Damaged(what) => Self::new(Code::DamagedFile, what),
             StoreError::Missing(what) => Self::new(Code::MissingFile, what),
-            // Its path concerns only the operator.
+            // The path concerns only the operator, who finds it in the log.
             StoreError::File { why, .. } => {
                 let detail = format!("a file of the service cannot be used: {why}");
                 Self::new(Code::InternalError, detail)

@@ -1,4 +1,4 @@
-//! A received upload.
+//! The result of receiving an upload.
 
 use std::path::PathBuf;
 

@@ -20,7 +20,8 @@ use super::unpack::{self, Files};
 use crate::jobs::Scratch;
 use unwrapd_api::{Catalog, InputFile, Kind, from_json};
 
-/// Maximum length of the input's name in bytes: responses name their files after it in a header.
+/// Maximum length of the input's name in bytes: responses name their files after it in a header. Common file systems
+/// have the same limit.
 const MAX_INPUT_NAME: usize = 255;
 
 /// Collects the parts of one upload.
@@ -70,6 +71,7 @@ impl Receiver {
     pub async fn form(&mut self, mut form: Multipart) -> Result<(), Problem> {
         while let Some(field) = form.next_field().await.map_err(|e| malformed(&e))? {
             match field.name().unwrap_or_default() {
+                // Store files at once, and read settings into memory.
                 part if INPUT_PARTS.contains(&part) => {
                     if self.input.is_some() {
                         let detail = "there is more than one input: send one part named mesh, image or problem";
@@ -124,12 +126,14 @@ impl Receiver {
         stream: impl Stream<Item = Result<B, E>> + Unpin,
         problem: impl Fn(E) -> Problem,
     ) -> Result<(InputFile, PathBuf), Problem> {
+        // Choose a path of our own: the client's name is only data.
         at_most_name(&name)?;
         let path = self.folder.path().join(format!(
             "file-{}",
             self.resources.len() + usize::from(self.input.is_some())
         ));
         let mut file = tokio::fs::File::create(&path).await?;
+        // Copy the stream, counting against the limit of the whole upload.
         let (mut hash, mut bytes) = (Sha256::new(), 0);
         let mut stream = stream;
         while let Some(chunk) = stream.next().await {
@@ -154,6 +158,7 @@ impl Receiver {
 
     /// Validates what was received.
     pub async fn finish(self, kind: Option<Kind>, query: UploadQuery) -> Result<Received, Problem> {
+        // Check that there is an input and one kind.
         let Some((input, path)) = self.input else {
             let detail = "send it as part `mesh`, `image` or `problem`";
             return Err(Problem::new(Code::MissingMesh, detail));
@@ -162,6 +167,7 @@ impl Receiver {
         if kind.is_some() {
             self.said.check_unkept()?;
         }
+        // Complete the options of form and query, which must not repeat each other.
         let kind = kind.or(query.kind).or(self.kind).unwrap_or_default();
         let mut given = self.options;
         for (name, value) in query.options {
@@ -169,6 +175,7 @@ impl Receiver {
         }
         let options = options::complete(self.catalog, kind, given)?;
 
+        // Unpack, filter and name the files on a thread for blocking work.
         let mut files = vec![(input, path)];
         files.extend(self.resources);
         let (catalog, limit) = (self.catalog, self.limit);
@@ -202,7 +209,7 @@ fn looked_at(
             return Err(Problem::new(Code::InvalidRequest, detail));
         }
         files = unpack::unpacked(catalog, &files[0].1, kind, limit)?;
-        // It was that of the archive.
+        // The name in the query was that of the archive.
         filename = None;
     } else {
         retain_referenced(catalog, &mut files, kind)?;

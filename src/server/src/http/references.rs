@@ -9,7 +9,7 @@ use serde_json::Value;
 use super::problem::Problem;
 use unwrapd_api::{Catalog, Content, Format, Kind, START, Upload};
 
-/// Held while an input is in memory to find its references: it may be as large as an upload.
+/// Lock that lets only one input at a time be in memory to find its references: it may be as large as an upload.
 static LOOKING: Mutex<()> = Mutex::new(());
 
 /// Returns the names among `known` that an input of a kind references. `input` reads the input, and `material` a

@@ -25,6 +25,7 @@ const NOT_SHARED: &str = "private, no-cache";
 
 /// Returns all routes with their layers.
 pub(super) fn router(app: Arc<App>) -> Result<Router, ConfigError> {
+    // Admit requests to the routes that need a key, and add the open routes, the pages and the fallbacks.
     let header =
         |name, value| SetResponseHeaderLayer::if_not_present(name, HeaderValue::from_static(value));
     let settings = app.settings.clone();
@@ -42,6 +43,7 @@ pub(super) fn router(app: Arc<App>) -> Result<Router, ConfigError> {
         .layer(DefaultBodyLimit::disable())
         .layer(CatchPanicLayer::custom(panicked))
         .with_state(app);
+    // Guard all of them, and set the headers of every response.
     Ok(origins::guarded(answering, &settings)?
         .layer(header(
             header::CONTENT_SECURITY_POLICY,

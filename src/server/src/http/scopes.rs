@@ -4,11 +4,11 @@ use axum::http::Method;
 
 use crate::jobs::access::Scope;
 
-/// Operations for any key: they concern the key itself.
+/// Path of operations for any key, which concern the key itself.
 const OF_ANY_KEY: &str = "/v1/sign-in";
-/// Operations that change something although their method is GET.
+/// Path of an operation that changes something although its method is GET.
 const WRITTEN: &str = "/v1/sessions/{id}/live";
-/// Operations on things that belong to no owner, which need `admin`.
+/// Paths of operations on things that belong to no owner, which need `admin`.
 const OF_ALL: [&str; 3] = ["/v1/drain", "/v1/pause", "/metrics"];
 
 /// Returns the scopes that an operation requires.

@@ -42,6 +42,7 @@ pub(super) async fn received(
     caller: &Caller,
     request: Request,
 ) -> Result<Received, Problem> {
+    // Receive an upload unless the query names a job.
     let Query(named) = Query::<Named>::try_from_uri(request.uri())
         .map_err(|error| Problem::new(Code::InvalidRequest, error.body_text()))?;
     let Some(job) = named.job else {
@@ -106,6 +107,7 @@ fn wanted(job: &Job, file: JobFile) -> Result<Vec<Wanted<'_>>, Problem> {
     if file == JobFile::Input {
         return Ok(job.input.iter().map(Wanted::Input).collect());
     }
+    // Check that there is a result.
     match job.state {
         State::Succeeded => {}
         State::Queued | State::Running => {
@@ -121,6 +123,7 @@ fn wanted(job: &Job, file: JobFile) -> Result<Vec<Wanted<'_>>, Problem> {
             return Err(Problem::new(Code::NoResult, detail));
         }
     }
+    // Take the result with the files that belong to it.
     let no_result = || Problem::new(Code::NoResult, "the job makes no file");
     let result = job.output("result").ok_or_else(no_result)?;
     let others = job

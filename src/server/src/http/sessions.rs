@@ -89,7 +89,7 @@ fn view(app: &App, session: &Session) -> SessionView {
     }
 }
 
-/// The session of the path, if it is visible to the caller.
+/// Extractor of the session in the path, if it is visible to the caller.
 pub(super) struct PathSession(pub Arc<Session>);
 
 impl FromRequestParts<Arc<App>> for PathSession {

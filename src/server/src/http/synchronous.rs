@@ -74,6 +74,7 @@ async fn run(
     kind: Kind,
     request: Request,
 ) -> Result<Response, Problem> {
+    // Ignore an idempotency key: the job is gone when the request ends.
     let wishes = Wishes {
         key: None,
         ..Wishes::read(request.headers())?
@@ -95,6 +96,7 @@ async fn run(
         jobs: &app.jobs,
         id: job.id,
     };
+    // Answer with its result, or say why there is none.
     match wait_for(app, &caller.reach(), job.id, app.settings.synchronous_time).await? {
         Ended::Yes(job) => answer(app, &job).await,
         Ended::NotYet(_) if app.stop.is_cancelled() => {

@@ -19,7 +19,7 @@ use unwrapd_api::{Catalog, InputFile, Kind};
 
 /// First bytes of archives, with and without files.
 const SIGNATURES: [&[u8]; 2] = [b"PK\x03\x04", b"PK\x05\x06"];
-/// Bytes per read.
+/// Bytes per read. Larger blocks take more memory, smaller ones more system calls.
 const BLOCK: usize = 64 << 10;
 
 /// Files with their current paths, the input first.
@@ -169,6 +169,7 @@ fn with_input_first(
     mut entries: Vec<ArchiveEntry>,
     kind: Kind,
 ) -> Result<Vec<ArchiveEntry>, Problem> {
+    // Find the only input.
     let names = entries.iter().map(|(_, name)| name.as_str());
     let inputs: Vec<&str> = names.filter(|name| framing::is_named(name, kind)).collect();
     let [input] = *inputs else {
@@ -185,6 +186,7 @@ fn with_input_first(
             detail.trim_end_matches([':', ' ']).to_owned(),
         ));
     };
+    // Put it first, and name the others as it references them.
     let folder = Path::new(input)
         .parent()
         .unwrap_or(Path::new(""))

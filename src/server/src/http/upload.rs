@@ -18,10 +18,12 @@ use std::time::Duration;
 use tokio::time::{Instant, Sleep, sleep};
 use unwrapd_api::{Content, Format, Kind};
 
-/// Time for which the rest of a rejected body is read. What comes later finds the connection closed.
+/// Time for which the rest of a rejected body is read; data that comes later finds the connection closed. A longer
+/// time lets slow clients keep connections open, a shorter one resets more clients before they see the answer.
 const DRAIN_TIME: Duration = Duration::from_secs(1);
 
-/// Maximum bytes of a form around its files.
+/// Maximum bytes of a form around its files. It covers the headers of 4096 parts with the longest names (5 MB) and six
+/// text parts of the maximum length (1.5 MiB).
 const FRAMING_BYTES: u64 = 8 << 20;
 
 /// Media types of raw bodies that leave the format to the content.
@@ -57,6 +59,7 @@ pub(super) async fn receive(
     kind: Option<Kind>,
     request: Request,
 ) -> Result<Received, Problem> {
+    // Reject what the headers already rule out.
     let (head, body) = request.into_parts();
     let asks_first = head.headers.contains_key(header::EXPECT);
     let may_come = accepts(app).and_then(|()| may_fit(app, &head.headers));
@@ -69,6 +72,7 @@ pub(super) async fn receive(
     let body = Steady::new(body.into_data_stream(), tempo, Arc::clone(&tardy));
     let body = Arc::new(Mutex::new(body));
     let mut rest = shared(Arc::clone(&body));
+    // Receive the upload within its time limit. A client that waits for permission gets the rejection at once.
     let received = match may_come {
         Err(problem) if asks_first => return Err(problem),
         Err(problem) => Err(problem),
@@ -79,7 +83,7 @@ pub(super) async fn receive(
                 .unwrap_or_else(|_| Err(late("the upload", app.settings.upload_time)))
         }
     };
-    // A slow body is the cause of whatever went wrong.
+    // If the body was slow, that is the cause of the failure.
     match tardy.get() {
         Some(Tardy::Silent) => return Err(late("the next piece of the body", tempo.silence)),
         Some(Tardy::Slow) => return Err(slow(tempo)),
@@ -145,6 +149,7 @@ pub(super) fn accepts(app: &App) -> Result<(), Problem> {
 }
 
 async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Received, Problem> {
+    // Read the query.
     let mut query = UploadQuery::read(request.uri())?;
     if kind.is_some() && query.kind.is_some() {
         return Err(Problem::new(
@@ -153,6 +158,7 @@ async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Receiv
         ));
     }
     let limit = app.settings.upload_bytes;
+    // Make a folder for its files.
     let scratch = &app.jobs.settings().scratch;
     let folder = scratch.join(format!("upload-{}", JobId::fresh()));
     let mut receiver = Receiver::new(

@@ -117,7 +117,7 @@ impl JobView {
             name: picture.role().to_owned(),
             bytes: job.drawn(*picture).map(|file| file.bytes),
         });
-        // People look at pictures before they look at numbers.
+        // Put the pictures before the numbers, which are less often looked at.
         let is_number = |file: &OutputFile| matches!(&*file.role, "uvs.bin" | "report");
         let place = job.results().take_while(|file| !is_number(file)).count();
         let mut files: Vec<FileLink> = files.collect();

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use axum::http::{HeaderMap, HeaderName, HeaderValue};
 
-/// Length of a window.
+/// Length of a window: the options that set the limits count per minute.
 const LENGTH: Duration = Duration::from_mins(1);
 
 /// Headers with the limit and the rest of it (draft-ietf-httpapi-ratelimit-headers-10).

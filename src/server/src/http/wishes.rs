@@ -5,7 +5,7 @@ use axum::http::{HeaderMap, header};
 use super::observation::traceparent;
 use super::problem::{Code, Problem};
 
-/// Maximum length of an Idempotency-Key.
+/// Maximum length of an Idempotency-Key, by convention: other APIs, such as Stripe's, have the same limit.
 const MAX_KEY: usize = 255;
 
 /// Settings of a submission from its headers.

@@ -26,9 +26,11 @@ use unwrapd_api::{
     output_file, read_json, write_json,
 };
 
-/// Delay before a retry of a job that could not run because space or files were unavailable.
+/// Delay before a retry of a job that could not run because space or files were unavailable. Longer delays leave the
+/// worker idle after a short outage; shorter ones repeat an attempt that fails the same way.
 const PAUSE: Duration = Duration::from_secs(1);
-/// Delay before a job that needs a newer program is offered again.
+/// Delay before a job that needs a newer program is offered again. Longer delays make the job wait although a newer
+/// worker has started; shorter ones make old workers claim it more often during an update.
 const PAUSE_FOR_NEWER: Duration = Duration::from_secs(3);
 
 /// Runs a claimed job with [`run`], with its id in every log line.
@@ -44,16 +46,18 @@ pub(super) async fn run_logged(
 }
 
 /// Runs a claimed job to its end and records the outcome. `leave` asks to hand the job back. Returns the time for
-/// which this worker should pause: if files or space are unavailable, its next job would fare no better, but another
-/// worker may succeed.
+/// which this worker should pause: without files or space its next job would fail as well, but another worker may
+/// succeed.
 async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken) -> Duration {
+    // Announce the attempt.
     let name = format!("attempt-{}-{}", job.id, job.token);
     let folder = jobs.settings.scratch.join(name);
     tracing::info!(job = %job.id, attempt = job.attempt, worker = %jobs.worker, "started");
     jobs.live.publish(job.id, job.event());
     let mut rest = Duration::ZERO;
+    // Prepare the folder and compute.
     let ending = async {
-        // They were checked when the job was accepted: by a newer program, during an update.
+        // The options were checked when the job was accepted, but during an update by a newer program.
         let catalog = jobs.settings.catalog;
         if let Err(refused) = catalog.complete(job.kind, job.options.clone()) {
             let error = refused.failure.detail;
@@ -63,6 +67,7 @@ async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken
         prepare(jobs, &job, &folder).await?;
         compute(jobs, &job, attempt, &folder, leave).await
     };
+    // Turn an error into an ending: temporary causes hand the job back, all others fail it.
     let ending = ending.await.unwrap_or_else(|error| {
         tracing::error!(job = %job.id, %error, "attempt failed");
         Some(match error {
@@ -82,6 +87,7 @@ async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken
             )),
         })
     });
+    // Record the ending, then forget the attempt and its folder.
     match ending {
         Some(ending) => conclude(jobs, &job, attempt, ending, leave).await,
         None => disown(jobs, &job).await,
@@ -97,6 +103,7 @@ async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken
 }
 
 async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
+    // Fetch and verify the input.
     let made = tokio::fs::create_dir_all(folder).await;
     made.map_err(StoreError::at(folder))?;
     for (index, file) in job.input.iter().enumerate() {
@@ -105,6 +112,7 @@ async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
         jobs.fetch_verified(&key, file.sha256.as_deref(), &to)
             .await?;
     }
+    // Write the task last: the child starts from it.
     let settings = &jobs.settings;
     let task = Task {
         kind: job.kind,
@@ -169,6 +177,7 @@ async fn compute(
         };
         return Ok(Some(Ending::Lost(cause)));
     }
+    // The child reports a memory failure without knowing its limit.
     let said = read_json::<Failure>(folder, ERROR).ok();
     let failure = said.unwrap_or_else(|| exit.cause());
     Ok(Some(Ending::Failed(if failure.code == "out_of_memory" {
@@ -185,7 +194,8 @@ pub(super) fn started(jobs: &Jobs, job: &Job, sent: Instant) -> Arc<Attempt> {
 
 // The end of an attempt: recorded, or disowned.
 
-/// Delay between two tries to record an end.
+/// Delay between two attempts to record an end. Longer delays keep the slot of a finished job occupied; shorter ones
+/// burden a store that is recovering.
 const RECORDING_PAUSE: Duration = Duration::from_secs(1);
 
 /// Records how an attempt ended, and retries until the store answers: an outage of the store must not discard the
@@ -207,6 +217,7 @@ async fn conclude(
                 tracing::info!(job = %job.id, state = job.state.word(), code, "ended");
                 return jobs.tell(&job).await;
             }
+            // The job was deleted or taken by another worker: its result has no owner.
             Ok(Changed::No(..) | Changed::Missing) => return disown(jobs, job).await,
             Err(error) if error.is_passing() => {
                 tracing::warn!(job = %job.id, %error, "end not recorded yet");
@@ -234,7 +245,8 @@ async fn disown(jobs: &Jobs, job: &Job) {
 
 // Supervision of a compute child: passes on its progress and ends it when needed.
 
-/// Interval at which memory, processor time and lease are checked.
+/// Interval at which memory, processor time and lease are checked. A child can exceed its memory limit for this long;
+/// each check reads two files of `/proc`.
 const WATCH_INTERVAL: Duration = Duration::from_millis(250);
 
 /// Reason why supervision ended.
@@ -256,6 +268,7 @@ async fn watch(
     folder: &Path,
     leave: &CancellationToken,
 ) -> Watched {
+    // Set up the deadline, the polling and the progress to report.
     let limits = &jobs.settings;
     let deadline = Instant::now() + given_up_after(limits.time);
     let mut interval = tokio::time::interval(WATCH_INTERVAL);

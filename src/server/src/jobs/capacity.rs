@@ -7,12 +7,14 @@ use super::quotas::Capacity;
 use super::space::free_bytes;
 use super::store_error::{StoreError, StoreResult};
 
-/// Period over which the throughput of the queue is measured.
+/// Period over which the throughput of the queue is measured. Over longer periods the estimate lags behind changes;
+/// in shorter ones too few long jobs end.
 const PACE_TIME: Duration = Duration::from_mins(5);
-/// Estimated wait for a place in the queue when no job has ended lately.
+/// Estimated wait for a place in the queue when no job has ended lately. Without a throughput there is nothing to
+/// derive it from.
 const WITHOUT_PACE: Duration = Duration::from_mins(1);
 
-/// Timeout for file storage to respond.
+/// Timeout for file storage to respond. `/readyz` and `/metrics` take this long at most if it hangs.
 const BLOBS_PATIENCE: Duration = Duration::from_secs(5);
 
 /// Storage in use and available.
@@ -77,6 +79,7 @@ impl Jobs {
 
     /// Checks that the files belong to this store and that more can be stored.
     pub async fn check_blobs(&self) -> StoreResult<()> {
+        // Compare the identity first: a probe would also succeed on an empty mount point.
         let check = async {
             if let Some(own) = self.identity.get() {
                 match self.blobs.identity().await? {

@@ -10,7 +10,7 @@ use sha2::{Digest, Sha256};
 use super::blobs::Content;
 use super::store_error::{StoreError, StoreResult};
 
-/// Bytes per read.
+/// Bytes per read. Larger blocks take more memory per file, smaller ones more system calls.
 const BLOCK: usize = 1 << 16;
 
 fn compared(sha256: &str, expected: &str) -> StoreResult<()> {
@@ -54,6 +54,7 @@ pub(super) fn checked(content: Content, expected: String) -> Content {
     let blocks = stream::unfold(state, async |(mut content, mut hash, mut held, mut end)| {
         loop {
             match content.next().await {
+                // Hold back the newest block, since the last one is passed on only if the checksum matches.
                 Some(Ok(block)) => {
                     hash.update(&block);
                     if let Some(block) = held.replace(block) {

@@ -14,13 +14,14 @@ use tokio::task::JoinHandle;
 use super::program::Program;
 use unwrapd_api::{Failure, Message};
 
-/// Time between SIGTERM and SIGKILL.
+/// Time between SIGTERM and SIGKILL. The child has no handler for SIGTERM, so it normally ends at once.
 const GRACE: Duration = Duration::from_millis(100);
-/// Time for a child to exit after its last message.
+/// Time for a child to exit after its last message. A child that takes longer is taken to hang.
 const LAST_WORDS: Duration = Duration::from_secs(5);
-/// Milliseconds per clock tick in `/proc`, the same on all of Linux.
+/// Milliseconds per clock tick in `/proc`. Linux reports 100 ticks per second (`USER_HZ`) on every machine.
 const TICK_MS: u64 = 10;
-/// Maximum number of bytes kept of a child's standard error.
+/// Maximum number of bytes kept of a child's standard error: enough for a panic with its backtrace, and little
+/// memory if a child floods it.
 const STDERR_BYTES: u64 = 64 << 10;
 
 /// A running compute child. Dropping it kills the process.
@@ -90,7 +91,7 @@ impl Child {
     /// Asks the child for its current maps.
     pub async fn ask_for_maps(&mut self) {
         if let Some(stdin) = &mut self.stdin {
-            // It may be gone already: then there are none.
+            // The child may have exited already; then there are no maps.
             let _ = stdin.write_all(&[0]).await;
         }
     }
@@ -140,7 +141,8 @@ impl Child {
             return 0;
         };
         let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
-        // The name, which is in brackets, may have spaces in it.
+        // The program name is in parentheses and may contain spaces, so the fields start after the last one. Fields 14
+        // and 15 of the whole line are the times in user and kernel mode (proc(5)).
         let fields = stat.rsplit_once(") ").map_or("", |(_, fields)| fields);
         let ticks = fields.split(' ').skip(11).take(2);
         ticks.filter_map(|it| it.parse::<u64>().ok()).sum::<u64>() * TICK_MS
@@ -148,7 +150,7 @@ impl Child {
 
     fn signal(&self, signal: Signal) {
         if let Some(pid) = self.process.id() {
-            // It may be gone already: then there is nobody to tell.
+            // The child may have exited already.
             let _ = kill(Pid::from_raw(pid as i32), signal);
         }
     }
@@ -164,7 +166,7 @@ pub async fn read_stderr(stderr: tokio::process::ChildStderr) -> String {
 }
 
 fn exit(status: ExitStatus, stderr: &str) -> Exit {
-    // What the standard library prints before it aborts on a failed allocation.
+    // The standard library prints this before it aborts on a failed allocation.
     if status.signal() == Some(Signal::SIGABRT as i32) && stderr.contains("memory allocation of ") {
         return Exit::OutOfMemory;
     }

@@ -8,7 +8,7 @@ use tokio::time::Instant;
 use super::timestamp::Timestamp;
 
 /// Maximum drift of the store's clock against the monotonic clock of this process between two readings. Disciplined
-/// clocks drift by two seconds per hour.
+/// clocks drift by two seconds per hour at most, and readings are at most an hour apart.
 const TOLERANCE: Duration = Duration::from_mins(1);
 
 /// Compares the clock of the store, which can be set, with the monotonic clock of this process, which cannot. Reports

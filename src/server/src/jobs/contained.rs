@@ -22,7 +22,7 @@ pub struct Contained {
     pub time: Duration,
     /// Memory limit in bytes.
     pub memory: u64,
-    /// When atlas pictures are drawn.
+    /// Time at which the pictures of an atlas are drawn.
     pub pictures: Pictures,
 }
 

@@ -95,7 +95,7 @@ impl Gates {
 
 impl Gate {
     fn accepts(self, worth: &Worth, seconds: f64) -> bool {
-        // What has no area has no distortion.
+        // A surface without area has no distortion, so it passes.
         let is_within = |figure: Option<f64>, most: f64| figure.is_none_or(|figure| figure <= most);
         match self {
             Self::Written => true,
@@ -143,6 +143,7 @@ impl FromStr for Gate {
     type Err = GateError;
 
     fn from_str(part: &str) -> Result<Self, GateError> {
+        // Split the name from its value.
         let (word, value) = match part.split_once('=') {
             Some((word, value)) => (word, Some(value)),
             None => (part, None),
@@ -156,6 +157,7 @@ impl FromStr for Gate {
             let number = number.filter(|number| (0.0..).contains(number));
             number.ok_or(needs("a number, 0 or more"))
         };
+        // Gates with a value return here; the others are checked for a stray value below.
         let gate = match word {
             "written" => Self::Written,
             "certified" => Self::Certified,

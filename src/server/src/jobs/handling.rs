@@ -28,6 +28,7 @@ impl Handling {
             webhook,
             ..
         } = self;
+        // Without settings the fingerprint is the digest alone, as in earlier versions, so that stored keys stay valid.
         if metadata.is_empty() && accept.is_none() && webhook.is_none() {
             return digest.to_owned();
         }

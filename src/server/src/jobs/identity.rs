@@ -10,7 +10,7 @@ use super::storage::JobStore;
 use super::store_error::{StoreError, StoreResult};
 use super::store_id::StoreId;
 
-/// Number of jobs looked up at once.
+/// Number of jobs looked up at once. The search stops after the first batch with a known job.
 const TOGETHER: usize = 1000;
 
 /// Returns the identity that records and files share. New stores, and those of version 0.1.0, get one.
@@ -27,7 +27,7 @@ pub async fn shared_identity(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreRe
         (records, files) => {
             check_match(store, blobs).await?;
             let known = files.or(records).unwrap_or_else(StoreId::fresh);
-            // Of processes that start together, the first one chooses.
+            // If several processes start together, the first one chooses.
             let chosen = store.identify(known).await?;
             if files.is_none() {
                 blobs.identify(chosen).await?;

@@ -13,9 +13,10 @@ use super::storage::JobStore;
 use super::store_error::{StoreError, StoreResult};
 use super::timestamp::Timestamp;
 
-/// Jobs per page.
+/// Jobs per page. Larger pages hold more records in memory, smaller ones need more queries.
 const PAGE: u32 = 200;
-/// Minimum age of files without a job, in milliseconds. Younger ones may belong to a submission under way.
+/// Minimum age of files without a job, in milliseconds. Younger ones may belong to a submission under way, which
+/// stores its files before its record. A higher age hides orphaned files for longer.
 const SUBMISSION_MS: u64 = 3_600_000;
 
 /// Defect of a file that a record lists.
@@ -108,6 +109,7 @@ impl Inspection {
         if job.state == State::Cancelled {
             return Ok(());
         }
+        // List the files that the record promises.
         let input = job.input.iter().enumerate().map(|(index, file)| {
             let key = input_key(job.id, index);
             (key, file.bytes, file.sha256.as_deref(), false)
@@ -116,6 +118,7 @@ impl Inspection {
             let key = output_key(job.id, job.token, index);
             (key, file.bytes, file.sha256.as_deref(), true)
         });
+        // Read each of them completely.
         for (key, bytes, sha256, is_output) in input.chain(output) {
             self.files += 1;
             let loss = match read(blobs, &key, bytes, sha256).await {
@@ -124,7 +127,7 @@ impl Inspection {
                 Err(StoreError::Damaged(_)) => Loss::Damaged,
                 Err(error) => return Err(error),
             };
-            // It may have been deleted or cancelled meanwhile.
+            // Report a loss only if the job still has this file: it may have been deleted or cancelled since.
             let now = store.get(&Reach::All, job.id).await?;
             if now.is_some_and(|now| now.state == job.state && now.token == job.token) {
                 self.lost.push(LostFile {

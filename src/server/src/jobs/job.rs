@@ -169,7 +169,7 @@ impl Job {
         }
     }
 
-    /// Returns whether the result meets the gates; `None` without gates or before the end.
+    /// Returns whether the result meets the gates; `None` without gates, before the end, and for a cancelled job.
     pub fn accepted(&self) -> Option<bool> {
         let gates = self.accept.as_ref()?;
         let end = self.finished?;

@@ -8,8 +8,8 @@ pub(super) fn input_key(id: JobId, index: usize) -> String {
     format!("{id}/input/{index}")
 }
 
-/// Returns the folder for the output of one attempt: an outdated attempt never touches the files of its successor. No
-/// attempt has the token 0, which stands for files of versions without tokens.
+/// Returns the folder for the output of one attempt: an outdated attempt never touches the files of its successor. The
+/// token 0, which no attempt has, stands for the files of versions without tokens.
 pub(super) fn output_folder(id: JobId, token: Token) -> String {
     match token {
         0 => format!("{id}/output"),

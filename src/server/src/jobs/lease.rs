@@ -49,10 +49,11 @@ pub struct Rules {
     pub pause: Duration,
 }
 
-/// Upper bound of the pause: the twentieth would take a week otherwise.
+/// Upper bound of the pause. Doubled from one second, the twentieth would otherwise take six days.
 const LONGEST_PAUSE: Duration = Duration::from_mins(5);
 /// Number of lost workers after which a job is suspected of killing them. From then on a worker computes it alone, so
-/// that it takes no other job down with it.
+/// that it takes no other job down with it. One loss is usually an accident, such as a restart; a higher number puts
+/// more innocent jobs at risk.
 pub const SUSPECT: u32 = 2;
 
 impl Default for Rules {

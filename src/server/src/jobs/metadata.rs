@@ -7,7 +7,8 @@ use serde_json::{Map, Value};
 
 use super::digest::Digest;
 
-/// Limits of the JSON text in bytes, and of its members.
+/// Limits of the JSON text in bytes, and of its members. The text is stored with the job and repeated in every view
+/// of it; each member is a row in the table of labels.
 const MOST_BYTES: usize = 4096;
 const MOST_MEMBERS: usize = 64;
 

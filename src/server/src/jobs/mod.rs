@@ -14,7 +14,8 @@
 //! [`after`] is that picture as a function: it maps a record and an event to the next record. A worker holds a job
 //! under a fencing token and a lease by the store's clock, which its heartbeats renew. Any process that finds an
 //! expired lease requeues the job and raises the token. From then on, reports of the former worker are rejected, and
-//! its files have names of their own. One process or many, the four operations are the same: claim, beat, sweep, end.
+//! its files have names of their own. The four operations are the same for one process and for many: claim,
+//! heartbeat, sweep, end.
 //!
 //! The worker itself computes nothing. Every attempt runs in a child process of the same program (`unwrapd compute`,
 //! [`Program`]), which gets a folder with the input and writes its results there. A mesh that exhausts memory,

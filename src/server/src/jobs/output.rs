@@ -15,8 +15,8 @@ use super::store_error::{StoreError, StoreResult};
 use unwrapd_api::{InputFile, OutputFile};
 
 /// Maximum size in bytes of files that are verified before their first byte is passed on, even if only a range of
-/// them is read. They are read twice, which takes a tenth of a second at most. Larger files are verified in passing,
-/// if they are read as a whole.
+/// them is read. They are read twice, which takes a tenth of a second at most; a higher limit delays the first byte
+/// further. Larger files are verified in passing, if they are read as a whole.
 const VERIFIED_FIRST: u64 = 16 << 20;
 
 /// A stored file of a job: key, size and checksum, if known.

@@ -31,7 +31,7 @@ use unwrapd_api::{
     sha256, write_json,
 };
 
-/// Time limit of drawing while a client waits: the default of synchronous requests.
+/// Time limit of drawing while a client waits: the default limit of synchronous requests.
 const PATIENCE: Duration = Duration::from_mins(1);
 
 /// Reason why there is no picture.
@@ -114,22 +114,24 @@ impl Jobs {
         if let Some(kept) = self.kept(job, picture).await? {
             return Ok(kept);
         }
+        // Wait for the turn of this job, then look again at what the turn before has left.
         let turn = self.drawing.turn(job.id).await;
         let now = self.store.get(&Reach::All, job.id).await?;
         let job = now.ok_or(Undrawn::Removed)?;
-        // Another request may have had the turn before.
+        // Another request may have drawn it in the turn before.
         if let Some(kept) = self.kept(&job, picture).await? {
             return Ok(kept);
         }
+        // Draw in a task of its own.
         let place = self.drawing.place().await;
         let jobs = Arc::clone(self);
-        // A client that leaves does not stop it between storing and noting.
+        // A client that disconnects must not stop it between storing and recording.
         let drawn = self.tasks.spawn(async move {
             let drawn = jobs.draw(&job, picture).await;
             drop((turn, place));
             match drawn {
                 Err(Undrawn::Store(error)) if error.is_loss() => {
-                    // Its files go after its record.
+                    // A removal deletes the record first, so a missing file may mean a removed job.
                     let now = jobs.store.get(&Reach::All, job.id).await?;
                     Err(now.map_or(Undrawn::Removed, |_| error.into()))
                 }
@@ -172,6 +174,7 @@ impl Jobs {
 
     /// Draws a picture, stores it and records it.
     async fn draw(&self, job: &Job, picture: Picture) -> Result<Vec<u8>, Undrawn> {
+        // Draw in a child.
         self.has_room()?;
         let path = self
             .settings
@@ -185,6 +188,7 @@ impl Jobs {
         let late = Failure::new("timed_out", detail);
         finished(child, folder, PATIENCE, late).await?;
 
+        // Store the picture, then record it.
         let path = folder.join(PICTURE);
         let content = tokio::fs::read(&path).await?;
         let file = OutputFile {
@@ -197,7 +201,7 @@ impl Jobs {
         self.blobs.put(&key, &path).await?;
         let drawn = Happening::Drawn(job.token, file);
         if let Changed::Missing = self.store.change(&Reach::All, job.id, &drawn).await? {
-            // The remover of the record may have removed its files before this one was stored.
+            // The job was removed meanwhile, perhaps before this file was stored: remove its files again.
             self.blobs.remove(&job.id.to_string()).await?;
             return Err(Undrawn::Removed);
         }
@@ -206,6 +210,7 @@ impl Jobs {
 
     /// Copies the sources of a picture to the folder of a child.
     async fn bring(&self, job: &Job, picture: Picture, folder: &Path) -> StoreResult<()> {
+        // Bring the result, and for an atlas the report and the files that belong to the mesh.
         let mut output = Vec::new();
         for (index, file) in job.output.iter().enumerate() {
             if !is_drawn_from(file, job.is_atlas()) {
@@ -220,6 +225,7 @@ impl Jobs {
             fetched?;
             output.push(file.clone());
         }
+        // Bring the input only if the picture shows texel weights.
         let mut input = Vec::new();
         if job.needs_input(picture) {
             for (index, file) in job.input.iter().enumerate() {
@@ -230,6 +236,7 @@ impl Jobs {
                 input.push(file.name.clone());
             }
         }
+        // Write the task last.
         let drawing = Drawing {
             picture,
             input,
@@ -246,7 +253,7 @@ fn is_drawn_from(file: &OutputFile, is_atlas: bool) -> bool {
         || (is_atlas && (file.role == "report" || file.role.starts_with("files/")))
 }
 
-/// A folder, a file in it, or the child could not be used.
+/// Converts the error of a folder, of a file in it, or of the child.
 impl From<std::io::Error> for Undrawn {
     fn from(error: std::io::Error) -> Self {
         Self::Store(error.into())

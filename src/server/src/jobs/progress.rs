@@ -30,7 +30,8 @@ pub struct Event {
     pub elapsed_ms: u64,
 }
 
-/// Event numbers reserved for each attempt.
+/// Event numbers reserved for each attempt. A child reports at most 40 times per second within a stage, so an attempt
+/// of 600 s, the default limit, sends about 24,000 events at most.
 const EVENTS_PER_ATTEMPT: u64 = 1_000_000;
 
 /// Returns the first event number of the next attempt. It is above all numbers that a lost attempt may have sent

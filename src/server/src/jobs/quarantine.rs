@@ -16,9 +16,11 @@ use super::state::State;
 use super::store_error::StoreResult;
 use super::timestamp::Timestamp;
 
-/// Number of jobs looked up at once.
+/// Number of jobs looked up at once. Larger batches hold more in memory, smaller ones take more transactions.
 const TOGETHER: usize = 1000;
-/// Threshold above which unknown files are no accident: more than this percentage of all, and more than `MOST`.
+/// Threshold above which unknown files are no accident: more than this percentage of all jobs, and more than `MOST`
+/// jobs. A crash leaves the files of the few jobs that were being stored or removed, a wrong or restored database
+/// those of many. Higher thresholds may delete files that a database still needs.
 const MOST_PERCENT: usize = 1;
 const MOST: usize = 20;
 
@@ -26,6 +28,7 @@ impl Jobs {
     /// Quarantines files without a job if the job's id is older than `age`, and deletes those that have been in
     /// quarantine long enough. Deletes nothing while too many are unknown.
     pub(super) async fn sweep_unknown_files(&self, age: Duration) -> StoreResult<()> {
+        // Find the jobs that have files but no record, and the entries that are known again.
         let owners = self.blobs.owners().await?;
         let unknown = self.unknown(&owners, age).await?;
         let held = self.store.quarantined().await?;

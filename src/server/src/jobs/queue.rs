@@ -24,7 +24,7 @@ use std::time::Duration;
 use tokio::sync::{Notify, OnceCell, OwnedMutexGuard, OwnedSemaphorePermit, Semaphore, watch};
 use tokio_util::task::TaskTracker;
 
-/// Time limit for a dismissed job to end.
+/// Time limit for a dismissed job to end. A job that takes longer is removed later, with the expired ones.
 const DISMISSAL_TIME: Duration = Duration::from_mins(1);
 
 /// The job queue and its state in this process.
@@ -135,7 +135,7 @@ impl Jobs {
 
     /// Cancels a job, ends it early with its current map, or retries it, wherever it runs.
     pub async fn wish(&self, reach: &Reach, id: JobId, wish: Wish) -> StoreResult<Changed> {
-        // The child of this process first, it should not wait for the disk.
+        // Tell a child of this process first, so that it does not wait for the store.
         self.running.wish(reach, id, wish);
         let wished = Happening::Wished(wish);
         let changed = self.store.change(reach, id, &wished).await?;

@@ -20,11 +20,12 @@ const SEARCHES: u32 = 10;
 /// than once per second would keep the server busy.
 const LONGEST_PAUSE: Duration = Duration::from_hours(1);
 const SHORTEST_PAUSE: Duration = Duration::from_secs(1);
-/// Minimum age of files without a job. Younger ones may belong to a submission under way in another process, whose
-/// clock may differ.
+/// Minimum age of files without a job, and the interval between searches for them. Younger files may belong to a
+/// submission under way in another process, whose clock may be hours ahead.
 const SUBMISSION: Duration = Duration::from_hours(24);
 /// Time for which the clock of the store must have advanced normally before anything expires. The retention time
-/// applies if that is shorter.
+/// applies if that is shorter. A longer time delays every removal after a start; a shorter one trusts a clock that
+/// was set wrong sooner.
 const STEADY: Duration = Duration::from_hours(1);
 
 impl Jobs {
@@ -35,6 +36,7 @@ impl Jobs {
         let identity = shared_identity(self.store.as_ref(), self.blobs.as_ref()).await?;
         let _ = self.identity.set(identity);
         self.check_blobs().await?;
+        // Empty the scratch folder.
         let scratch = &self.settings.scratch;
         if tokio::fs::try_exists(scratch).await? {
             let removed = tokio::fs::remove_dir_all(scratch).await;
@@ -42,6 +44,7 @@ impl Jobs {
         }
         let made = tokio::fs::create_dir_all(scratch).await;
         made.map_err(StoreError::at(scratch))?;
+        // Without other processes, every running job and every waiting request is from before this start.
         if self.settings.deployment == Deployment::Embedded {
             self.sweep(Sweep::Abandoned).await?;
             for id in self.store.ephemeral().await? {
@@ -59,7 +62,7 @@ impl Jobs {
         let search = (retention / SEARCHES).clamp(SHORTEST_PAUSE, LONGEST_PAUSE);
         let mut interval = tokio::time::interval(search);
         interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
-        // The only process has looked at its start.
+        // An embedded process has searched at its start.
         let is_only = self.settings.deployment == Deployment::Embedded;
         let mut looked = is_only.then(Instant::now);
         loop {
@@ -67,19 +70,22 @@ impl Jobs {
                 _ = interval.tick() => {}
                 () = stop.cancelled() => return,
             }
-            // A process that is paused removes nothing.
+            // A draining process removes nothing.
             if self.is_draining() {
                 continue;
             }
+            // Search for files without a job once a day.
             if self.settings.retention.is_some() && looked.is_none_or(is_long_ago) {
                 looked = Some(Instant::now());
                 if let Err(error) = self.sweep_unknown_files(SUBMISSION).await {
                     tracing::warn!(%error, "files without a job not looked for");
                 }
             }
+            // Read the clock even if nothing expires: only regular readings reveal a jump.
             if let Err(error) = self.clock_is_steady().await {
                 tracing::warn!(%error, "the clock of the store not looked at");
             }
+            // Remove expired jobs.
             match self.remove_expired().await {
                 Ok(0) => {}
                 Ok(removed) => tracing::info!(removed, "expired jobs removed"),

@@ -9,9 +9,9 @@ use super::storage::{Changed, JobStore};
 use super::store_error::StoreResult;
 use super::transition::{Happening, Wish};
 
-/// Jobs per page.
+/// Jobs per page. Larger pages hold more records in memory, smaller ones need more queries.
 const PAGE: u32 = 200;
-/// Maximum number of jobs retried by one request.
+/// Maximum number of jobs retried by one request, which bounds its duration; clients continue with `next`.
 const MOST: usize = 1000;
 
 /// Failed jobs that were requeued.
@@ -31,6 +31,7 @@ pub async fn retry_failed(
     listing: Listing,
     code: Option<&str>,
 ) -> StoreResult<Retried> {
+    // Select failed jobs, oldest first.
     let mut listing = Listing {
         state: Some(State::Failed),
         order: Order::OldestFirst,
@@ -41,10 +42,12 @@ pub async fn retry_failed(
     loop {
         let page = store.list(reach, &listing).await?;
         for job in &page {
+            // The code is no filter of the store, so it is compared here.
             let failure = job.failure.as_ref().map(|failure| failure.code.as_str());
             if code.is_some() && failure != code {
                 continue;
             }
+            // Requeue the job. A job that has not failed any more is left alone.
             let again = Happening::Wished(Wish::Retry);
             if let Changed::Yes(job) = store.change(reach, job.id, &again).await? {
                 retried.jobs.push(*job);

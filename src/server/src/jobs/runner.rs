@@ -15,7 +15,8 @@ use tokio::time::Instant;
 use tokio_util::sync::CancellationToken;
 use tokio_util::task::TaskTracker;
 
-/// Delay before asking a failed store again.
+/// Delay before asking a failed store again. Longer delays leave slots idle after a short outage; shorter ones burden
+/// a store that is recovering.
 const STORE_RETRY: Duration = Duration::from_secs(1);
 
 /// A claimed job with its slot.
@@ -51,7 +52,7 @@ impl Jobs {
         let beats = tokio::spawn(async move { beater.beat(pace).await });
 
         let reader = Arc::clone(&self);
-        // The first job would else wait until the whole program is read.
+        // Hash the program now, or the first job would wait for it.
         self.tasks
             .spawn(async move { reader.engine().await.map(drop) });
 
@@ -109,6 +110,7 @@ impl Jobs {
 
     /// Waits for a slot, space and a job, and claims the job. Returns `None` after a stop.
     async fn next(&self, lane: &Lane, stop: &CancellationToken) -> Option<Claimed> {
+        // Wait for a free slot.
         let bell = lane.bell(&self.wake, &self.wake_reserve);
         let slot = tokio::select! {
             slot = Arc::clone(&lane.slots).acquire_owned() => slot.ok()?,
@@ -117,6 +119,7 @@ impl Jobs {
         lane.set_free(true);
         while !stop.is_cancelled() {
             let sent = Instant::now();
+            // Claim a job, unless space is short, the process drains, or a suspect runs alone.
             let claimed = match self.has_room() {
                 Ok(()) if self.is_draining() || !lane.is_open() => Ok(None),
                 Ok(()) if self.running.has_suspect() => Ok(None),
@@ -130,10 +133,11 @@ impl Jobs {
                 }
                 Err(error) => Err(error),
             };
+            // Start the job, or find out how long to wait.
             let pause = match claimed {
                 Ok(Some(job)) => {
                     let attempt = attempt::started(self, &job, sent);
-                    // If no slot is left, the reserve is open.
+                    // If this was the last slot, the reserve lane opens.
                     lane.set_free(false);
                     self.wake_reserve.notify_one();
                     return Some(Claimed { slot, job, attempt });
@@ -146,6 +150,7 @@ impl Jobs {
                 }
             };
             tokio::select! {
+                // Wait for a wake-up, the next look or the stop.
                 () = bell.notified() => {}
                 () = tokio::time::sleep(pause) => {}
                 () = stop.cancelled() => return None,

@@ -15,7 +15,8 @@ use super::store_error::StoreError;
 use super::timestamp::Timestamp;
 use unwrapd_api::{InputFile, Kind};
 
-/// Retry delay suggested when an owner has to delete jobs first.
+/// Retry delay suggested when an owner has to delete jobs first. Nothing frees the space before the owner acts, so
+/// there is no estimate.
 const DELETION_TIME: Duration = Duration::from_mins(1);
 
 /// A requested job, checked as far as possible without computing.
@@ -73,8 +74,8 @@ impl Jobs {
     pub async fn submit(&self, submission: Submission) -> Result<Submitted, SubmitError> {
         let id = JobId::fresh();
         let outcome = self.store_submission(id, submission).await;
-        // The record may be there, and without its files its job would fail. If it is not, they are
-        // files without a job.
+        // Keep the files if the record may exist: without them its job would fail. If it does not exist, they are
+        // quarantined like all files without a job.
         let may_be_recorded = matches!(
             outcome,
             Ok(Submitted::New(_)) | Err(SubmitError::Store(StoreError::Unanswered(_)))
@@ -99,7 +100,7 @@ impl Jobs {
             key,
             fingerprint: submission.handling.fingerprint(&submission.digest),
         });
-        // Build the record, completed from an equal job where possible.
+        // Build the record, and complete it from an equal job if there is one.
         let mut job = Job {
             owner: submission.owner,
             input: submission.files.into_iter().map(|(file, _)| file).collect(),

@@ -9,7 +9,8 @@ use super::state::State;
 use super::storage::Sweep;
 use super::store_error::StoreResult;
 
-/// Sweeps per lease, which bounds the delay of taking a job from a silent worker.
+/// Sweeps per lease. A job is taken from a silent worker after about 4/3 of a lease at most; more sweeps shorten the
+/// delay but query the store more often.
 const SWEEPS: u32 = 3;
 
 impl Jobs {
@@ -26,11 +27,13 @@ impl Jobs {
                 _ = interval.tick() => {}
                 () = stop.cancelled() => return,
             }
+            // Ask the store a short question, and count the time since its last slow or missing answer.
             let asked = Instant::now();
             let mut answer = self.store.check().await;
             if asked.elapsed() > pause {
                 answers_since = Instant::now();
             }
+            // Sweep once workers have had the time of a lease to reach the store again.
             if answer.is_ok() && answers_since.elapsed() >= lease {
                 answer = self.sweep(Sweep::Overdue).await;
             }

@@ -90,6 +90,7 @@ pub fn after(
             let gone = Failure::new("worker_lost", "its worker is gone");
             taken_away(&mut job, &gone, rules, now)?;
         }
+        // The end was reported before, but the answer was lost.
         Happening::Ended(token, ..) if job.token == *token && job.state.is_final() => {}
         Happening::Ended(token, saying, ending) => {
             check(&job, *token)?;
@@ -114,7 +115,7 @@ fn claimed(job: &mut Job, worker: WorkerId, rules: &Rules, now: Timestamp) -> Re
     if job.state != State::Queued {
         return Err(Refusal::WrongState);
     }
-    // A pause longer than the longest: the clock was set back.
+    // A pause longer than the longest one means that the clock was set back since: ignore it.
     if now < job.due && job.due <= now.later(rules.longest_pause()) {
         return Err(Refusal::TooEarly);
     }
@@ -132,7 +133,7 @@ fn swept(job: &mut Job, rules: &Rules, now: Timestamp) -> Result<(), Refusal> {
     let latest = now.later(rules.lease);
     match job.lease {
         _ if job.state != State::Running => Err(Refusal::WrongState),
-        // Longer than any that is given: the clock was set back.
+        // A lease longer than any that is granted means that the clock was set back since: shorten it.
         Some(lease) if latest < lease => {
             job.lease = Some(latest);
             Ok(())
@@ -191,7 +192,7 @@ fn ended(job: &mut Job, ending: &Ending, rules: &Rules, now: Timestamp) {
     match ending {
         Ending::Lost(cause) => lost(job, cause, rules, now),
         Ending::Interrupted(cause) => interrupted(job, cause, rules, now),
-        // A cancellation that came first has been promised.
+        // A cancellation that came first was promised to its client.
         _ if job.cancel => end(job, State::Cancelled, now),
         Ending::Cancelled => end(job, State::Cancelled, now),
         Ending::Failed(failure) => {

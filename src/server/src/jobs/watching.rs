@@ -15,7 +15,9 @@ use super::settings::Deployment;
 use super::store_error::StoreResult;
 use super::subscription::Subscription;
 
-/// Number of looks for the attempt at a job that was just claimed, and the interval between them.
+/// Number of lookups of the attempt at a job that was just claimed, and the interval between them. The record says
+/// `running` a moment before the attempt is registered here. If another process computes the job, the request waits
+/// for all lookups in vain: a quarter of a second.
 const LOOKS: usize = 5;
 const LOOK_INTERVAL: Duration = Duration::from_millis(50);
 
@@ -32,9 +34,9 @@ pub enum NextMaps {
 impl Jobs {
     /// Subscribes to a job; `None` if there is no such job.
     pub async fn subscribe(&self, reach: &Reach, id: JobId) -> StoreResult<Option<Subscription>> {
-        // What happens after this line is seen, so that no end can fall between it and the record.
+        // Subscribe before reading the record, so that no event between the two is missed.
         let subscription = self.live.subscribe(id);
-        // Others may watch what is out of reach: they go on.
+        // Do not end the events of a job outside the caller's scope: others may watch it.
         let Some(job) = self.get(reach, id).await? else {
             return Ok(None);
         };

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use url::Url;
 
-/// Maximum length of an address in bytes.
+/// Maximum length of an address in bytes, by convention. The address is stored with the job and with its notice.
 const MOST: usize = 2048;
 
 /// Address to which the end of a job is posted.

@@ -6,7 +6,7 @@ use super::session::Session;
 use crate::jobs::{Digest, Handling, JobId, Scratch, Submission};
 use unwrapd_api::{Failure, InputFile, Kind, START, input_file, sha256};
 
-/// Job made from a session, and the folder with its files, which has to be kept until they are moved.
+/// Job made from a session, and the folder with its files, which must be kept until they are moved.
 pub struct Baked {
     /// Submission of the job.
     pub submission: Submission,
@@ -21,7 +21,7 @@ impl Session {
     /// # Errors
     /// Fails if there is no handle, or a file cannot be written.
     pub async fn bake(&self) -> Result<Baked, Failure> {
-        // One at a time: each writes the same file.
+        // Ask the child for its map and its handles, one request at a time: each writes the same file.
         let mut bakes = self.bakes.lock().await;
         self.ask_to_bake().await?;
         let said = tokio::select! {
@@ -31,9 +31,9 @@ impl Session {
         let gone = || Failure::new("session_not_found", "it has ended");
         let handles = said.ok_or_else(gone)??;
         if handles.is_empty() {
-            // Link the input files into a folder of their own.
             return Err(Failure::new("no_handle", "nothing is pulled"));
         }
+        // Link the input files into a folder of their own.
         let path = self
             .folder
             .path()
@@ -60,6 +60,7 @@ impl Session {
             sha256: Some(sha256(&start)),
         };
         files.push((file, place));
+        // Describe the job.
         let options = with_handles(self.kind, self.options.clone(), handles);
         let submission = Submission {
             owner: self.owner.clone(),

@@ -1,4 +1,4 @@
-//! Live sessions: bodies, pictures and UVs pulled while the solver runs.
+//! Live sessions: bodies, pictures and UVs that clients edit while the solver runs.
 //!
 //! A session does interactively what a job of kind `deform`, `warp`, `edit_uv` or `texture_map` does. A client adds,
 //! moves and removes handles while the solver iterates. Every iterate is a valid map, which is sent as a binary frame.

@@ -18,7 +18,8 @@ use crate::jobs::{self, JobId, Scratch, read_stderr};
 use unwrapd_api::pipe::{FAILED, MESH};
 use unwrapd_api::{Failure, InputFile, Kind, Limits, Pictures, TASK, Task, input_file, write_json};
 
-/// Time for a child to read its input and become ready.
+/// Time for a child to read its input and become ready. A longer limit lets a hanging child keep its slot, a shorter
+/// one refuses large inputs on slow machines.
 const START_TIME: Duration = Duration::from_mins(2);
 
 /// Limits of sessions.
@@ -106,9 +107,10 @@ impl Sessions {
 
     /// Opens a session. When this returns, its child has read the input and is ready.
     pub async fn open(self: &Arc<Self>, opened: Opened) -> Result<Arc<Session>, Unopened> {
-        // Move the input to the folder of the session and start the child.
+        // Reserve the slots of the session.
         let slots = self.slots(&opened.owner)?;
         let id = JobId::fresh();
+        // Move the input to its folder, and start the child.
         let folder = Scratch::make(self.jobs.scratch.join(format!("session-{id}")))?;
         for (index, (_, path)) in opened.files.iter().enumerate() {
             tokio::fs::rename(path, folder.path().join(input_file(index))).await?;

@@ -16,7 +16,8 @@ use crate::jobs::{JobId, Scratch};
 use unwrapd_api::pipe::{BAKE, BAKED, FAILED, FRAME, MESSAGE, REPLY};
 use unwrapd_api::{Failure, InputFile, Kind};
 
-/// Number of replies that a client may lag behind.
+/// Number of replies that a client may lag behind before it is disconnected. A larger buffer takes more memory per
+/// session, a smaller one disconnects slow clients sooner.
 const MOST_REPLIES: usize = 4096;
 
 /// Reason why a session ended.
@@ -146,7 +147,7 @@ impl Session {
                     self.frames.send_replace(bytes);
                 }
                 REPLY => {
-                    // Without clients nobody listens.
+                    // Sending fails without clients, and then nobody needs the reply.
                     let _ = self.replies.send(bytes);
                 }
                 BAKED => {

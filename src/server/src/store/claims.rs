@@ -28,7 +28,7 @@ pub(super) async fn claim(
 ) -> StoreResult<Option<Job>> {
     let longest_pause = rules.longest_pause().as_millis() as i64;
     let largest = share.largest.map_or(i64::MAX, |bytes| bytes as i64);
-    // Most of the time there is none, and nothing has to be locked to know that.
+    // Check without a lock first: most of the time there is no job.
     let is_any = database.sql(&format!("SELECT id FROM job WHERE {DUE} LIMIT 1"));
     let is_busy = i64::from(share.is_busy);
     let query = sqlx::query(is_any)

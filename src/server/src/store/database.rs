@@ -42,17 +42,20 @@ const POSTGRES: [&str; 11] = [
     include_str!("schema/postgres/11.sql"),
 ];
 
-/// Settings of every connection to SQLite. Commits are durable; the log is copied into the database after a quarter
-/// of the usual number of pages. Sorting stays in memory, because an image has no folder for temporary files.
+/// Settings of every connection to SQLite. Commits are durable. The log is copied into the database after 256 pages, a
+/// quarter of SQLite's default, so it stays short. Sorting stays in memory, because an image has no folder for
+/// temporary files.
 const PRAGMAS: &str = "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;
     PRAGMA wal_autocheckpoint = 256; PRAGMA foreign_keys = ON; PRAGMA busy_timeout = 5000;
     PRAGMA temp_store = MEMORY;";
-/// Number of connections per process to PostgreSQL, and of reading connections to SQLite.
+/// Number of connections per process to PostgreSQL, and of reading connections to SQLite. With the one that listens
+/// for hints, eleven processes fit into the 100 connections that PostgreSQL allows by default.
 const POSTGRES_CONNECTIONS: u32 = 8;
 const SQLITE_READERS: u32 = 4;
-/// Time limit for a free connection, for connecting, and for the check that a connection is alive.
+/// Time limit for a free connection, for connecting, and for the check that a connection is alive. It is a third of
+/// the time limit of a call, so that its error, which names the cause, comes first.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// Delay between attempts to connect at startup.
+/// Delay between attempts to connect at startup. Shorter delays only add load to a server that is starting.
 const REACH_PAUSE: Duration = Duration::from_millis(200);
 
 /// An open database. Commits are durable.
@@ -107,7 +110,7 @@ impl Database {
         };
         let migrations = steps.iter().enumerate().map(migration).collect();
         let mut migrator = Migrator::with_migrations(migrations);
-        // A newer program may have been here during a rolling update.
+        // Accept versions of a newer program: it may have migrated the database during a rolling update.
         migrator.set_ignore_missing(true);
         let mut connection = self.writers.acquire().await?;
         if self.dialect == Dialect::Sqlite {
@@ -153,7 +156,7 @@ async fn reach(url: &str, patience: Duration) -> StoreResult<()> {
         let answer = tokio::time::timeout(PATIENCE, AnyConnection::connect(url)).await;
         let error = match answer {
             Ok(Ok(connection)) => {
-                // A connection that works is enough, however it ends.
+                // The connection works, so its end does not matter.
                 let _ = connection.close().await;
                 return Ok(());
             }
@@ -192,7 +195,7 @@ fn pool(dialect: Dialect, connections: u32) -> AnyPoolOptions {
 /// fails to roll it back, considers it open forever, and refuses every further one. A connection that was silently
 /// cut does not answer, and must not keep its place.
 async fn is_usable(connection: &mut AnyConnection) -> sqlx::Result<bool> {
-    // After this, a rollback that a dropped transaction asked for is done.
+    // The ping also waits for the rollback of a dropped transaction.
     let answer = tokio::time::timeout(PATIENCE, connection.ping()).await;
     answer.unwrap_or_else(|_| Err(sqlx::Error::Io(ErrorKind::TimedOut.into())))?;
     Ok(!connection.is_in_transaction())

@@ -5,7 +5,7 @@ use sqlx::migrate::MigrateError;
 
 use crate::jobs::StoreError;
 
-/// SQLite's codes, in the low byte, for a full disk, and for a database or a table in use.
+/// SQLite's result codes `SQLITE_FULL`, `SQLITE_BUSY` and `SQLITE_LOCKED`. Extended codes have them in the low byte.
 const SQLITE_FULL: i32 = 13;
 const SQLITE_BUSY: [i32; 2] = [5, 6];
 /// PostgreSQL's code for a full disk, and the classes of its temporary errors: connections, deadlocks, lack of
@@ -27,6 +27,7 @@ impl From<Error> for StoreError {
             Error::Database(error) if error.is_unique_violation() => Self::Conflict(text),
             Error::Database(error) => {
                 let code = error.code().unwrap_or_default();
+                // PostgreSQL's codes have five characters, SQLite's fewer digits.
                 match code.parse::<i32>().map(|code| code & 0xff) {
                     _ if code == POSTGRES_FULL => Self::Full(text),
                     _ if code.len() == 5 && POSTGRES_PASSING.contains(&&code[..2]) => {

@@ -18,7 +18,8 @@ use crate::jobs::{Blobs, Content, JobId, StoreError, StoreId, StoreResult, free_
 /// Name of the file with the id of the store. It is not a job id.
 const IDENTITY: &str = "store-id";
 
-/// Number of further attempts to remove a folder into which one of a job's three pictures was stored meanwhile.
+/// Number of further attempts to remove a folder into which a picture was stored meanwhile: one for each of the three
+/// pictures of a job.
 const REMOVALS: usize = 3;
 
 /// A folder with one subfolder per job. Files are moved rather than copied if they are on the same file system.
@@ -49,7 +50,7 @@ impl FileBlobs {
     }
 }
 
-/// Runs blocking work as a whole on a thread for it.
+/// Runs blocking work on a thread for it, as one step.
 async fn blocking<T: Send + 'static>(
     work: impl FnOnce() -> StoreResult<T> + Send + 'static,
 ) -> StoreResult<T> {
@@ -166,7 +167,7 @@ impl Blobs for FileBlobs {
             let mut folders = fs::read_dir(&self.root).await?;
             let mut owners = Vec::new();
             while let Some(folder) = folders.next_entry().await? {
-                // What has another name was not put here by this program.
+                // Skip files and folders that this program did not create.
                 owners.extend(
                     folder
                         .file_name()

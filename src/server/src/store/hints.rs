@@ -13,7 +13,7 @@ use crate::jobs::{Job, State};
 /// Notification channel.
 const CHANNEL: &str = "unwrapd_queued";
 const NOTIFY: &str = "SELECT pg_notify('unwrapd_queued', '')";
-/// Delay before reconnecting after a failure.
+/// Delay before reconnecting after a failure. Without hints, workers still poll, so a longer delay costs little.
 const PAUSE: Duration = Duration::from_secs(5);
 
 /// A dedicated listening connection, opened when needed.

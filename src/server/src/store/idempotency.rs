@@ -7,7 +7,7 @@ use super::rows;
 use crate::jobs::access::Owner;
 use crate::jobs::{Enqueued, IdempotencyKey, Job, StoreResult};
 
-/// Minimum lifetime of a key: one day.
+/// Minimum lifetime of a key: one day, as the OpenAPI document promises.
 const LIFE_MS: i64 = 86_400_000;
 
 /// Returns the outcome for a key that was used before; `None` for a new key.

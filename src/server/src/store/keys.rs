@@ -87,18 +87,21 @@ impl KeyStore for RecordStore {
 
 /// Adds a key, timed by the database. Deletes the expired and revoked keys of pages.
 async fn add(database: &Database, new: &NewKey) -> StoreResult<Key> {
+    // Read the clock of the database, by which keys expire.
     let mut transaction = database.begin().await?;
     let row = sqlx::query(database.sql("SELECT {now} AS now"))
         .fetch_one(&mut *transaction)
         .await?;
     let now = rows::now(&row)?;
     let key = new.recorded(now);
+    // Delete useless keys of pages.
     let useless = "DELETE FROM api_key
          WHERE parent IS NOT NULL AND (expires <= $1 OR revoked IS NOT NULL)";
     sqlx::query(useless)
         .bind(now.0)
         .execute(&mut *transaction)
         .await?;
+    // Add the key.
     sqlx::query(
         "INSERT INTO api_key (id, digest, owner, scopes, name, parent, created, expires)
          VALUES ($1, $2, $3, $4, $5, $6, $7, $8)",

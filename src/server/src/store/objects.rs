@@ -19,19 +19,24 @@ use tokio::io::AsyncWriteExt;
 
 use crate::jobs::{Blobs, Content, JobId, StoreError, StoreId, StoreResult};
 
-/// Timeouts of a request and of connecting. Files are sent and fetched in parts.
+/// Timeouts of a request and of connecting. Files are sent in parts of 10 MiB, the default of `BufWriter`, and fetched
+/// in one request each. A longer timeout lets a slow store occupy a slot; a shorter one fails large files on slow
+/// links.
 const REQUEST_TIME: Duration = Duration::from_mins(5);
 const CONNECT_TIME: Duration = Duration::from_secs(5);
-/// Timeout for the next bytes of a response, since a connection may be silently cut.
+/// Timeout for the next bytes of a response, since a connection may be silently cut. Without it, only the timeout of
+/// the whole request would notice.
 const SILENCE: Duration = Duration::from_secs(30);
-/// Total time, and number, of retries of a failed request. After that, the caller retries later.
+/// Total time, and number, of retries of a failed request. After that, the caller hands its job back or answers 503,
+/// and retries later. More retries occupy the caller for longer.
 const RETRY_TIME: Duration = Duration::from_secs(10);
 const RETRIES: usize = 4;
 
 /// Names of the object with the id of the store and of a probe written to check access. They are not job ids.
 const IDENTITY: &str = "store-id";
 const PROBE: &str = "probe";
-/// Minimum time between two probes, since each costs a request.
+/// Minimum time between two probes, since each costs a request. A longer time delays the report of a failure in
+/// `/readyz` and in the metrics.
 const PROBE_PAUSE: Duration = Duration::from_mins(1);
 
 /// A bucket, or the part of it under a prefix. An object exists completely or not at all.
@@ -45,8 +50,9 @@ impl ObjectBlobs {
     /// Opens the bucket and prefix of `s3://BUCKET/PREFIX`. Endpoint, region, credentials and the like are set by
     /// their usual variables, such as `AWS_ENDPOINT_URL`; other variables are ignored.
     pub fn open(url: &str, variables: impl Iterator<Item = (String, String)>) -> StoreResult<Self> {
-        // Another user of TLS in this process may have chosen first.
+        // The call fails if another part of the process has chosen a provider already.
         let _ = rustls::crypto::ring::default_provider().install_default();
+        // Set the timeouts and the retries.
         let client = ClientOptions::new()
             .with_connect_timeout(CONNECT_TIME)
             .with_read_timeout(SILENCE)
@@ -60,6 +66,7 @@ impl ObjectBlobs {
             .with_url(url)
             .with_client_options(client)
             .with_retry(retry);
+        // Apply the environment variables.
         let set = |builder: AmazonS3Builder, (name, value): (String, String)| match name
             .to_ascii_lowercase()
             .parse::<AmazonS3ConfigKey>()
@@ -68,6 +75,7 @@ impl ObjectBlobs {
             _ => builder,
         };
         let bucket = variables.fold(builder, set).build()?;
+        // Restrict the bucket to the prefix.
         let (_, path) = url
             .trim_start_matches("s3://")
             .split_once('/')
@@ -92,6 +100,7 @@ impl ObjectBlobs {
         if range.is_empty() {
             return Ok(stream::empty().boxed());
         }
+        // Request the range.
         let options = GetOptions {
             range: Some(GetRange::Bounded(range)),
             ..GetOptions::default()
@@ -103,7 +112,7 @@ impl ObjectBlobs {
         let key = Key::from(key);
         let content = match self.store.get_opts(&key, options).await {
             Err(error @ Error::Generic { .. }) => {
-                // A server refuses a range beyond the end of an object that lost bytes.
+                // A server rejects a range beyond the end, so the object may have lost bytes: compare its size.
                 let size = self.store.head(&key).await?.size;
                 return Err(if size < end {
                     StoreError::Damaged("a stored file is shorter than it was".to_owned())
@@ -127,7 +136,7 @@ impl Blobs for ObjectBlobs {
                 tokio::io::copy(&mut file, &mut object).await?;
                 object.shutdown().await
             };
-            // Whatever it is, it is not this machine that cannot write.
+            // The failure is on the side of the store, not of a local disk.
             let failed = |error: std::io::Error| StoreError::Unavailable(error.to_string());
             sent.await.map_err(failed)
         }
@@ -150,7 +159,7 @@ impl Blobs for ObjectBlobs {
         async move {
             let listed = self.store.list_with_delimiter(None).await?;
             let names = listed.common_prefixes.iter();
-            // What has another name was not put here by this program.
+            // Skip objects that this program did not create.
             Ok(names
                 .filter_map(|name| name.as_ref().parse().ok())
                 .collect())
@@ -253,8 +262,8 @@ impl From<Error> for StoreError {
         let text = error.to_string();
         match error {
             Error::Generic { .. } | Error::JoinError { .. } => Self::Unavailable(text),
-            // A key that expired, or a clock too far from that of the server: no fault of a job, and
-            // another process may have access.
+            // The credentials may have expired, or the clock may differ too much from the server's. The job is not at
+            // fault, and another process may have access.
             Error::PermissionDenied { .. } | Error::Unauthenticated { .. } => {
                 Self::Unavailable(text)
             }

@@ -44,7 +44,7 @@ impl Outbox for RecordStore {
 }
 
 async fn take(database: &Database, most: u32, lease: Duration) -> StoreResult<Vec<Notice>> {
-    // Most of the time there is none, and nothing has to be locked to know that.
+    // Check without a lock first: most of the time there is no notice.
     let is_any = database.sql(&format!("SELECT id FROM outbox WHERE {DUE} LIMIT 1"));
     let any = sqlx::query(is_any).fetch_optional(&database.readers);
     if any.await?.is_none() {

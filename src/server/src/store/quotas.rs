@@ -5,6 +5,7 @@ use sqlx::{Any, Row, Transaction};
 use crate::jobs::access::Owner;
 use crate::jobs::{Job, OwnerQuota, OwnerQuotas, State, StoreResult, Timestamp};
 
+/// Milliseconds per day.
 const DAY_MS: i64 = 86_400_000;
 
 /// Returns the quota of its owner that a new job would exceed; `None` if it exceeds none.
@@ -15,12 +16,14 @@ pub(super) async fn exceeded(
     transaction: &mut Transaction<'_, Any>,
 ) -> StoreResult<Option<OwnerQuota>> {
     let owner = job.owner.as_str();
+    // All statements bind the owner and the day, so those that do not need the day mention it as `$2 = $2`.
     let mut number = async |statement: &'static str, day: i64| {
         let query = sqlx::query(statement).bind(owner).bind(day);
         let row = query.fetch_optional(&mut **transaction).await?;
         let number = row.map(|row| row.try_get::<i64, _>(0)).transpose()?;
         StoreResult::Ok(number.unwrap_or_default() as u64)
     };
+    // Check the live jobs, the stored bytes, and the processor time of the day.
     if let Some(most) = quotas.jobs.filter(|_| job.state == State::Queued) {
         let live = "SELECT count(*) FROM job
              WHERE owner = $1 AND $2 = $2 AND state IN ('queued', 'running')";

@@ -11,7 +11,8 @@ use super::within::within;
 use crate::jobs::access::Reach;
 use crate::jobs::{Event, Job, JobId, Queue, State, StoreResult};
 
-/// Number of jobs per query.
+/// Number of jobs per query. The statement has a placeholder for each, so a larger number wastes bindings on small
+/// batches, and a smaller one needs more queries.
 const BATCH: usize = 64;
 
 /// Returns the job with this id if it is visible.
@@ -66,7 +67,7 @@ pub(super) async fn events(database: &Database, ids: &[JobId]) -> StoreResult<Ve
     let mut events = Vec::new();
     for batch in ids.chunks(BATCH) {
         let mut query = sqlx::query(AssertSqlSafe(statement.0.clone()));
-        // One statement for all: the last batch is filled up with its own last id.
+        // Use one statement for all batches: fill up the last one with its own last id.
         for place in 0..BATCH {
             query = query.bind(batch[place.min(batch.len() - 1)].to_string());
         }

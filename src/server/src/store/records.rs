@@ -19,9 +19,11 @@ use sqlx::{Any, AssertSqlSafe, Row, Transaction};
 use std::time::Duration;
 use unwrapd_api::Kind;
 
-/// Time limit of a call, including a lost connection.
+/// Time limit of a call, including a lost connection. A longer limit delays the answers of an unreachable store; a
+/// shorter one would end before the time limit for connecting can tell the cause.
 const PATIENCE: Duration = Duration::from_secs(15);
-/// Time for which the job of a synchronous request is kept after its end, if the request does not remove it.
+/// Time for which the job of a synchronous request is kept after its end, if the request does not remove it. It is
+/// longer than the time that a dismissal waits for the end.
 const EPHEMERAL_MS: i64 = 10 * 60_000;
 
 /// Records in SQLite or PostgreSQL. Every change is one transaction, durable when the method returns;
@@ -210,7 +212,7 @@ impl JobStore for RecordStore {
 
     fn check(&self) -> BoxFuture<'_, StoreResult<()>> {
         bounded(async move {
-            // Whether records can be written cannot be told otherwise.
+            // Only writing shows whether records can be written.
             let written = sqlx::query(self.database.sql("UPDATE pulse SET at = {now}"))
                 .execute(&self.database.writers)
                 .await;
@@ -260,6 +262,7 @@ impl Conditions {
 
 /// Returns a page of jobs, without those of synchronous requests.
 async fn page(database: &Database, reach: &Reach, listing: &Listing) -> StoreResult<Vec<Job>> {
+    // Collect the conditions: scope, filters and metadata.
     let (within, owner) = within(reach, 1);
     let mut met = Conditions::default();
     met.texts.push(format!("ephemeral = 0 AND {within}"));
@@ -273,6 +276,7 @@ async fn page(database: &Database, reach: &Reach, listing: &Listing) -> StoreRes
     for label in listing.metadata.labels() {
         met.add(labelled, Value::Text(label));
     }
+    // Continue after the cursor, in the order of ids.
     let (beyond, direction) = match listing.order {
         Order::NewestFirst => ("id < ?", "DESC"),
         Order::OldestFirst => ("? < id", "ASC"),
@@ -280,6 +284,7 @@ async fn page(database: &Database, reach: &Reach, listing: &Listing) -> StoreRes
     let after = listing.after.map(|id| id.to_string());
     met.words(beyond, after.as_deref());
     met.values.push(Value::Number(i64::from(listing.limit)));
+    // Read the page.
     let page = format!(
         "SELECT {{columns}} FROM job WHERE {} ORDER BY id {direction} LIMIT ${}",
         met.texts.join(" AND "),
@@ -306,9 +311,10 @@ fn bound(
 
 // Reserved disk space for records, so that jobs can end and be deleted on a full disk.
 
-/// Bytes of free pages, and of the log. A record takes about two thousand.
+/// Bytes of free pages, and of the log. A record takes about two thousand bytes, so two thousand records fit.
 const RESERVE: i64 = 4 << 20;
-/// Number of free bytes below which the reserve is refilled.
+/// Number of free bytes below which the reserve is refilled. A higher value refills more often, a lower one leaves
+/// less for a disk that fills up just before.
 const LEAST: i64 = RESERVE / 4;
 
 /// Refills the reserve of SQLite if it is low. One transaction of that size makes the log as long.
@@ -316,12 +322,14 @@ async fn keep(database: &Database) -> StoreResult<()> {
     if database.dialect != Dialect::Sqlite {
         return Ok(());
     }
+    // Check whether enough free pages are left.
     let free = "SELECT freelist_count * page_size FROM pragma_freelist_count, pragma_page_size";
     let row = sqlx::query(free).fetch_one(&database.readers).await?;
     if LEAST <= row.try_get::<i64, _>(0)? {
         return Ok(());
     }
     let mut transaction = database.begin().await?;
+    // Write a table of that size and drop it, which leaves its pages free.
     sqlx::raw_sql("CREATE TABLE reserve (bytes BLOB)")
         .execute(&mut *transaction)
         .await?;

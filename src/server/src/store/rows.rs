@@ -52,6 +52,7 @@ pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) ->
     .bind(job.webhook.as_ref().map(ToString::to_string))
     .execute(&mut **transaction)
     .await?;
+    // Add the labels by which the job is found.
     for label in job.metadata.labels() {
         sqlx::query("INSERT INTO label (digest, job) VALUES ($1, $2) ON CONFLICT DO NOTHING")
             .bind(label)

@@ -15,9 +15,10 @@ use crate::jobs::{
     after,
 };
 
-/// Jobs per transaction of a sweep.
+/// Jobs per transaction of a sweep. Larger transactions lock rows for longer, smaller ones take more commits.
 const SWEPT: i64 = 100;
-/// Time for which an expired job is remembered: a year.
+/// Time for which an expired job is remembered: a year. Until then requests for it get 410 rather than 404; each takes
+/// a row.
 const REMEMBERED_MS: i64 = 365 * 86_400_000;
 
 /// Condition for running jobs whose leases are over, or longer than any that is given.
@@ -48,7 +49,7 @@ pub(super) async fn beat(
 ) -> StoreResult<Vec<Changed>> {
     let mut transaction = database.begin().await?;
     let mut answers: Vec<Option<Changed>> = vec![None; beats.len()];
-    // Rows are kept in one order, so that no two transactions wait for each other.
+    // Lock the rows in one order, so that no two transactions wait for each other.
     let mut order: Vec<usize> = (0..beats.len()).collect();
     order.sort_by_key(|&index| beats[index].0);
     for index in order {
@@ -67,6 +68,7 @@ pub(super) async fn sweep(
     sweep: Sweep,
     rules: &Rules,
 ) -> StoreResult<Vec<Job>> {
+    // Choose the condition and the event.
     let (meant, happening) = match sweep {
         Sweep::Overdue => (OVERDUE, Happening::Swept),
         Sweep::Abandoned => (ANY_RUNNING, Happening::Abandoned),
@@ -74,11 +76,13 @@ pub(super) async fn sweep(
     let lease = rules.lease.as_millis() as i64;
     let mut all = Vec::new();
     loop {
+        // Check without a lock first.
         let is_any = database.sql(&format!("SELECT id FROM job WHERE {meant} LIMIT 1"));
         let query = sqlx::query(is_any).bind(lease);
         if query.fetch_optional(&database.readers).await?.is_none() {
             return Ok(all);
         }
+        // Apply the event to the next jobs that no other process has locked.
         let found = database.sql(&format!(
             "SELECT {{columns}}, {{now}} AS now FROM job WHERE {meant} ORDER BY id LIMIT $2 {{free}}"
         ));
@@ -95,7 +99,7 @@ pub(super) async fn sweep(
             }
         }
         transaction.commit().await?;
-        // Nothing changes if another process sweeps the same, or if their time is just coming.
+        // Stop if nothing changed: another process may sweep the same jobs, or their leases end only now.
         if swept.is_empty() {
             return Ok(all);
         }
@@ -111,6 +115,7 @@ pub(super) async fn delete(
 ) -> StoreResult<bool> {
     let (within, owner) = within(reach, 2);
     let mut transaction = database.begin().await?;
+    // Delete the record. Its idempotency key and its labels go with it.
     let delete = format!(
         "DELETE FROM job WHERE id = $1 AND {within}
          AND state IN ('succeeded', 'failed', 'cancelled') RETURNING owner"
@@ -123,6 +128,7 @@ pub(super) async fn delete(
     let Some(deleted) = deleted else {
         return Ok(false);
     };
+    // Remember an expired job for a year.
     if reason == Reason::Expired {
         let insert = "INSERT INTO expired (id, at, owner) VALUES ($1, {now}, $2)";
         sqlx::query(database.sql(insert))

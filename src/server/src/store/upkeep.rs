@@ -9,8 +9,8 @@ use super::database::Database;
 use super::rows;
 use crate::jobs::{Census, JobId, Quarantined, StoreId, StoreResult, Timestamp};
 
-/// Time between checks after which quarantined files count as newly found: a process checks every day, so the
-/// database may have been restored, or its clock may have jumped.
+/// Time between checks after which quarantined files count as newly found. Processes check every day, so a longer gap
+/// means that the database was restored or its clock has jumped; three days allow for two missed checks.
 const GAP_MS: i64 = 3 * 86_400_000;
 
 /// Returns the current time by the clock of the database.

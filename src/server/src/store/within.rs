@@ -6,7 +6,7 @@ use crate::jobs::access::Reach;
 pub(super) fn within(reach: &Reach, place: u8) -> (String, &str) {
     match reach {
         Reach::Own(owner) => (format!("owner = ${place}"), owner.as_str()),
-        // No name of an owner has this character.
+        // Names of owners cannot contain this character. The placeholder must be used, since every caller binds it.
         Reach::All => (format!("${place} = '*'"), "*"),
     }
 }

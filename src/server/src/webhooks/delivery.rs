@@ -14,15 +14,17 @@ use super::guard::{Guard, Reachable, check};
 use super::secret::Secrets;
 use crate::jobs::{Notice, Outbox, Timestamp};
 
-/// Interval between polls of the outbox.
+/// Interval between polls of the outbox. A longer interval delays notices; a shorter one queries the store more often.
 const PAUSE: Duration = Duration::from_secs(1);
-/// Maximum number of concurrent deliveries, so that a slow receiver does not delay others.
+/// Maximum number of concurrent deliveries, so that a slow receiver does not delay others. Each holds a connection.
 const TOGETHER: usize = 32;
-/// Timeout of a receiver.
+/// Timeout of a receiver. Standard Webhooks recommends 15 to 30 s.
 const PATIENCE: Duration = Duration::from_secs(15);
-/// Lease of this process on a notice, which is longer than the timeout.
+/// Lease of this process on a notice, four times the timeout. After a crash, a notice is delivered again this much
+/// later.
 const LEASE: Duration = Duration::from_mins(1);
-/// Pauses before retries; after the last retry a notice is given up. Values of Standard Webhooks.
+/// Pauses before retries; after the last retry a notice is given up. They are the first seven of the example schedule
+/// of Standard Webhooks.
 const RETRIES: [Duration; 7] = [
     Duration::from_secs(5),
     Duration::from_mins(5),
@@ -50,7 +52,7 @@ pub async fn deliver(outbox: Arc<dyn Outbox>, settings: Settings, stop: Cancella
     for result in ["delivered", "failed", "given_up"] {
         counter!(DELIVERIES, "result" => result).absolute(0);
     }
-    // Another part of the process may have chosen already.
+    // The call fails if another part of the process has chosen a provider already.
     let _ = rustls::crypto::ring::default_provider().install_default();
     // Build a client that follows no redirects, uses no proxy and resolves names with the guard.
     let client = Client::builder()
@@ -83,9 +85,11 @@ pub async fn deliver(outbox: Arc<dyn Outbox>, settings: Settings, stop: Cancella
             Err(error) => tracing::warn!(%error, "webhooks not looked for"),
         }
         tokio::select! {
+            // On a stop, notices under way are dropped; they are due again after their lease.
             () = tokio::time::sleep(PAUSE) => {}
             () = stop.cancelled() => return,
         }
+        // Wait for a free slot.
         while under_way.try_join_next().is_some() {}
         if under_way.len() == TOGETHER {
             under_way.join_next().await;
@@ -111,6 +115,7 @@ enum DeliveryAnswer {
 impl Courier {
     /// Delivers a notice, and settles it or schedules a retry.
     async fn carry(&self, notice: &Notice) {
+        // Deliver, and choose what to do with the notice.
         let host = notice.webhook.url().host_str().unwrap_or_default();
         let (id, attempt) = (&*notice.id, notice.attempt);
         let retry = RETRIES.get(attempt.saturating_sub(1) as usize);
@@ -133,7 +138,7 @@ impl Courier {
             }
         };
         counter!(DELIVERIES, "result" => result).increment(1);
-        // It comes again after the lease, and is told twice.
+        // The notice is due again after its lease, and its receiver gets it twice.
         if let Err(error) = settled {
             tracing::warn!(id, %error, "delivery of a webhook not recorded");
         }

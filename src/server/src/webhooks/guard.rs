@@ -73,14 +73,14 @@ fn is_public_v4(address: Ipv4Addr) -> bool {
         || address.is_private()
         || address.is_link_local()
         || address.is_documentation()
-        // Shared by customers of a provider (RFC 6598).
+        // Shared address space of a provider's customers (RFC 6598).
         || a == 100 && (64..128).contains(&b)
-        // Of protocols (RFC 6890), once of relays (RFC 7526).
+        // Protocol assignments (RFC 6890), and the former 6to4 relays (RFC 7526).
         || (a, b, c) == (192, 0, 0)
         || (a, b, c) == (192, 88, 99)
-        // Of benchmarks (RFC 2544).
+        // Benchmarks (RFC 2544).
         || a == 198 && (b == 18 || b == 19)
-        // Groups, what is reserved, and all at once.
+        // Multicast, reserved addresses and broadcast.
         || 224 <= a)
 }
 

@@ -10,7 +10,7 @@ use sha2::Sha256;
 
 use crate::jobs::access::Owner;
 
-/// Minimum length of a secret in bytes.
+/// Minimum length of a secret in bytes, as in Standard Webhooks.
 const LEAST: usize = 24;
 
 /// Secret of the service, from which a secret per owner is derived: no owner can sign for another, and nothing has to
@@ -28,7 +28,7 @@ pub struct SecretError;
 pub struct Secrets(Vec<Secret>);
 
 fn hmac(key: &[u8], parts: &[&str]) -> [u8; 32] {
-    // A key may have any length.
+    // HMAC accepts keys of any length.
     let mut mac = Hmac::<Sha256>::new_from_slice(key).unwrap_or_else(|_| unreachable!());
     for part in parts {
         mac.update(part.as_bytes());

@@ -16,7 +16,8 @@ use unwrapd_api::pipe::{self, BAKE, BAKED, FAILED, FRAME, MESH, REPLY};
 use unwrapd_api::{Failure, START, TASK, Task, read_json, read_upload};
 use unwrapd_pipeline::{Workers, in_pool, start_file};
 
-/// Maximum number of queued messages. When the queue is full, the pipe fills up and the client waits.
+/// Maximum number of queued messages. When the queue is full, the pipe fills up and the client waits. A longer queue
+/// lets clients run further ahead of the solver, a shorter one stops them sooner.
 const MOST_WAITING: usize = 1024;
 
 /// A record from the server.
@@ -27,7 +28,7 @@ enum ServerRecord {
 
 /// Runs the session in `folder` until standard input ends, and returns the exit code of the process.
 pub fn run(folder: &Path) -> u8 {
-    // Not buffered by lines, as standard output is.
+    // Bypass the line buffer of standard output: records are binary.
     let out = match std::io::stdout().as_fd().try_clone_to_owned() {
         Ok(out) => File::from(out),
         Err(_) => return 1,
@@ -40,7 +41,7 @@ pub fn run(folder: &Path) -> u8 {
 }
 
 fn session(folder: &Path, out: &File) -> Result<(), Failure> {
-    // First of all: a child whose server is gone does not read on.
+    // Listen first, so that the child exits if its server is gone while it reads the input.
     let said = listen()?;
     let task: Task = read_json(folder, TASK)?;
     contain(task.memory)?;

@@ -96,6 +96,7 @@ impl<'a> Elements<'a> {
 
 /// Encodes a frame. Rounds coordinates to f32 unless that would flip an element; `flips` counts the encoded numbers.
 pub(super) fn frame(header: &Header, elements: &Elements, x: &[f64]) -> Vec<u8> {
+    // Choose the precision, and count flips on the coordinates that are sent.
     let rounded: Vec<f64> = x.iter().map(|&x| f64::from(x as f32)).collect();
     let mut flips = elements.flips(&rounded);
     let width = if flips == 0 { 4 } else { 8 };
@@ -108,6 +109,7 @@ pub(super) fn frame(header: &Header, elements: &Elements, x: &[f64]) -> Vec<u8> 
         Stage::Unreachable => 2,
     };
     let dim = elements.dim();
+    // Write the header, then the coordinates.
     let mut bytes = Vec::with_capacity(40 + width * x.len());
     bytes.extend([FRAME, width as u8, stage, dim as u8]);
     for number in [header.step, header.message, flips] {
@@ -137,7 +139,7 @@ pub(super) fn mesh(drawn: &Drawn, elements: &Elements) -> Vec<u8> {
         Some(skin) => (&skin.corners, &skin.weights),
         None => (&[], &[]),
     };
-    // The header.
+    // Write the header.
     let mut bytes = vec![
         MESH,
         dim as u8,
@@ -157,7 +159,7 @@ pub(super) fn mesh(drawn: &Drawn, elements: &Elements) -> Vec<u8> {
     for count in counts {
         bytes.extend((count as u32).to_le_bytes());
     }
-    // Coordinates, then indices, then weights.
+    // Write coordinates, then indices, then weights.
     bytes.extend(drawn.rest.iter().flat_map(|x| x.to_le_bytes()));
     let skin_corners: &[[u32; 4]] = skin.0;
     for list in [

@@ -14,7 +14,7 @@ const shared = {
   logLevel: "warning",
 };
 
-/** A name that changes with the content; the service tells browsers to keep it for good. */
+/** Returns a name that changes with the content; the service tells browsers to cache it for good. */
 function versioned(name, content) {
   return `${name}?v=${createHash("sha256").update(content).digest("hex").slice(0, 16)}`;
 }

@@ -7,7 +7,7 @@ use super::scope::{Scope, Scopes};
 /// Visibility of jobs and sessions. Anything outside it is reported as missing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reach {
-    /// Only what this owner has.
+    /// Only jobs and sessions of this owner.
     Own(Owner),
     /// Everything.
     All,

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// Number of random bytes in an id.
+/// Number of random bytes in an id. With 64 bits, collisions become likely only among billions of keys.
 pub(super) const ID_BYTES: usize = 8;
 
 /// Id of a key. It is not secret.

@@ -11,7 +11,7 @@ use unwrapd_api::sha256;
 
 /// Prefix of every key, by which people and scanners for leaked secrets recognize it.
 const PREFIX: &str = "uw_";
-/// Number of random bytes in a secret.
+/// Number of random bytes in a secret: 256 bits, so that a digest without salt and stretching suffices.
 const SECRET_BYTES: usize = 32;
 
 /// Text of a key: `uw_ID_SECRET`, both parts in hexadecimal digits.

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-/// Maximum length of a name in characters.
+/// Maximum length of a name in characters, by convention. The name is stored with every job.
 const MOST: usize = 64;
 
 /// Owner of a job or a session. Anything created without a key belongs to the anonymous owner.

@@ -12,11 +12,14 @@ use super::key_id::KeyId;
 use super::key_text::KeyText;
 use crate::jobs::{StoreError, StoreResult, Timestamp};
 
-/// Time for which an answer of the store is cached. A revoked key is accepted for at most that long.
+/// Time for which an answer of the store is cached. A revoked key is accepted for at most that long, as the help of
+/// `unwrapd keys revoke` promises; a shorter time queries the store more often.
 const FRESH: Duration = Duration::from_secs(2);
-/// Minimum time between two records of a key's use.
+/// Minimum time between two records of a key's use. Each record is a write, and an hour is precise enough to find
+/// keys that nobody uses.
 const NOTED: Duration = Duration::from_hours(1);
-/// Lifetime of a page's sign-in.
+/// Lifetime of a page's sign-in. A longer one keeps a stolen cookie valid for longer; a shorter one asks for the key
+/// more often.
 const SIGNED_IN: Duration = Duration::from_hours(12);
 
 /// Reason for rejecting a request.
@@ -124,7 +127,7 @@ impl KeyRing {
         let asked = Instant::now();
         let key = self.store.good_key(id).await?;
         let mut known = self.known();
-        // Unknown ids are not kept, so callers without a key cannot fill it.
+        // Unknown ids are not cached, so callers without a key cannot fill the cache.
         known.good.retain(|_, (_, found)| is_fresh(*found));
         if let Some(key) = &key {
             known.good.insert(id.clone(), (key.clone(), asked));
@@ -157,7 +160,7 @@ impl KeyRing {
             Some(parent) => self.good(parent).await?,
             None => Some(key.clone()),
         };
-        // It was revoked just now.
+        // The parent was revoked since the request was authenticated.
         let Some(parent) = parent else {
             return Ok(None);
         };
@@ -193,7 +196,7 @@ impl KeyRing {
                 Some(key) => self.good(&key.id).await.map(|key| key.is_none()),
                 None => self.are_required().await,
             };
-            // Whatever the store does not say may still be so.
+            // An error of the store is no revocation.
             if let Ok(true) = lapsed {
                 return;
             }

@@ -62,7 +62,7 @@ impl FromStr for Scopes {
                 .ok_or(InvalidScopes)
         };
         let scopes: BTreeSet<Scope> = text.split(',').map(scope).collect::<Result<_, _>>()?;
-        // Alone it would allow nothing: it says whose, the others say what.
+        // Alone, `admin` would permit nothing: it extends the other scopes to all owners.
         if scopes == BTreeSet::from([Scope::Admin]) {
             return Ok(Self::all());
         }

@@ -1,4 +1,4 @@
-// All that the page computes itself of a file. It runs in a worker, so that no view waits for it.
+// The page's own analysis of a file. It runs in a worker, so that no view waits for it.
 
 import { type Charts, chartsOf, seamLength } from "./charts";
 import { type Distortion, distortionOf, flippedFaces } from "./distortion";
@@ -16,29 +16,29 @@ export const NEAR = 4;
 export const SEAM = 8;
 export const UNMAPPED = 16;
 
-/** What is known of one atlas. */
+/** Facts about one atlas. */
 export interface Atlas {
   name: string;
   label: string;
   faces: number;
   charts: number;
-  /** Of its surface. */
+  /** Area of its surface. */
   area: number;
-  /** Whether any of its faces has UVs, and how many have none. */
+  /** Set if any of its faces has UVs, and the number of faces without them. */
   isMapped: boolean;
   unmapped: number;
   /** Share of the texture that its faces cover, counting faces that overlap more than once. */
   fill: number;
-  /** How far the UVs reach. */
+  /** Bounds of the UVs. */
   bounds: [number, number, number, number];
   flipped: number;
   overlapping: number;
   near: number;
-  /** In the order of `MEASURES`. */
+  /** Spread of each measure, in the order of `MEASURES`. */
   spreads: (Spread | null)[];
 }
 
-/** The borders of charts, wherever the scene shows them. */
+/** The borders of charts, in every place where the scene shows them. */
 export interface Borders {
   face: Uint32Array;
   seam: Uint32Array;
@@ -49,20 +49,20 @@ export interface Borders {
   uvs: Float32Array;
 }
 
-/** What is known of a file. */
+/** Facts about a file. */
 export interface Analysis {
   drawn: Drawn;
   faces: number;
   charts: number;
   /** Length of its seams on the surface. */
   seamLength: number;
-  /** Of the surface. */
+  /** Area of the surface. */
   area: number;
-  /** Per measured face. */
+  /** Group of each measured face. */
   group: Uint16Array;
   chart: Uint32Array;
   marks: Uint8Array;
-  /** Four per face, as in `Distortion`. */
+  /** Four values per face, as in `Distortion`. */
   values: Float32Array;
   /** Area in texels per face. */
   texels: Float64Array;
@@ -99,7 +99,7 @@ export function analyze(soup: Soup): Analysis {
   };
 }
 
-/** What the faces of an atlas are like, one by one. */
+/** Judges the faces of an atlas one by one. */
 function judged(faces: Faces, members: Uint32Array, distortion: Distortion, marks: Uint8Array, { width, height }: Texture) {
   const count = (mark: number) => members.reduce((sum, face) => sum + (marks[face]! & mark ? 1 : 0), 0);
   const texels = members.reduce((sum, face) => sum + Math.abs(distortion.texels[face]!), 0);

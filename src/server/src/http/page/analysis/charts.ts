@@ -4,21 +4,21 @@ import { hasUvs } from "./overlaps";
 import type { Faces } from "./soup";
 import { bits, type Edges, edgesOf, firstEqual, next } from "./weld";
 
-/** How the faces hang together. */
+/** Connectivity of faces. */
 export interface Charts {
   count: number;
   /** The chart of each face, counted within its group from 0 in the order of faces; faces without UVs are numbered after all charts. */
   ofFace: Uint32Array;
-  /** How many charts each group has: none of faces without UVs. */
+  /** Number of charts of each group; faces without UVs form none. */
   ofGroup: number[];
   /** The first corner at the same place of the same mesh, for each corner. */
   place: Uint32Array;
   /** Edges that end a chart: 3f + k for edge k of face f, ascending. */
   borders: Uint32Array;
-  /** For each of `borders` whether another face is on the other side on the surface: a seam. */
+  /** For each of `borders`, 1 if another face lies on the other side on the surface: a seam. */
   isSeam: Uint8Array;
-  /** For each of `borders` the seam that it belongs to: all edges between the same two charts, or the rest of a chart's
-   * border, which has no other side. */
+  /** For each of `borders`, its seam: all edges between the same two charts, or the rest of a chart's border, which
+   * has no other side. */
   seam: Uint32Array;
 }
 
@@ -56,7 +56,7 @@ function seamsOf(borders: number[], root: Uint32Array, { first }: Edges): Uint32
   });
 }
 
-/** Corners at one place of one mesh. */
+/** Returns an id per corner, equal for corners at one place of one mesh. */
 function placesOf(faces: Faces): Uint32Array {
   const n = 3 * faces.count;
   const from = bits(faces.positions);
@@ -68,7 +68,7 @@ function placesOf(faces: Faces): Uint32Array {
   return firstEqual(words, n);
 }
 
-/** Corners at one place of one mesh and of one atlas. */
+/** Returns an id per corner, equal for corners at one place of one mesh and of one atlas. */
 function wedgesOf(faces: Faces, place: Uint32Array): Uint32Array {
   const n = 3 * faces.count;
   const uv = bits(faces.uvs);
@@ -82,7 +82,7 @@ function wedgesOf(faces: Faces, place: Uint32Array): Uint32Array {
   return firstEqual(words, n);
 }
 
-/** One face for all that are connected. */
+/** Returns a representative per face, the same for all connected faces. */
 function joined(count: number, edges: Edges): Uint32Array {
   const parent = Uint32Array.from({ length: count }, (_, face) => face);
   const root = (face: number) => {
@@ -121,7 +121,7 @@ function numbered(root: Uint32Array, faces: Faces) {
   return { ofFace, ofGroup, count: ofGroup.reduce((sum, some) => sum + (some ?? 0), 0) };
 }
 
-/** Length of all seams and borders on the surface, each counted once. */
+/** Returns the length of all seams and borders on the surface, each counted once. */
 export function seamLength(faces: Faces, charts: Charts): number {
   const counted = new Set<number>();
   const width = 3 * faces.count;

@@ -1,8 +1,8 @@
-// How far the map of each face is from an isometry.
+// Deviation of the map of each face from an isometry.
 
 import type { Faces, Texture } from "./soup";
 
-/** What can be shown as a heat map; the order of `Distortion.values`. */
+/** Measures that a heat map can show, in the order of `Distortion.values`. */
 export const MEASURES = ["sym-dirichlet", "angle", "area", "density"] as const;
 export type Measure = (typeof MEASURES)[number];
 
@@ -45,7 +45,7 @@ export function distortionOf(faces: Faces, texture: Texture): Distortion {
   return { values, area, texels };
 }
 
-/** Of the map from the surface to texels: area of the face, σ₁² + σ₂², and ±σ₁σ₂. */
+/** Returns figures of the map from the surface to texels: area of the face, σ₁² + σ₂², and ±σ₁σ₂. */
 function jacobian(faces: Faces, face: number, { width, height }: Texture) {
   const p = faces.positions;
   const at = 9 * face;
@@ -64,7 +64,7 @@ function jacobian(faces: Faces, face: number, { width, height }: Texture) {
   return { area: doubled / 2, squares: xu * xu + xv * xv + yu * yu + yv * yv, determinant: xu * yv - xv * yu };
 }
 
-/** Mean texels per unit of area of each group: what its faces are compared with. */
+/** Returns the mean texels per unit of area of each group, with which its faces are compared. */
 function scales(faces: Faces, area: Float64Array, texels: Float64Array): number[] {
   const surface: number[] = [];
   const plane: number[] = [];
@@ -77,7 +77,7 @@ function scales(faces: Faces, area: Float64Array, texels: Float64Array): number[
   return surface.map((sum, g) => plane[g]! / sum);
 }
 
-/** Faces turned over: against the orientation of most of their chart's area. */
+/** Marks flipped faces: those oriented against most of their chart's area. */
 export function flippedFaces(faces: Faces, chart: Uint32Array, texels: Float64Array): Uint8Array {
   const balance = new Map<number, number>();
   const key = (face: number) => chart[face]! * 65536 + faces.group[face]!;

@@ -1,10 +1,11 @@
-// What is drawn of a soup: all its faces where the scene puts them, or fewer of a large one.
+// The drawn faces of a soup: all of them where the scene puts them, or fewer if there are too many.
 
 import { packedNormals } from "./normals";
 import { moved, type Soup } from "./soup";
 import { firstEqual } from "./weld";
 
-/** More faces than this are simplified for the view; every number is still that of all faces. */
+/** Number of faces above which the view is simplified; every figure is still that of all faces. More faces take more
+ * memory and time per frame. */
 export const MAX_DRAWN = 500_000;
 
 /** Faces for the screen. */
@@ -16,9 +17,9 @@ export interface Drawn {
   normals: Int8Array;
   /** 6 numbers per face; NaN without UVs. */
   uvs: Float32Array;
-  /** Which measured face each one is, or stands for. */
+  /** Measured face that each drawn one is, or stands for. */
   face: Uint32Array;
-  /** How many there would be without simplification. */
+  /** Number of faces without simplification. */
   of: number;
 }
 
@@ -44,16 +45,16 @@ export function drawnOf(soup: Soup, begins: number[], chart: Uint32Array): Drawn
   return of <= MAX_DRAWN ? all : simplified(all, chart);
 }
 
-/** Directions as a matrix turns them, if it scales alike in all directions. */
+/** Returns directions transformed by a matrix, if it scales alike in all directions. */
 function turned(normals: Float32Array, matrix: number[]): Float32Array {
   const rotation = [...matrix];
   rotation[12] = rotation[13] = rotation[14] = 0;
   return moved(normals, rotation);
 }
 
-/** Corners of one chart in one cell of a grid become one; faces that lose their area thereby are left out. */
+/** Merges the corners of one chart in one cell of a grid, and leaves out faces that lose their area thereby. */
 function simplified(all: Drawn, chart: Uint32Array): Drawn {
-  // A surface in a cube of N cells a side meets some 3N² of them, with two faces each.
+  // A surface in a cube of N cells per side meets about 3N² of them, with two faces each.
   let cells = Math.sqrt(MAX_DRAWN / 6);
   for (;;) {
     const kept = clustered(all, chart, cells);

@@ -1,11 +1,11 @@
-// Islands that come nearer to each other than they may.
+// Islands that are closer to each other than the padding.
 
 import type { Charts } from "./charts";
 import { meetingBoxes } from "./grid";
 import type { Faces, Texture } from "./soup";
 import { next } from "./weld";
 
-/** Less than this share of a texel is rounding. */
+/** Share of a texel below which a difference is rounding. */
 const TOLERANCE = 1e-3;
 
 /** Marks each of `charts.borders` that is nearer than the padding to a border of another chart of its group. */
@@ -42,7 +42,7 @@ function borderEnds(faces: Faces, charts: Charts, { width, height }: Texture): F
   return ends;
 }
 
-/** Between two segments that do not cross: four numbers each, from places of two lists. */
+/** Returns the distance of two segments that do not cross: four numbers each, at places of two lists. */
 export function segmentDistance(a: Float64Array, i: number, b: Float64Array, j: number): number {
   return Math.min(toSegment(a, i, b, j), toSegment(a, i + 2, b, j), toSegment(b, j, a, i), toSegment(b, j + 2, a, i));
 }

@@ -1,9 +1,9 @@
-// Boxes of the plane, found by place: a grid of cells, each with the boxes that touch it.
+// Lookup of boxes in the plane: a grid of cells, each with the boxes that touch it.
 
 /** Boxes: four numbers each, least u and v, greatest u and v. */
 export type Boxes = Float64Array;
 
-/** Most cells along one side. */
+/** Maximum number of cells along one side, which bounds the memory of the grid. */
 const MAX_SIDE = 2048;
 
 /** Calls with each pair of boxes that meet, once. The best `cell` is about twice as wide as a box. */
@@ -18,7 +18,7 @@ export function meetingBoxes(boxes: Boxes, cell: number, found: (one: number, ot
       for (let j = begins[c]!; j < i; j++) {
         const b = 4 * members[j]!;
         if (boxes[b + 2]! < boxes[a]! || boxes[a + 2]! < boxes[b]! || boxes[b + 3]! < boxes[a + 1]! || boxes[a + 3]! < boxes[b + 1]!) continue;
-        // A pair counts in the cell with the lower left corner of what it shares.
+        // Count a pair only in the cell with the lower left corner of the intersection.
         const u = grid.column(Math.max(boxes[a]!, boxes[b]!));
         const v = grid.row(Math.max(boxes[a + 1]!, boxes[b + 1]!));
         if (u + grid.columns * v === c) found(b / 4, a / 4);

@@ -1,11 +1,11 @@
-// Normals for shading, where a file has none: smooth but over creases.
+// Normals for shading files without normals: smooth except over creases.
 
 import { bits, firstEqual } from "./weld";
 
-/** Faces that meet at more than about 45° are not smoothed. */
+/** Cosine of the angle above which faces are not smoothed: 45°. */
 const CREASE = Math.cos(Math.PI / 4);
 
-/** The normals of corners, from -127 to 127, four numbers per corner. */
+/** Returns the normals of corners, from -127 to 127, four numbers per corner. */
 export function packedNormals(positions: Float32Array, given: Float32Array | null): Int8Array {
   const corners = positions.length / 3;
   const packed = new Int8Array(4 * corners);
@@ -40,7 +40,7 @@ function smoothNormals(positions: Float32Array): Float32Array {
   return normals;
 }
 
-/** Normals of faces, as long as twice their area. */
+/** Returns the normals of faces, with twice their area as length. */
 function faceNormals(p: Float32Array): Float32Array {
   const normals = new Float32Array(p.length / 3);
   for (let i = 0, n = 0; i < p.length; i += 9, n += 3) {

@@ -1,12 +1,12 @@
-// Faces of one atlas that cover each other.
+// Faces of one atlas that overlap.
 
 import { meetingBoxes } from "./grid";
 import type { Faces } from "./soup";
 
-/** Relative to the size of the faces: less than this is rounding. */
+/** Tolerance for rounding, relative to the size of the faces. */
 const TOLERANCE = 1e-9;
 
-/** Calls with each pair of these faces that overlap, and returns how many there are. Faces without UVs have no part in it. */
+/** Calls back with each pair of these faces that overlap, and returns their number. Ignores faces without UVs. */
 export function overlapsOf(faces: Pick<Faces, "uvs">, all: Uint32Array, found: (one: number, other: number) => void): number {
   const members = all.filter((face) => hasUvs(faces, face));
   const boxes = new Float64Array(4 * members.length);
@@ -26,7 +26,7 @@ export function overlapsOf(faces: Pick<Faces, "uvs">, all: Uint32Array, found: (
   return pairs;
 }
 
-/** Whether all corners of a face have UVs that are numbers. */
+/** Returns whether all corners of a face have UVs that are numbers. */
 export function hasUvs({ uvs }: Pick<Faces, "uvs">, face: number): boolean {
   for (let i = 6 * face; i < 6 * face + 6; i++) if (!Number.isFinite(uvs[i]!)) return false;
   return true;
@@ -41,7 +41,7 @@ function boxOf(uvs: Float32Array, face: number, boxes: Float64Array, at: number)
   }
 }
 
-/** Whether a line along a side of `one` has the two faces on different sides. */
+/** Returns whether a line along a side of `one` separates the two faces. */
 function isApart(uvs: Float32Array, one: number, other: number): boolean {
   const [a, b] = [6 * one, 6 * other];
   for (let k = 0; k < 6; k += 2) {
@@ -55,7 +55,7 @@ function isApart(uvs: Float32Array, one: number, other: number): boolean {
   return false;
 }
 
-/** On which side of the line from corner i to corner j a corner lies. */
+/** Returns the side of the line from corner i to corner j on which a corner lies. */
 function side(uvs: Float32Array, i: number, j: number, corner: number): number {
   const [u, v] = [uvs[i]!, uvs[i + 1]!];
   return (uvs[j]! - u) * (uvs[corner + 1]! - v) - (uvs[j + 1]! - v) * (uvs[corner]! - u);

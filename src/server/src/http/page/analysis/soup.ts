@@ -1,4 +1,4 @@
-// What the page knows of a file: triangles without shared corners, part by part.
+// The page's form of a file: triangles without shared corners, part by part.
 
 /** The triangles of one primitive as one node shows them. */
 export interface Part {
@@ -8,41 +8,41 @@ export interface Part {
   uvs: Float32Array | null;
   /** The normals of the file, like `positions`; null without. */
   normals: Float32Array | null;
-  /** Where the node puts it: 16 numbers, column by column. */
+  /** Matrix of the node: 16 numbers, column by column. */
   matrix: number[];
   mesh: number;
   primitive: number;
-  /** Which atlas it belongs to: an index of `Soup.groups`. */
+  /** Atlas of the part: an index of `Soup.groups`. */
   group: number;
-  /** The earlier part whose mesh it shows again, or -1. Only the first is measured. */
+  /** The earlier part with the same mesh, or -1. Only the first is measured. */
   copyOf: number;
 }
 
 /** A group of faces that share an atlas. */
 export interface Group {
-  /** As reports have it. */
+  /** Name, as in reports. */
   name: string;
   label: string;
 }
 
-/** How UVs are judged. */
+/** Settings by which UVs are judged. */
 export interface Texture {
   width: number;
   height: number;
-  /** Least distance between charts, in texels. */
+  /** Minimum distance between charts, in texels. */
   padding: number;
 }
 
-/** Everything that is analyzed at once. */
+/** Input of an analysis. */
 export interface Soup {
   parts: Part[];
   groups: Group[];
   texture: Texture;
-  /** Whether lengths are measured where the nodes put the meshes, as a lightmap is. */
+  /** Set if lengths are measured in the scene, as for lightmaps. */
   inScene: boolean;
 }
 
-/** Faces of which each is measured: all parts but copies, one after the other. */
+/** The measured faces: those of all parts except copies, in order. */
 export interface Faces {
   count: number;
   /** 9 numbers per face. */
@@ -53,7 +53,7 @@ export interface Faces {
   group: Uint16Array;
 }
 
-/** The measured faces of a soup, and at which of them each part begins. */
+/** Returns the measured faces of a soup, and the first one of each part. */
 export function measuredFaces(soup: Soup): { faces: Faces; begins: number[] } {
   const begins: number[] = [];
   let count = 0;
@@ -82,7 +82,7 @@ export function measuredFaces(soup: Soup): { faces: Faces; begins: number[] } {
   return { faces, begins };
 }
 
-/** Points where a matrix puts them. */
+/** Returns points transformed by a matrix. */
 export function moved(points: Float32Array, matrix: number[]): Float32Array {
   const m = Float64Array.from(matrix);
   const result = new Float32Array(points.length);

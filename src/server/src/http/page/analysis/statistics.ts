@@ -2,14 +2,14 @@
 
 import { type Distortion, type Measure, MEASURES } from "./distortion";
 
-/** How a measure is spread over faces, weighted by their area on the surface. */
+/** Distribution of a measure over faces, weighted by their area on the surface. */
 export interface Spread {
   least: number;
   mean: number;
   greatest: number;
-  /** Below it are 99 % of the area. */
+  /** Value below which 99 % of the area lie. */
   p99: number;
-  /** From where to where the bins of the histogram reach; values beyond are in the last bin. */
+  /** Range of the histogram; values beyond it are in the last bin. */
   from: number;
   to: number;
   /** Share of the area in each bin. */
@@ -21,7 +21,7 @@ export interface Spread {
 const BINS = 48;
 const WORST = 8;
 
-/** The spread of each of `MEASURES`; null where no face has a value. */
+/** Returns the spread of each of `MEASURES`; null if no face has a value. */
 export function spreads(distortion: Distortion, members: Uint32Array): (Spread | null)[] {
   return MEASURES.map((measure, k) => spread(distortion, members, k, measure === "density" ? -1 : 1));
 }
@@ -35,7 +35,7 @@ function spread({ values, area }: Distortion, members: Uint32Array, k: number, w
     total += area[face]!;
     sum += area[face]! * (worse < 0 ? value(face) ** 2 : value(face));
   }
-  // The mean density is that of the area, as reports have it.
+  // The mean density is that of the area, as in reports.
   const mean = worse < 0 ? Math.sqrt(sum / total) : sum / total;
   const quantile = (share: number) => {
     let below = 0;
@@ -58,7 +58,7 @@ function spread({ values, area }: Distortion, members: Uint32Array, k: number, w
   return { least, mean, greatest, p99, from, to: from + BINS * step, bins, worst: [...ends] };
 }
 
-/** What the ends of a heat map's scale stand for: from the ideal on, or as far below the mean as above. */
+/** Returns the values at the ends of a heat map's scale: from the ideal on, or as far below the mean as above it. */
 export function rangeOf(measure: Measure, { least, mean, greatest, p99 }: Spread): [number, number] {
   if (measure === "density") {
     const far = Math.max(greatest / mean, mean / least, 1.02);

@@ -1,10 +1,10 @@
-// Equal things found by hashing: corners at one place, edges between the same ends.
+// Equal items, found by hashing: corners at one place, edges between the same ends.
 
 function capacity(count: number): number {
   return 2 ** Math.ceil(Math.log2(2 * count + 2));
 }
 
-/** Numbers that are equal for equal rows: the first row that equals each, of `count` rows of 32-bit words. */
+/** Returns the first equal row for each of `count` rows of 32-bit words. */
 export function firstEqual(words: Uint32Array, count: number): Uint32Array {
   const width = words.length / Math.max(count, 1);
   const mask = capacity(count) - 1;
@@ -30,7 +30,7 @@ export function firstEqual(words: Uint32Array, count: number): Uint32Array {
   return first;
 }
 
-/** The bits of numbers, with one zero. */
+/** Returns the bits of numbers, with a single zero. */
 export function bits(numbers: Float32Array): Uint32Array {
   const words = new Uint32Array(numbers.buffer, numbers.byteOffset, numbers.length).slice();
   for (let i = 0; i < words.length; i++) {
@@ -43,7 +43,7 @@ export function bits(numbers: Float32Array): Uint32Array {
 export interface Edges {
   /** The first edge with the same ends. */
   first: Uint32Array;
-  /** For such first ones, how many edges have these ends. */
+  /** For these first edges, the number of edges with the same ends. */
   count: Uint8Array;
 }
 
@@ -65,7 +65,7 @@ export function edgesOf(corner: Uint32Array): Edges {
   return { first, count };
 }
 
-/** The corner after this one in its face. */
+/** Returns the next corner of the same face. */
 export function next(corner: number): number {
   return corner % 3 === 2 ? corner - 2 : corner + 1;
 }

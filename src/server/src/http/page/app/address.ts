@@ -1,9 +1,9 @@
-// What the address says: the same address opens the same state.
+// The state in the address: the same address opens the same state.
 
 import type { Measure } from "../analysis/distortion";
 import type { Shade } from "../viewer/look";
 
-/** The state that is worth sharing. */
+/** State of the page that can be shared. */
 export interface Place {
   job: string | null;
   tab: "view" | "report" | "pull";
@@ -12,7 +12,7 @@ export interface Place {
   seams: boolean;
   wire: boolean;
   problems: boolean;
-  /** Whether only the selected chart is shown. */
+  /** Set if only the selected chart is shown. */
   only: boolean;
   /** Cells of the checkerboard along u. */
   cells: number;
@@ -29,10 +29,10 @@ export interface Place {
   plane: number[] | null;
 }
 
-/** What is pointed at and selected. */
+/** Element that is hovered and selected. */
 export type Aim = "face" | "chart" | "seam";
 
-/** How many cells a checkerboard may have along u. */
+/** Choices for the number of cells of the checkerboard along u. */
 export const CELLS = [8, 16, 32, 64, 128] as const;
 
 export const START: Place = {
@@ -60,7 +60,7 @@ function numbers(text: string, count: number): number[] | null {
   return some.length === count && some.every(Number.isFinite) ? some : null;
 }
 
-/** The fragment for a state. */
+/** Returns the fragment for a state. */
 export function fragmentOf(place: Place): string {
   const query = new URLSearchParams();
   for (const [name, value] of Object.entries(place)) {
@@ -72,7 +72,7 @@ export function fragmentOf(place: Place): string {
   return query.toString().replaceAll("%2C", ",");
 }
 
-/** Has the address say this; `isNew` lets the browser go back to what was before. */
+/** Writes the state to the address; with `isNew`, the browser can go back to the state before. */
 export function writePlace(place: Place, isNew = false): void {
   const fragment = fragmentOf(place);
   if (fragment === location.hash.slice(1)) return;

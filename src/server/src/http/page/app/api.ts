@@ -1,9 +1,9 @@
-// The service as the page uses it. All addresses are relative to the page, so that it may lie below any prefix.
+// Client of the service. All addresses are relative to the page, which may lie below any prefix.
 
 import { signIn } from "./sign_in";
 import { extension } from "../viewer/loading";
 
-/** A job, as the service describes it. */
+/** A job, in the JSON of the service. */
 export interface Job {
   id: string;
   kind: string;
@@ -21,10 +21,10 @@ export interface Job {
   input_bytes: number;
   options: Record<string, unknown>;
   priority: number;
-  /** Who made the job, where there are keys. */
+  /** Owner of the key that made the job; null if it was made without one. */
   owner: string | null;
   metadata: Record<string, unknown>;
-  /** The gates, and whether the result meets them. */
+  /** The gates, and the outcome of judging the result by them. */
   accept: string | null;
   accepted: boolean | null;
   cached: boolean;
@@ -39,32 +39,32 @@ export interface Job {
   links: { self: string; events: string; inputs: FileLink[]; files: FileLink[] };
 }
 
-/** A file of a job. Pictures have a size once they were drawn, which the first request does. */
+/** A file of a job. A picture has no size before it is drawn, on its first request. */
 export interface FileLink { href: string; name: string; bytes?: number }
 export interface Problem { code: string; title: string; detail: string; status: number }
 
-/** What changes of a job while it runs. */
+/** Members of a job that change while it runs. */
 export type Progress = Pick<Job, "seq" | "state" | "stage" | "fraction" | "chart" | "charts" | "iteration" | "energy" | "smallest" | "elapsed_ms">;
 
-/** An error that the service explains. */
+/** A problem reported by the service. */
 export class Refused extends Error {
   constructor(readonly problem: Problem) {
     super(problem.detail ? `${problem.title}: ${problem.detail}` : problem.title);
   }
 }
 
-/** An address of the service, relative to the page: without what a proxy puts in front of it. */
+/** Returns an address of the service relative to the page, without the prefix of a proxy. */
 export function address(path: string): string {
   return path.replace(/^\/(?:.*?\/(?=v1\/))?/, "");
 }
 
-/** Calls the service; errors say what is wrong in words. */
+/** Calls the service; errors explain the problem in words. */
 export async function call<T>(path: string, request: RequestInit = {}): Promise<T> {
   const answer = await reach(path, request);
   return answer.status === 204 ? (null as T) : ((await answer.json()) as T);
 }
 
-/** The bytes of a file. */
+/** Downloads a file. */
 export async function download(path: string): Promise<Blob> {
   return (await reach(path)).blob();
 }
@@ -85,7 +85,7 @@ async function reach(path: string, request: RequestInit = {}): Promise<Response>
   throw problem ? new Refused(problem) : new Error(`The service answered with status ${answer.status}.`);
 }
 
-/** The next frame of charts that relax, or why there is none. */
+/** Fetches the next frame of relaxing charts, or returns why there is none. */
 export async function maps(job: Job, after: string, signal: AbortSignal): Promise<ArrayBuffer | "none" | "elsewhere"> {
   const answer = await reach(`${job.links.self}/maps?after=${after}`, { signal }).catch((error: unknown) => {
     if (error instanceof Refused && error.problem.code === "computed_elsewhere") return null;
@@ -97,7 +97,7 @@ export async function maps(job: Job, after: string, signal: AbortSignal): Promis
 
 export const jobPath = (id: string) => `v1/jobs/${encodeURIComponent(id)}`;
 
-/** Makes a job of a file with those that it references. */
+/** Submits a file with the files that it references as a job. */
 export function createJob(kind: string, options: Record<string, unknown>, { name, content, resources }: { name: string; content: Blob; resources: Map<string, Blob> }): Promise<Job> {
   const form = new FormData();
   form.append("kind", kind);
@@ -111,12 +111,12 @@ export function isFinal(state: Job["state"]): boolean {
   return state !== "queued" && state !== "running";
 }
 
-/** A file of a job's result, by the last part of its address. */
+/** Returns the file of a job's result with this role, the last part of its address. */
 export function fileOf(job: Job, role: string): FileLink | undefined {
   return job.links.files.find(({ href }) => href.endsWith(`/${role}`));
 }
 
-/** Watches a job until it ends; returns how to stop. */
+/** Watches a job until it ends. Returns a function that stops. */
 export function watch(job: Job, heard: (event: Progress) => void): () => void {
   let isOver = false;
   let last = 0;
@@ -142,7 +142,7 @@ export function watch(job: Job, heard: (event: Progress) => void): () => void {
   };
 }
 
-/** The job as it has ended; throws if it has not succeeded. */
+/** Waits for the end of a job and returns it; throws if it has not succeeded. */
 export async function outcomeOf(job: Job): Promise<Job> {
   if (!isFinal(job.state)) {
     await new Promise<void>((over) => {

@@ -7,7 +7,7 @@ import { svg } from "./dom";
 const WIDTH = 320;
 const HEIGHT = 96;
 
-/** A histogram with its mean. */
+/** Draws a histogram with its mean. */
 export function histogram(spread: Spread, name: string): SVGElement {
   const most = Math.max(...spread.bins, 1e-9);
   const step = WIDTH / spread.bins.length;
@@ -24,7 +24,7 @@ export function histogram(spread: Spread, name: string): SVGElement {
     svg("text", { x: WIDTH, y: HEIGHT + 13, "text-anchor": "end" }, short(spread.to)));
 }
 
-/** A curve through numbers on a logarithmic scale. */
+/** Draws a curve through numbers on a logarithmic scale. */
 export function curve(numbers: number[], name: string): SVGElement {
   const logs = numbers.map((x) => Math.log(Math.max(x, 1e-300)));
   const [low, high] = [Math.min(...logs), Math.max(...logs)];

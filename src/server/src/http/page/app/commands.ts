@@ -1,8 +1,8 @@
-// A job as others would make it: with curl, and with the command line.
+// Equivalents of a job on other interfaces: curl and the command line.
 
 import { needsKey } from "./sign_in";
 
-/** A word for a shell. */
+/** Quotes a word for a shell. */
 function quoted(word: string): string {
   return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 }
@@ -11,20 +11,20 @@ function text(value: unknown): string {
   return typeof value === "string" ? value : JSON.stringify(value);
 }
 
-/** The part of a form that holds the input of a kind. */
+/** Name of the form part that holds the input of a kind. */
 const PART: Record<string, string> = { warp: "image", solve: "problem" };
 
-/** A call of the service that makes this job. */
+/** Returns the curl command that submits this job. */
 export function curl(kind: string, filename: string, options: Record<string, unknown>): string {
   const url = new URL("v1/jobs", document.baseURI).href;
   const parts = [["-F", `kind=${kind}`], ["-F", `${PART[kind] ?? "mesh"}=@${filename}`]];
   if (Object.keys(options).length) parts.push(["-F", `options=${JSON.stringify(options)}`]);
-  // The shell puts the key in: it is not on the page.
+  // The shell inserts the key, which is not on the page.
   const key = needsKey() ? ['-H "Authorization: Bearer $UNWRAPD_KEY"'] : [];
   return ["curl -s", quoted(url), ...key, ...parts.flat().map(quoted)].join(" ");
 }
 
-/** The command that does the same without the service; null where handles or islands would come in a file. */
+/** Returns the command that does the same without the service; null if handles or islands would need a file. */
 export function commandLine(kind: string, filename: string, options: Record<string, unknown>): string | null {
   if (!["unwrap", "repack", "measure", "verify"].includes(kind) || "islands" in options) return null;
   const { format = "glb", ...others } = options;
@@ -37,7 +37,7 @@ export function commandLine(kind: string, filename: string, options: Record<stri
   return ["unwrapd", kind === "measure" ? "verify" : kind, filename, ...output, ...flags].map(quoted).join(" ");
 }
 
-/** Puts a text on the clipboard; false where that is not allowed. */
+/** Copies a text to the clipboard. Returns false if that is not allowed. */
 export async function copy(text: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(text);

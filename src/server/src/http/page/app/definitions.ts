@@ -1,11 +1,11 @@
-// The options of each kind of job, from the service's own description.
+// The options of each kind of job, from the OpenAPI document of the service.
 
 import { call } from "./api";
 
-/** What a form shows of an option. */
+/** An option as a form shows it. */
 export interface Definition {
   name: string;
-  /** Its help, paragraphs apart by empty lines. */
+  /** Help, with empty lines between paragraphs. */
   help: string;
   control: "choice" | "switch" | "number" | "text";
   words: { word: string; help: string }[];
@@ -45,7 +45,7 @@ function schemas(): Promise<Schemas> {
   return fetched;
 }
 
-/** The options of a kind that a form can show. */
+/** Returns the options of a kind that a form can show. */
 export async function definitions(kind: string): Promise<Definition[]> {
   const all = await schemas();
   const properties = all[ALL[kind] ?? "Options"]?.properties ?? {};
@@ -55,7 +55,7 @@ export async function definitions(kind: string): Promise<Definition[]> {
 function definition(name: string, schema: Schema, all: Schemas): Definition | null {
   const parts = partsOf(schema, all);
   const types = parts.flatMap(({ type }) => type ?? []);
-  // Lists and objects are for programs.
+  // Forms have no fields for lists and objects.
   if (types.includes("array") || (types.includes("object") && !types.includes("string"))) return null;
   const words = parts.flatMap(({ enum: some, description }) => (some ?? []).filter((word) => word !== null).map((word) => ({ word: String(word), help: some?.length === 1 ? (description ?? "") : "" })));
   const find = <K extends keyof Schema>(key: K) => parts.find((part) => part[key] !== undefined)?.[key];
@@ -66,14 +66,14 @@ function definition(name: string, schema: Schema, all: Schemas): Definition | nu
   };
 }
 
-/** A schema with all that it refers to and chooses from. */
+/** Returns a schema with all that it refers to and chooses from. */
 function partsOf(schema: Schema, all: Schemas): Schema[] {
   const target = schema.$ref ? all[schema.$ref.split("/").pop() ?? ""] : undefined;
   const inner = [target ?? [], schema.oneOf ?? [], schema.anyOf ?? [], schema.allOf ?? []].flat();
   return [schema, ...inner.flatMap((part) => partsOf(part, all))];
 }
 
-/** The options of a job that are not the defaults. */
+/** Returns the options of a job that differ from the defaults. */
 export async function chosenOptions(kind: string, options: Record<string, unknown>): Promise<Record<string, unknown>> {
   const all = await schemas();
   const properties = all[ALL[kind] ?? "Options"]?.properties ?? {};

@@ -15,17 +15,17 @@ export function element<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
-/** An element that the document has. */
+/** Returns an element that the document has. */
 export function byId<T extends HTMLElement = HTMLElement>(id: string): T {
   return document.getElementById(id) as T;
 }
 
-/** A button that does something. */
+/** Creates a button with an action. */
 export function button(text: string, does: () => void, properties: Properties<HTMLButtonElement> = {}): HTMLButtonElement {
   return element("button", { type: "button", textContent: text, ...properties, on: { click: does } });
 }
 
-/** Names with values, as a description list. */
+/** Creates a description list of names and values. */
 export function pairs(entries: [string, string, string?][]): HTMLElement {
   return element("dl", { className: "pairs" }, ...entries.map(([name, value, title]) =>
     element("div", title ? { title } : {}, element("dt", { textContent: name }), element("dd", { textContent: value }))));
@@ -41,7 +41,7 @@ export function svg(tag: string, attributes: Record<string, string | number>, ..
   return made;
 }
 
-/** Text in which `words between backticks` are code. */
+/** Converts a text to nodes; `words between backticks` become code. */
 export function prose(text: string): (Node | string)[] {
   return text.split("`").map((part, index) => (index % 2 ? element("code", { textContent: part }) : part));
 }

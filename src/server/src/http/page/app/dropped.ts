@@ -1,8 +1,8 @@
-// Files that are dropped anywhere on the page.
+// Files dropped anywhere on the page.
 
 import { byId } from "./dom";
 
-/** Takes them, and has the place for them show that it would. */
+/** Accepts dropped files, and highlights the drop zone while files are dragged. */
 export function takeDropped(take: (files: File[]) => void): void {
   const [page, place] = [document.documentElement, byId("drop")];
   for (const kind of ["dragenter", "dragover"]) {

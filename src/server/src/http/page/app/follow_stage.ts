@@ -1,4 +1,4 @@
-// What happens to the stage by itself.
+// Reactions to the stage's own changes: resting cameras, and the loss of the GPU.
 
 import type { Stage } from "../viewer/stage";
 import { writePlace } from "./address";
@@ -6,7 +6,7 @@ import { byId } from "./dom";
 import { type JobView, showFallback } from "./job_view";
 import type { Viewer } from "./viewer";
 
-/** Cameras that rest so long are in the address. */
+/** Time for which cameras must rest before they are written to the address. Shorter times write it more often. */
 const REST_MS = 400;
 
 /** Keeps the cameras in the address, and survives the loss of the GPU. */
@@ -14,7 +14,7 @@ export function followStage(viewer: Viewer, stage: Stage, jobs: JobView): void {
   let timer = 0;
   stage.onFrame = () => {
     clearTimeout(timer);
-    // While a file is read, the cameras are still those of the one before.
+    // While a file is read, the cameras are still those of the previous one.
     if (stage.solid.isTurning || !jobs.job || !byId("panes").dataset.shown) return;
     const { job } = jobs;
     timer = setTimeout(() => {

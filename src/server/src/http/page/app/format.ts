@@ -1,6 +1,6 @@
 // Numbers and times in words.
 
-/** A number with four significant digits. */
+/** Formats a number with four significant digits. */
 export function short(number: number | null | undefined): string {
   if (number === null || number === undefined || !Number.isFinite(number)) return "–";
   const size = Math.abs(number);
@@ -29,7 +29,7 @@ export function duration(milliseconds: number): string {
   return `${Math.floor(seconds / 60)} min ${Math.floor(seconds % 60)} s`;
 }
 
-/** How long ago a time was. */
+/** Formats the time since a moment. */
 export function ago(time: string): string {
   const seconds = Math.max(0, (Date.now() - Date.parse(time)) / 1000);
   if (seconds < 60) return "just now";
@@ -38,12 +38,12 @@ export function ago(time: string): string {
   return new Date(time).toLocaleDateString();
 }
 
-/** `several` for any count but one. */
+/** Formats a count with its noun, in the plural for any count but one. */
 export function counted(count: number, one: string, several = `${one}s`): string {
   return `${whole(count)} ${count === 1 ? one : several}`;
 }
 
-/** A word of the interface as people read it. */
+/** Formats a word of the API for people. */
 export function plain(word: string): string {
   const text = word.replaceAll("_", " ").replaceAll("-", " ").replace(/\buv\b/g, "UV");
   return text.charAt(0).toUpperCase() + text.slice(1);

@@ -1,4 +1,4 @@
-// The panel on the right: what is known of the job, and what can be done with it.
+// The panel on the right: facts about the job, and actions on it.
 
 import { address, isFinal, type Job, type Progress } from "./api";
 import { chosenOptions } from "./definitions";
@@ -9,7 +9,7 @@ import { bytes, duration, percent, plain, short, whole } from "./format";
 import { outcome } from "./job_list";
 import { claimed, claims, measure, measured, type Report } from "./reports";
 
-/** What can be done with a job. */
+/** Actions on a job. */
 export interface Actions {
   cancel: () => void;
   finish: () => void;
@@ -24,7 +24,7 @@ const STAGES: Record<string, string> = {
   bake: "Resampling textures", write: "Writing the result", judge: "Proving the result",
 };
 
-/** What a job is doing, in words. */
+/** Describes the current work of a job. */
 export function doing({ stage, state }: Progress): string {
   if (isFinal(state)) return "Fetching the result";
   return STAGES[stage ?? ""] ?? "Starting";
@@ -45,7 +45,7 @@ export class ProgressPanel {
     this.#cancel = button("Cancel", actions.cancel);
     byId("inspector").replaceChildren(
       element("section", { className: "progress-panel" }, this.#stage, this.#bar,
-        // Above what grows, so that they stay where they are.
+        // The buttons come before the parts that grow, so that they do not move.
         element("div", { className: "actions" }, this.#finish, this.#cancel),
         this.#facts, this.#curve),
       ...noted(job));
@@ -102,14 +102,14 @@ function verdict(job: Job): HTMLElement {
   return element("section", { className: `verdict ${kind}` }, element("h2", { textContent: text }), detail ? element("p", { textContent: detail }) : null);
 }
 
-/** Whether a job meets its gates. */
+/** Shows the gates of a job and the outcome of judging it. */
 function gates({ accept, accepted }: Job): HTMLElement | null {
   if (accept === null || accepted === null) return null;
   return element("section", { className: `verdict ${accepted ? "certified" : "open"}` }, element("h2", { textContent: accepted ? "Accepted" : "Not accepted" }),
     element("p", { textContent: `The job ${accepted ? "meets" : "does not meet"} every gate: ${accept.replaceAll(",", ", ")}.` }));
 }
 
-/** What the client noted of a job. */
+/** Shows the metadata of a job. */
 function noted({ metadata }: Job): HTMLElement[] {
   const members = Object.entries(metadata).map(([name, value]): [string, string] => [name, typeof value === "string" ? value : JSON.stringify(value)]);
   return members.length ? [section("Metadata", pairs(members))] : [];
@@ -144,7 +144,7 @@ function facts(report: Report): HTMLElement | null {
   ]));
 }
 
-/** The numbers of reports of other kinds. */
+/** Shows the figures of reports of other kinds. */
 export function generic(report: Report): HTMLElement {
   const known = Object.entries(report).filter(([name, value]) => !["schema_version", "unwrapd_version"].includes(name) && ["number", "string", "boolean"].includes(typeof value));
   return pairs(known.map(([name, value]) => [plain(name), typeof value === "number" ? short(value) : typeof value === "boolean" ? (value ? "yes" : "no") : String(value)]));

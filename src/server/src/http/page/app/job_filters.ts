@@ -1,10 +1,10 @@
-// Which jobs the list shows.
+// Filters of the job list.
 
 import { byId } from "./dom";
 
 const HOUR_MS = 3_600_000;
 
-/** A member of metadata as the service compares it: what reads as JSON is JSON, all else a text. */
+/** Parses a member of metadata like the service: as JSON if it is valid JSON, otherwise as text. */
 function value(text: string): unknown {
   try {
     return JSON.parse(text) as unknown;
@@ -13,7 +13,7 @@ function value(text: string): unknown {
   }
 }
 
-/** `name=value, name=value` as an object. */
+/** Parses `name=value, name=value` to an object. */
 export function members(text: string): Record<string, unknown> {
   const pairs = text.split(",").map((pair) => pair.split(/=(.*)/s).map((part) => part.trim()));
   return Object.fromEntries(pairs.filter(([name, given]) => name && given).map(([name, given]) => [name, value(given!)]));
@@ -33,12 +33,12 @@ export class JobFilters {
     });
   }
 
-  /** Whether the list may lack jobs. */
+  /** Returns whether any filter is set. */
   get isAny(): boolean {
     return this.query() !== "";
   }
 
-  /** What is asked for, behind other parameters. */
+  /** Returns the filters as query parameters, to be appended to others. */
   query(): string {
     const wanted = members(this.#metadata.value);
     const asked = {

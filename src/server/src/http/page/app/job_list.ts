@@ -1,4 +1,4 @@
-// The list of jobs: pictures, states, and where in the queue each one is.
+// The list of jobs, with pictures, states and positions in the queue.
 
 import { call, isFinal, type Job } from "./api";
 import { byId, element } from "./dom";
@@ -8,7 +8,7 @@ import { JobFilters } from "./job_filters";
 import { thumbnail } from "./thumbnails";
 
 const PAGE = 20;
-/** Between looks at the list while something in it may change. */
+/** Intervals at which the list is fetched: while a job may change, and otherwise. Shorter ones mean more requests. */
 const BUSY_MS = 1500;
 const IDLE_MS = 15000;
 
@@ -19,7 +19,7 @@ export class JobList {
   #next: string | null = null;
   #queue: string[] = [];
   #timer = 0;
-  /** Counts changes of the filters: an answer that comes after one is not shown. */
+  /** Number of changes of the filters, by which late responses are recognized and dropped. */
   #filterings = 0;
   readonly #filters = new JobFilters(() => {
     this.#filterings++;
@@ -46,13 +46,13 @@ export class JobList {
       this.#queue = page.jobs.some(({ state }) => state === "queued") ? await queue() : [];
       this.#show();
     } catch {
-      // The next look may be answered; what is shown stays.
+      // Keep the list; the next request may succeed.
     }
     const isBusy = this.#jobs.some(({ state }) => !isFinal(state));
     if (!document.hidden) this.#timer = setTimeout(() => void this.refresh(), isBusy ? BUSY_MS : IDLE_MS);
   }
 
-  /** Position in the queue from 1, or null. */
+  /** Returns the position in the queue, from 1, or null. */
   position(id: string): number | null {
     const at = this.#queue.indexOf(id);
     return 0 <= at ? at + 1 : null;
@@ -116,13 +116,13 @@ export class JobList {
   }
 }
 
-/** How a job ended, in a word for style sheets. */
+/** Returns the outcome of a job as a word for style sheets. */
 export function outcome(job: Job): "certified" | "open" | "failed" | "cancelled" | "done" {
   if (job.state === "failed" || job.state === "cancelled") return job.state;
   return job.certified === null ? "done" : job.certified ? "certified" : "open";
 }
 
-/** Waiting jobs in the order in which they start. */
+/** Returns the waiting jobs in the order in which they start. */
 async function queue(): Promise<string[]> {
   const { jobs } = await call<{ jobs: Job[] }>("v1/jobs?state=queued&limit=200");
   const order = (one: Job, other: Job) => other.priority - one.priority || one.created_at.localeCompare(other.created_at);

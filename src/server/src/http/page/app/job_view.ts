@@ -1,4 +1,4 @@
-// One job in the page: watched while it runs, shown when it has ended.
+// One job on the page: watched while it runs, shown when it has ended.
 
 import { address, call, fileOf, isFinal, type Job, jobPath, type Progress, watch } from "./api";
 import { byId, element } from "./dom";
@@ -13,13 +13,13 @@ import { nameShown } from "./title";
 import type { Viewer } from "./viewer";
 import { watchCharts } from "./watching";
 
-/** What a job view works with. */
+/** Parts of the page that a job view uses. */
 export interface Parts {
   viewer: Viewer;
   list: JobList;
   setup: Setup;
   failed: (error: unknown) => void;
-  /** Called when the job has ended, when it was removed, and when its result is shown. */
+  /** Callbacks for the end of the job, its removal, and the display of its result. */
   ended: () => void;
   removed: () => void;
   shown: () => void;
@@ -34,7 +34,7 @@ export class JobView {
   #stop: () => void = () => {};
   /** Inputs that were uploaded from here. */
   readonly #inputs = new Map<string, Chosen>();
-  /** Jobs as they were when they were made here, until they are opened. */
+  /** Jobs submitted here, as the service first described them, until they are opened. */
   readonly #made = new Map<string, Job>();
 
   constructor(parts: Parts) {
@@ -46,7 +46,7 @@ export class JobView {
     this.#made.set(job.id, job);
   }
 
-  /** Shows nothing any more. */
+  /** Stops showing a job. */
   leave(): void {
     this.#stop();
     this.job = this.report = this.input = null;
@@ -57,7 +57,7 @@ export class JobView {
     const isOther = this.job?.id !== id;
     this.leave();
     if (isOther) this.#parts.viewer.calm();
-    // Charts relax at once: what is known of a new job is enough to watch them.
+    // Watch a new job with the facts that are known of it, so that its first charts are not missed.
     const made = this.#made.get(id);
     this.#made.delete(id);
     const job = made ?? (await call<Job>(jobPath(id)));
@@ -125,13 +125,13 @@ export class JobView {
     }
   }
 
-  /** The result again, after its input was shown. */
+  /** Shows the result again after the input. */
   async showResult(): Promise<void> {
     const { job, report } = this;
     if (job) await this.#showShape(job, await shapeOf(job, report, this.input));
   }
 
-  /** The input with the UVs that it has, judged as the result is. */
+  /** Returns the input with its own UVs, to be judged like the result. */
   before(): Source | null {
     const { job, input } = this;
     if (!job || !input) return null;
@@ -155,7 +155,7 @@ export class JobView {
   }
 }
 
-/** What stands where UVs will be. */
+/** Returns the text to show until there are UVs. */
 function awaited({ kind }: Job, now: Progress, isElsewhere = false): string {
   if (now.state === "queued") return "The job waits for its turn.";
   if (isFinal(now.state)) return `${doing(now)} …`;
@@ -164,12 +164,12 @@ function awaited({ kind }: Job, now: Progress, isElsewhere = false): string {
   return `${doing(now)}, ${percent(now.fraction)} done. ${then}`;
 }
 
-/** Says something where the UVs would be. */
+/** Shows a text in place of the UVs. */
 export function note(text: string): void {
   byId("plane-note").textContent = text;
 }
 
-/** The pictures of the service, where there are no views. */
+/** Shows the pictures of the service where WebGL is missing. */
 export function showFallback(job: Job | null, why = ""): void {
   const holder = byId("fallback");
   const pictures = job ? job.links.files.filter(({ name }) => name.endsWith(".png") && name !== "thumbnail.png") : [];

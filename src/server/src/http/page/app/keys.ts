@@ -1,27 +1,27 @@
-// Keys, and the page that shows them.
+// Keyboard shortcuts, and the dialog that lists them.
 
 import { button, byId, element } from "./dom";
 
-/** A key with what it does. */
+/** A shortcut with its action. */
 export interface Key {
   key: string;
   does: string;
   act: () => void;
-  /** Whether Ctrl is held, and Shift. */
+  /** Modifiers of the shortcut. */
   ctrl?: boolean;
   shift?: boolean;
-  /** Whether it does this only where the view has the focus: elsewhere it means what it means everywhere. */
+  /** Set if it works only while a view has the focus; elsewhere the key keeps its usual meaning. */
   inPane?: boolean;
-  /** Whether it does this only in a view that a pointer went into: who came by keys goes on by them. */
+  /** Set if it works only in a view that was clicked, so that people who navigate by keyboard can leave the view. */
   byPointer?: boolean;
-  /** Whether another line of the list says it. */
+  /** Set if another line of the list mentions it. */
   isSaid?: boolean;
 }
 
-/** The view that was pressed last, as long as it has the focus. */
+/** The view that was clicked last, while it has the focus. */
 let pressed: Element | null = null;
 
-/** Listens to keys wherever nothing is typed. */
+/** Listens to keys except while text is typed. */
 export function listen(keys: () => Key[]): void {
   addEventListener("pointerdown", ({ target }) => (pressed = (target as Element).closest(".pane")), { capture: true });
   addEventListener("focusin", ({ target }) => {
@@ -46,7 +46,7 @@ function nameOf({ key, ctrl, shift }: Key): string {
   return [ctrl && "Ctrl", shift && "Shift", name].filter(Boolean).join(" ");
 }
 
-/** Shows all keys. */
+/** Shows all shortcuts. */
 export function showKeys(keys: Key[]): void {
   const dialog = byId<HTMLDialogElement>("keys");
   const rows = [

@@ -1,4 +1,4 @@
-// What the views show of each kind of job.
+// Display of each kind of job in the views.
 
 import { address, download, fileOf, type FileLink, type Job } from "./api";
 import type { Chosen } from "./setup";
@@ -6,10 +6,10 @@ import type { Source } from "./source";
 import { extension, SHOWN } from "../viewer/loading";
 import type { Report } from "./reports";
 
-/** How a job is shown. */
+/** Display of a job. */
 export type Shape = { surface: Source } | { pictures: [string, string][] } | { nothing: string };
 
-/** What to show of a job that has succeeded. */
+/** Returns the display of a succeeded job. */
 export async function shapeOf(job: Job, report: Report | null, input: Chosen | null): Promise<Shape> {
   const result = fileOf(job, "result");
   if (job.kind === "warp" && result) {
@@ -26,7 +26,7 @@ export async function shapeOf(job: Job, report: Report | null, input: Chosen | n
   return { surface: { name: result.name, content, resources: await resources(others), ...written(report) } };
 }
 
-/** Which UV set a report says was written, primitive by primitive. */
+/** Returns the UV set that a report names as written, primitive by primitive. */
 function written(report: Report | null): Pick<Source, "texcoord"> {
   const primitives = report?.written?.primitives;
   if (!primitives?.length) return {};
@@ -34,7 +34,7 @@ function written(report: Report | null): Pick<Source, "texcoord"> {
   return { texcoord: (mesh, primitive) => sets.get(`${mesh}/${primitive}`) ?? primitives[0]!.texcoord };
 }
 
-/** The input of a job, from the service. */
+/** Fetches the input of a job from the service. */
 export async function inputOf(job: Job): Promise<Chosen | null> {
   const [mesh, ...others] = job.links.inputs;
   if (!mesh || !SHOWN.includes(extension(mesh.name))) return null;

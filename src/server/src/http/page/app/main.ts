@@ -1,4 +1,4 @@
-// The page: what stands where and who tells whom.
+// The page: creates its parts and connects them.
 
 import { type Place, readPlace, START, writePlace } from "./address";
 import type { Analysis } from "../analysis/analysis";
@@ -41,7 +41,7 @@ const TABS = ["view", "report", "pull"] as const;
 
 // ---- state
 
-/** Changes the state, and with it all that shows it. */
+/** Changes the state and everything that shows it. */
 function change(changes: Partial<Place>): void {
   const { set } = viewer.place;
   viewer.apply({ ...viewer.place, ...changes });
@@ -70,13 +70,13 @@ function refresh(): void {
   writePlace(place);
 }
 
-/** Whether what is shown is what the job made: not the input, nor another UV set. */
+/** Returns whether the views show the result of the job, not its input or another UV set. */
 function isResult(): boolean {
   const { facts } = viewer;
   return !isBefore && facts?.set === facts?.first;
 }
 
-/** What is shown can be pulled. */
+/** Offers the file that is shown to the pull view. */
 function offer(): void {
   const { job } = jobs;
   const result = job?.state === "succeeded" ? fileOf(job, "result") : undefined;
@@ -85,7 +85,7 @@ function offer(): void {
   else pull.offer(setup.chosen[0] ?? null, known);
 }
 
-/** What went wrong before no longer holds. */
+/** Hides the last problem. */
 function solved(): void {
   byId("problem").hidden = true;
 }
@@ -99,7 +99,7 @@ function failed(error: unknown): void {
 
 // ---- files and jobs
 
-/** Opens a job, or what is shown without one. */
+/** Opens a job, or the chosen file if there is none. */
 async function open(id: string | null, place: Place = { ...START, tab: viewer.place.tab }): Promise<void> {
   solved();
   before = null;
@@ -122,13 +122,13 @@ async function open(id: string | null, place: Place = { ...START, tab: viewer.pl
   refresh();
 }
 
-/** The mesh that is there for a start. */
+/** Loads the sample mesh. */
 async function sample(): Promise<void> {
   const chosen: Chosen = { name: "spot.ply", content: await download("assets/sample.ply"), resources: new Map(), from: [-0.8, 0.3, -1] };
   setup.choose([chosen]);
 }
 
-/** Shows a chosen file, before anything is done with it. */
+/** Shows a chosen file before a job is made. */
 async function preview(chosen: Chosen): Promise<void> {
   jobs.leave();
   list.select(null);
@@ -151,7 +151,7 @@ async function preview(chosen: Chosen): Promise<void> {
   refresh();
 }
 
-/** What is known of a file without a job. */
+/** Describes a file without a job. */
 function describe(analysis: Analysis | null): void {
   if (!analysis) return;
   const isMapped = analysis.atlases.some((atlas) => atlas.isMapped);
@@ -170,7 +170,7 @@ function made(created: Job[]): void {
   const { camera, shade, measure, seams, wire, problems, cells, aim } = viewer.place;
   const isSeen = viewer.facts?.source.content === setup.chosen[0]?.content;
   const solid = viewer.stage?.solid;
-  // Whoever has turned the mesh goes on looking at it from there.
+  // Keep the camera of a person who has turned the mesh.
   const kept = isSeen && solid && !solid.isTurning ? solid.place : null;
   void open(created[0]!.id, { ...START, shade, measure, seams, wire, problems, cells, aim, camera: isSeen ? (kept ?? camera) : null });
 }
@@ -201,7 +201,7 @@ function visit(face: number): void {
   viewer.flyTo(face);
 }
 
-/** Shows the UVs that the input had, or the result again. */
+/** Toggles between the UVs of the input and the result. */
 async function compare(): Promise<void> {
   const source = jobs.before();
   if (!source || !jobs.report) return;
@@ -231,7 +231,7 @@ function wire(): void {
   takeDropped((files) => (viewer.place.tab === "pull" && pull.isActive ? pull.takeFiles(files) : setup.takeFiles(files)));
 }
 
-/** Nothing of the caller is left in this browser. */
+/** Signs out, and removes all data of the caller from this browser. */
 async function signOut(): Promise<void> {
   await call("v1/sign-in", { method: "DELETE" });
   location.hash = "";
@@ -241,7 +241,7 @@ async function signOut(): Promise<void> {
 wire();
 if (viewer.stage) followStage(viewer, viewer.stage, jobs);
 void call<Caller>("v1/sign-in").then((caller) => showCaller(caller, () => void signOut().catch(failed)), failed);
-// For scripts that drive the page.
+// Expose the views to scripts that drive the page.
 Object.assign(window, { unwrapd: { viewer, address } });
 const first = readPlace();
 await Promise.all([list.refresh(), open(first.job, first)]);

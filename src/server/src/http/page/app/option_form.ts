@@ -1,10 +1,10 @@
-// The options behind "More": one field each, with the help that the definitions have.
+// The options behind "More": one field each, with the help of the definitions.
 
 import { type Definition, definitions } from "./definitions";
 import { element, prose } from "./dom";
 import { plain } from "./format";
 
-/** Values that are not the defaults. */
+/** Values that differ from the defaults. */
 export type Values = Record<string, string | number | boolean>;
 
 /** Fields for all options of a kind. */
@@ -14,7 +14,7 @@ export class OptionForm {
 
   constructor(readonly holder: HTMLElement, readonly changed: () => void) {}
 
-  /** Shows the options of a kind, but for those that stand elsewhere. */
+  /** Shows the options of a kind except those that have a place elsewhere. */
   async show(kind: string, elsewhere: string[]): Promise<void> {
     const all = await definitions(kind);
     const known = new Set(all.map(({ name }) => name));
@@ -31,7 +31,7 @@ export class OptionForm {
     this.changed();
   }
 
-  /** Has the fields show the values. */
+  /** Updates the fields from the values. */
   refresh(): void {
     for (const [name, field] of this.#fields) {
       const value = this.values[name];
@@ -40,7 +40,7 @@ export class OptionForm {
     }
   }
 
-  /** Shows only the options whose name or help has these words. */
+  /** Shows only the options whose name or help contains these words. */
   filter(words: string): void {
     for (const row of this.holder.children) {
       (row as HTMLElement).hidden = !row.textContent!.toLowerCase().includes(words.trim().toLowerCase());
@@ -63,7 +63,7 @@ export class OptionForm {
   }
 }
 
-/** Whether a word needs another option that no form can give: `seams` are a list of edges. */
+/** Returns whether a word needs another option that no form can set: `seams` are a list of edges. */
 function needsMore(name: string, word: string): boolean {
   return name === "cut" && word === "seams";
 }

@@ -1,4 +1,4 @@
-// What is pointed at and selected: the same in both views.
+// The hovered and the selected element, the same in both views.
 
 import type { Analysis } from "../analysis/analysis";
 import type { Model } from "../viewer/model";
@@ -6,24 +6,24 @@ import type { Hit, Places, Stage } from "../viewer/stage";
 import type { View } from "../viewer/surface";
 import type { Place } from "./address";
 
-/** What is pointed into. */
+/** Parts of the views that are pointed into. */
 interface Shown {
   readonly stage: Stage | null;
   readonly model: Model | null;
   readonly place: Place;
   readonly atlas: number;
-  /** Whether the plane shows charts that relax, which cannot be pointed at. */
+  /** Set while the plane shows relaxing charts, which cannot be pointed at. */
   readonly isRelaxing: boolean;
 }
 
-/** Something pointed at: a face, and with it its chart or a seam. */
+/** An element under the pointer: a face, with its chart or a seam. */
 export interface Target {
   view: View;
   face: number;
   seam: number;
 }
 
-/** A movement of less than so many pixels is a click. */
+/** Maximum movement of a click in pixels; longer ones are drags. */
 const CLICK = 4;
 
 /** Follows the pointer in both views. */
@@ -33,12 +33,12 @@ export class Pointing {
   readonly #root: HTMLElement;
   #next: { view: View; x: number; y: number } | null = null;
   #isAsked = false;
-  /** Where the pointer is in the plane: u, v. */
+  /** Position of the pointer in the plane: u, v. */
   at: [number, number] | null = null;
-  /** Called when something else is hovered or the pointer moved in the plane, and when something is selected. */
+  /** Callbacks for a change of the hovered element or of the position in the plane, and for a selection. */
   onHover: () => void = () => {};
   onSelect: () => void = () => {};
-  /** Who takes clicks instead, and whether more is added to what is selected. */
+  /** Handler that takes clicks instead; `isAlso` extends the selection. */
   taken: ((target: Target | null, isAlso: boolean) => void) | null = null;
 
   constructor(viewer: Shown, places: Places) {
@@ -50,7 +50,7 @@ export class Pointing {
   #listen(view: View, element: HTMLElement): void {
     let down: [number, number] | null = null;
     element.addEventListener("pointermove", (event) => {
-      // While a view is moved, nothing is pointed at.
+      // Point at nothing while a view is moved.
       if (event.buttons) return;
       const box = element.getBoundingClientRect();
       this.#ask(view, event.clientX - box.left, event.clientY - box.top);
@@ -70,7 +70,7 @@ export class Pointing {
     });
   }
 
-  /** At most one look per frame. */
+  /** Picks at most once per frame. */
   #ask(view: View, x: number, y: number): void {
     this.#next = { view, x, y };
     if (this.#isAsked) return;
@@ -111,7 +111,7 @@ export class Pointing {
     this.onHover();
   }
 
-  /** Selects what is there, or nothing. */
+  /** Selects an element, or nothing. */
   select(target: Target | null): void {
     const { place, model } = this.#viewer;
     place.face = place.chart = place.seam = null;
@@ -125,7 +125,7 @@ export class Pointing {
     this.onSelect();
   }
 
-  /** Has the views show what is hovered and selected; the attributes of their holder say it, too. */
+  /** Shows the hovered and the selected element in the views, and in the attributes of their holder. */
   apply(): void {
     const { stage, model, place, atlas } = this.#viewer;
     if (!stage || !model) return;
@@ -142,7 +142,7 @@ export class Pointing {
   }
 }
 
-/** The values of `uHover`: those of what is aimed at, -1 for the others. */
+/** Returns the values of `uHover`: those of the aimed element, -1 for the others. */
 function ids({ chart, group }: Analysis, aim: string, target: Target | null): [number, number, number, number] {
   if (!target) return [-1, -1, -1, -1];
   if (aim === "face") return [target.face, -1, -1, -1];

@@ -10,11 +10,11 @@ import { generic } from "./inspector";
 import { type Claim, claimed, claims, type GroupReport, measure, measured, type Report } from "./reports";
 import { MEASURE_NAMES } from "./toolbar";
 
-/** What a report shows. */
+/** Contents of a report. */
 export interface Shown {
   job: Job;
   report: Report | null;
-  /** Of the result, and of its input with the UVs that it had. */
+  /** Analyses of the result, and of its input with its own UVs. */
   analysis: Analysis | null;
   before: Analysis | null;
   atlas: number;
@@ -71,7 +71,7 @@ function compared({ analysis, before }: Shown): HTMLElement | null {
   return block("Before and after", table(["", "Before", "After"], rows.map(([name, of]) => [name, of(before), of(analysis)])));
 }
 
-/** The mean of a measure over all atlases, by their area, as reports have it. */
+/** Returns the mean of a measure over all atlases, weighted by area as in reports. */
 function meanOf({ atlases }: Analysis, k: number): number {
   const known = atlases.filter(({ spreads }) => spreads[k]);
   const area = known.reduce((sum, one) => sum + one.area, 0);

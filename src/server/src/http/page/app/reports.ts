@@ -27,21 +27,21 @@ export interface GroupReport {
   name: string;
   label: string;
   texels_per_unit?: number;
-  /** Absent where only proofs were asked for. */
+  /** Absent if only proofs were requested. */
   measures?: Record<string, number | boolean | null | unknown>;
   certificate?: Record<string, unknown>;
   defects?: Record<string, number>;
   atlas?: { bound?: { max_distortion: number; distortion: number; kept: boolean } };
 }
 
-/** Something proven, or not. */
+/** A property that is proven or not. */
 export interface Claim {
   holds: boolean;
   text: string;
   detail: string;
 }
 
-/** What is proven of the written UVs, in plain words. */
+/** Returns the properties of the written UVs in plain words. */
 export function claims({ locally_injective, bijective, unmirrored, padding, aligned, pages, safe_bits, bits }: Proven): Claim[] {
   const made: Claim[] = [
     { holds: locally_injective, text: "No face is flipped or without area", detail: "Judged in exact arithmetic on the bytes of the file." },
@@ -59,17 +59,17 @@ export function claims({ locally_injective, bijective, unmirrored, padding, alig
   return made;
 }
 
-/** A claim as a sentence that is true. */
+/** Returns a true sentence about a claim. */
 export function claimed({ holds, text }: Claim): string {
   return holds ? text : `Not so: ${text.charAt(0).toLowerCase()}${text.slice(1)}`;
 }
 
-/** The groups that were measured. */
+/** Returns the measured groups. */
 export function measured(report: Report | null): GroupReport[] {
   return report?.groups?.filter(({ measures }) => measures) ?? [];
 }
 
-/** A number that a group's measures have. */
+/** Returns a number among a group's measures. */
 export function measure(group: GroupReport, key: string): number | null {
   const value = group.measures?.[key];
   return typeof value === "number" ? value : null;

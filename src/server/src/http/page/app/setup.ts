@@ -1,4 +1,4 @@
-// What to do: files, three choices, one button; the rest behind "More".
+// The form: files, three choices, one button; the rest behind "More".
 
 import { createJob, type Job } from "./api";
 import { type FormKind, KINDS } from "./definitions";
@@ -7,18 +7,18 @@ import { bytes, counted } from "./format";
 import { extension, SHOWN } from "../viewer/loading";
 import { OptionForm } from "./option_form";
 
-/** A chosen mesh with what it may reference. */
+/** A chosen mesh with the files that it may reference. */
 export interface Chosen {
   name: string;
   content: Blob;
   resources: Map<string, Blob>;
-  /** From where it is seen first. */
+  /** Direction from which it is seen first. */
   from?: readonly [number, number, number];
 }
 
-/** What the form tells the page. */
+/** Callbacks to the page. */
 export interface Told {
-  /** A file is to be looked at. */
+  /** A file is to be shown. */
   shown(chosen: Chosen): void;
   made(jobs: Job[]): void;
   failed(error: unknown): void;
@@ -35,7 +35,7 @@ export class Setup {
   #chosen: Chosen[] = [];
   readonly #options: OptionForm;
 
-  /** The one that is looked at. */
+  /** The file that is shown. */
   looked: Chosen | null = null;
 
   constructor(readonly told: Told) {
@@ -44,7 +44,7 @@ export class Setup {
     this.#showKind("unwrap");
   }
 
-  /** The chosen files, or what is unwrapped without a choice. */
+  /** Returns the chosen files, or the sample if none is chosen. */
   get chosen(): Chosen[] {
     return this.#chosen;
   }
@@ -61,7 +61,7 @@ export class Setup {
     this.told.shown(chosen);
   }
 
-  /** Takes over the options of a job. */
+  /** Copies the options of a job to the form. */
   async take(kind: string, options: Record<string, unknown>): Promise<void> {
     await this.#showKind(kind in KINDS ? (kind as FormKind) : "unwrap");
     this.#options.values = Object.fromEntries(Object.entries(options).filter((entry): entry is [string, string] => typeof entry[1] !== "object"));
@@ -74,7 +74,7 @@ export class Setup {
     byId<HTMLInputElement>("files").click();
   }
 
-  /** The files of a drop or of a dialog. */
+  /** Takes the files of a drop or of a dialog. */
   takeFiles(files: File[]): void {
     const meshes = files.filter((file) => MESHES.includes(extension(file.name)));
     const resources = new Map(files.filter((file) => !meshes.includes(file)).map((file) => [file.webkitRelativePath || file.name, file as Blob]));
@@ -93,7 +93,7 @@ export class Setup {
       files.value = "";
     });
     byId("choose").addEventListener("click", () => this.ask());
-    // A field that is wrong is shown, or the browser could not point at it.
+    // Show an invalid field, since the browser cannot point at a hidden one.
     form.addEventListener("invalid", ({ target }) => {
       byId<HTMLDetailsElement>("more").open = true;
       byId<HTMLInputElement>("find-option").value = "";
@@ -161,7 +161,7 @@ export class Setup {
     return element("li", { title: one.name }, button(one.name, () => this.look(one), { className: "name", title: `Look at ${one.name}` }), element("small", { textContent: `${bytes(one.content.size)}${others}` }), remove);
   }
 
-  /** Makes a job of each chosen file, if all options are in their ranges. */
+  /** Submits each chosen file as a job if all options are within their ranges. */
   async submit(): Promise<void> {
     if (!byId<HTMLFormElement>("setup").reportValidity()) return;
     if (!this.#chosen.length) return this.ask();
@@ -179,7 +179,7 @@ export class Setup {
   }
 }
 
-/** A side, or width and height; null for the default. */
+/** Parses a side, or width and height; null stands for the default. */
 function resolutionOf(text: string): string | number | null {
   return text === "1024" ? null : /^\d+$/.test(text) ? Number(text) : text;
 }

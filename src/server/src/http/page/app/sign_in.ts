@@ -1,13 +1,13 @@
-// The API key, where the service asks for one: given once, for a cookie that no script reads.
+// The API key, if the service requires one: exchanged once for a cookie that scripts cannot read.
 
 import { button, byId, element } from "./dom";
 
-/** Who calls, as the service sees it. */
+/** The caller as the service sees it. */
 export interface Caller { owner: string | null; signed_in: boolean }
 
 let asking: Promise<void> | null = null;
 
-/** Asks for a key until the service takes one. All calls that need it wait for the same. */
+/** Asks for a key until the service accepts one. All calls that need a key wait for the same dialog. */
 export function signIn(): Promise<void> {
   asking ??= ask().finally(() => (asking = null));
   return asking;
@@ -41,7 +41,7 @@ function ask(): Promise<void> {
   });
 }
 
-/** Gives a key for a cookie; what is wrong with it, or null. */
+/** Exchanges a key for a cookie. Returns the reason of a rejection, or null. */
 async function exchange(key: string): Promise<string | null> {
   try {
     const answer = await fetch("v1/sign-in", { method: "POST", headers: { authorization: `Bearer ${key.trim()}` } });
@@ -52,13 +52,13 @@ async function exchange(key: string): Promise<string | null> {
   }
 }
 
-/** Shows who signed in, and how to sign out. */
+/** Shows the signed-in owner and a button to sign out. */
 export function showCaller(caller: Caller, leave: () => void): void {
   const name = caller.owner ?? "";
   byId("caller").replaceChildren(...(caller.signed_in ? [button("Sign out", leave, { className: "bare", title: `Signed in as ${name}` })] : []));
 }
 
-/** Whether calls of others need a key. */
+/** Returns whether calls of other clients need a key. */
 export function needsKey(): boolean {
   return byId("caller").childElementCount > 0;
 }

@@ -1,4 +1,4 @@
-// The line below the views: what is pointed at, what the colors mean, what is wrong.
+// The line below the views: the element under the pointer, the meaning of the colors, problems.
 
 import { type Analysis, UNMAPPED } from "../analysis/analysis";
 import { type Measure, MEASURES } from "../analysis/distortion";
@@ -9,14 +9,14 @@ import { counted, short, whole } from "./format";
 import { MEASURE_NAMES } from "./toolbar";
 import type { Viewer } from "./viewer";
 
-/** Says what is pointed at, or selected. */
+/** Shows the hovered or selected element. */
 export function showPointed(viewer: Viewer): void {
   const { pointing, place, analysis, model } = viewer;
   const said = analysis ? words(analysis, pointing.hovered?.face ?? place.face, place.chart) || summary(analysis, model !== null) : "";
   byId("pointed").textContent = [where(viewer), said].filter(Boolean).join(" · ");
 }
 
-/** Where in the UV view the pointer is, and on which texel, counted from the corner where pictures begin. */
+/** Returns the position of the pointer in the UV view, and its texel counted from the corner where pictures begin. */
 function where({ pointing: { at }, facts }: Viewer): string {
   if (!at || !facts) return "";
   const [u, v] = at;
@@ -40,7 +40,7 @@ function summary({ faces, charts, drawn, atlases }: Analysis, isDrawn: boolean):
   return parts.join(" · ");
 }
 
-/** Says what the colors mean; `changed` is told of another measure, or of other cells. */
+/** Shows the meaning of the colors; `changed` receives another measure or number of cells. */
 export function showLegend(viewer: Viewer, changed: (changes: Partial<Place>) => void): void {
   const { analysis, place, atlas } = viewer;
   const shown = analysis?.atlases[atlas];

@@ -1,10 +1,10 @@
-// Dark and light: as the system has it, until a person chooses.
+// Dark and light theme: that of the system until a person chooses.
 
 import { byId } from "./dom";
 
 const KEY = "unwrapd-theme";
 
-/** Takes over what was chosen earlier, and what is chosen now. */
+/** Applies the theme chosen earlier, and follows new choices. */
 export function startTheme(changed: () => void): void {
   const stored = localStorage.getItem(KEY);
   if (stored) document.documentElement.dataset.theme = stored;

@@ -1,12 +1,12 @@
-// Small pictures of jobs in the list, as the service makes them.
+// Small pictures of jobs in the list, drawn by the service.
 
 import { address, fileOf, type Job } from "./api";
 import { element } from "./dom";
 
-/** Seen in place of one that is not there. */
+/** Shown in place of a missing picture. */
 const NONE = "data:image/gif;base64,R0lGODlhAQABAAAAACH5BAEKAAEALAAAAAABAAEAAAICTAEAOw==";
 
-/** The picture of a job, asked for as soon as it is seen. */
+/** Creates the picture of a job, which is requested when it becomes visible. */
 export function thumbnail(job: Job): HTMLImageElement {
   const made = fileOf(job, "thumbnail.png");
   const image = element("img", { width: 36, height: 36, alt: "", loading: "lazy", src: made ? address(made.href) : NONE });

@@ -1,4 +1,4 @@
-// What the page is about, in its bar and on the browser's tab.
+// The name of the shown file, in the bar and on the browser's tab.
 
 import { byId } from "./dom";
 
@@ -11,7 +11,7 @@ export function nameShown(name: string): void {
   draw();
 }
 
-/** Names the file that is pulled while that view is open; null while another is. */
+/** Names the file in the pull view while that view is open; null while another is. */
 export function nameInHand(name: string | null): void {
   inHand = name;
   draw();

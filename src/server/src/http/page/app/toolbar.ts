@@ -12,7 +12,7 @@ const AIMS: Record<Aim, string> = { face: "Face", chart: "Chart", seam: "Seam" }
 const SWITCHES = { seams: "Seams", wire: "Wire", problems: "Problems", only: "Isolate" } as const;
 type Switch = keyof typeof SWITCHES;
 
-/** The tools; each changes the state and says so. */
+/** The tools; each changes the state. */
 export class Toolbar {
   readonly #viewer: Viewer;
   readonly #changed: (changes: Partial<Place>) => void;
@@ -55,7 +55,7 @@ export class Toolbar {
     this.#changed({ shade: "image" });
   }
 
-  /** Has the tools show the state. */
+  /** Updates the tools from the state. */
   refresh(isBefore: boolean, hasBefore: boolean): void {
     const { place, analysis } = this.#viewer;
     for (const tool of byId("toolbar").querySelectorAll<HTMLElement>(".tools button")) {
@@ -80,7 +80,7 @@ export class Toolbar {
   }
 }
 
-/** What shows another UV set of a file, where nothing is selected yet. */
+/** Returns the changes that show another UV set of a file, without a selection. */
 export function otherSet({ facts }: Viewer, set: number): Partial<Place> {
   return { set: set === facts?.first ? null : set, atlas: null, face: null, chart: null, seam: null, plane: null };
 }

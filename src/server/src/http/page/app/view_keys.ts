@@ -1,4 +1,4 @@
-// The keys of the views.
+// Keyboard shortcuts of the views.
 
 import { MEASURES } from "../analysis/distortion";
 import type { ArrangeView } from "../arrange/arrange_view";
@@ -9,7 +9,7 @@ import type { Setup } from "./setup";
 import { otherSet } from "./toolbar";
 import type { Viewer } from "./viewer";
 
-/** What keys act on. */
+/** Parts of the page that shortcuts act on. */
 export interface Page {
   viewer: Viewer;
   setup: Setup;
@@ -20,7 +20,7 @@ export interface Page {
 
 const cycle = <T>(all: readonly T[], at: T, step = 1) => all[(all.indexOf(at) + step + all.length) % all.length]!;
 
-/** All keys while a file is looked at. */
+/** Returns all shortcuts for a shown file. */
 export function viewKeys(page: Page): Key[] {
   const { viewer } = page;
   const shades = () => SHADES.filter((shade) => shade !== "image" || viewer.hasImage);

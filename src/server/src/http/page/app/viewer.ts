@@ -1,4 +1,4 @@
-// The two views: what they show and what is pointed at in them.
+// The two views: the shown file and the element under the pointer.
 
 import { Box3, type Object3D, Sphere, type Texture as Image } from "three";
 import type { Analysis } from "../analysis/analysis";
@@ -26,15 +26,15 @@ export class Viewer {
   readonly pointing: Pointing;
   place: Place = { ...START };
   model: Model | null = null;
-  /** Of the file that is shown, or that would be if there were WebGL. */
+  /** Analysis of the shown file, even without WebGL. */
   analysis: Analysis | null = null;
-  /** What the file is, as far as it is shown. */
+  /** Facts about the shown file. */
   facts: Facts | null = null;
   readonly #sheet = new Sheet();
   #shown = 0;
   #relaxing: Relaxing | null = null;
   #image: Image | null = null;
-  /** Called when another file is there or what is pointed at changes. */
+  /** Callback for another file or another element under the pointer. */
   changed: () => void = () => {};
 
   constructor() {
@@ -44,7 +44,7 @@ export class Viewer {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.apply(this.place));
   }
 
-  /** Shows a file; resolves when both views show it, and is false if another one was asked for since. */
+  /** Shows a file. Resolves when both views show it; false if another file was requested since. */
   async show(source: Source): Promise<boolean> {
     const mine = ++this.#shown;
     delete byId("panes").dataset.shown;
@@ -61,7 +61,7 @@ export class Viewer {
     return true;
   }
 
-  /** Shows the file again, with the UV set that the state names. */
+  /** Shows the file again with the UV set of the state. */
   async again(): Promise<void> {
     if (this.facts) await this.show(this.facts.source);
   }
@@ -78,7 +78,7 @@ export class Viewer {
     this.changed();
   }
 
-  /** Shows charts that relax in place of UVs, until another file is shown. */
+  /** Shows relaxing charts in place of UVs until another file is shown. */
   relax(relaxing: Relaxing, described: string): void {
     const { stage } = this;
     if (!stage) return;
@@ -97,7 +97,7 @@ export class Viewer {
     return this.#relaxing !== null;
   }
 
-  /** Nothing relaxes any more. */
+  /** Ends the display of relaxing charts. */
   calm(): void {
     if (!this.#relaxing) return;
     this.stage?.plane.show([]);
@@ -106,7 +106,7 @@ export class Viewer {
     byId("relaxing").textContent = "";
   }
 
-  /** The scene alone, while its analysis is made. */
+  /** Shows the scene alone until its analysis is ready. */
   #preview(stage: Stage, loaded: Loaded, { isTurning = false, from }: Source): void {
     if (this.model) return;
     stage.solid.show([loaded.scene, ...stage.lights], boundsOf(loaded.scene));
@@ -135,13 +135,13 @@ export class Viewer {
     this.changed();
   }
 
-  /** The atlas that the plane shows. */
+  /** Index of the atlas that the plane shows. */
   get atlas(): number {
     const found = this.analysis?.atlases.findIndex(({ name }) => name === this.place.atlas) ?? -1;
     return Math.max(found, 0);
   }
 
-  /** Shows everything. */
+  /** Fits everything into the views. */
   frame(from?: Source["from"]): void {
     this.stage?.solid.frame(from ?? (this.model?.isFlat ? [0, 0, 1] : undefined));
     this.#framePlane();
@@ -156,7 +156,7 @@ export class Viewer {
     this.stage?.plane.frame([Math.min(0, u0) * aspect, Math.min(0, v0), Math.max(pages, u1) * aspect, Math.max(1, v1)]);
   }
 
-  /** Has the views look as a state says. */
+  /** Applies a state to the views. */
   apply(place: Place): void {
     this.place = place;
     const { stage, model } = this;
@@ -181,7 +181,7 @@ export class Viewer {
     stage.redraw();
   }
 
-  /** What is in which view. */
+  /** Distributes the contents over the views. */
   #arrange(stage: Stage, model: Model, place: Place): void {
     const { solid, plane } = model.surface.layers;
     const lines = (view: typeof solid) => (place.seams ? [view.borders] : []);
@@ -195,13 +195,13 @@ export class Viewer {
     stage.plane.show(this.#relaxing?.meshes ?? [...sheet, picture ? plane.overlay : plane.surface, ...lines(plane)]);
   }
 
-  /** What the ends of the heat map's scale stand for. */
+  /** Returns the values at the ends of the heat map's scale. */
   range(): [number, number] {
     const spread = this.analysis?.atlases[this.atlas]?.spreads[MEASURES.indexOf(this.place.measure)];
     return spread ? rangeOf(this.place.measure, spread) : [1, 2];
   }
 
-  /** Fills faces with a picture of the user's. */
+  /** Fills faces with the user's picture. */
   async useImage(file: Blob): Promise<void> {
     const image = await imageOf(file);
     this.#image?.dispose();
@@ -220,7 +220,7 @@ export class Viewer {
     if (Number.isFinite(place.u)) this.stage.plane.flyTo(place.u, place.v, place.planeSize);
   }
 
-  /** Where a face is on the page, in a view. */
+  /** Returns the position of a face on the page, in a view. */
   project(view: View, face: number): [number, number] | null {
     const place = this.model?.place(face);
     if (!place || !this.stage) return null;

@@ -1,4 +1,4 @@
-// Charts are watched while a job relaxes them.
+// Display of charts while a job relaxes them.
 
 import { decodeMaps } from "../live/maps";
 import { Relaxing } from "../viewer/relaxing";
@@ -6,14 +6,14 @@ import { type Job, maps, Refused } from "./api";
 import { percent, whole } from "./format";
 import type { Viewer } from "./viewer";
 
-/** After an answer without a frame. */
+/** Delay after a response without a frame. Shorter delays mean more requests while a job is at other stages. */
 const PAUSE_MS = 500;
 
-/** Shows the charts of a job that runs until the result takes their place; returns how to stop. `elsewhere` is called where another
- * machine computes the job: only that has its maps. */
+/** Shows the charts of a running job until its result takes their place. Returns a function that stops. Calls
+ * `elsewhere` if another machine computes the job, since only that one has its maps. */
 export function watchCharts(job: Job, viewer: Viewer, elsewhere: () => void): () => void {
   const abort = new AbortController();
-  // What goes wrong ends the watching: events say how the job fares.
+  // Errors only end the display; events report the state of the job.
   if (job.kind === "unwrap" && viewer.stage) void follow(job, viewer, elsewhere, abort.signal).catch(() => {});
   return () => abort.abort();
 }
@@ -22,7 +22,7 @@ async function follow(job: Job, viewer: Viewer, elsewhere: () => void, signal: A
   const relaxing = new Relaxing();
   for (let after = "0"; !signal.aborted;) {
     const answer = await maps(job, after, signal).catch((error: unknown) => {
-      // A service that has begun anew counts its frames from the start.
+      // Start over with the frames of a service that was restarted, since it counts them from the beginning.
       if (error instanceof Refused && error.problem.status < 500) throw error;
       return "gone" as const;
     });

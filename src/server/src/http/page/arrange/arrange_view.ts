@@ -1,4 +1,4 @@
-// Islands arranged by hand in the views: some are put somewhere and stay, and a job packs the others around them.
+// Manual arrangement of islands in the views: some are placed and stay, and a job packs the others around them.
 
 import { Vector3 } from "three";
 import { createJob, type Job, outcomeOf } from "../app/api";
@@ -16,7 +16,7 @@ import { ArrangedScene, type Moving } from "./scene";
 import { ArrangeTools } from "./tools";
 import { optionsOf, pagesOf, wished } from "./wish";
 
-/** What the view tells the page. */
+/** Callbacks to the page. */
 export interface Told {
   failed(error: unknown): void;
   /** Another job is to be shown. */
@@ -29,16 +29,16 @@ export class ArrangeView implements Doer {
   isOn = false;
   readonly #tools: ArrangeTools;
   readonly #pointer: ArrangePointer;
-  /** Of each job that was arranged. */
+  /** Arrangement of each job. */
   readonly #kept = new Map<string, Arrangement>();
   #arrangement: Arrangement | null = null;
   #report: Report | null = null;
   #isOffered = false;
   #scene: ArrangedScene | null = null;
   readonly #selected = new Set<number>();
-  /** While islands are moved: how, and which. */
+  /** The islands being moved, and the movement so far. */
   #moving: { by: Similarity; of: Moving } | null = null;
-  /** Whether a job is made or opened: what is shown is that of before. */
+  /** Set while a job is submitted or opened; the views show the one before. */
   #isBusy = false;
   #wrong = new Set<number>();
 
@@ -50,7 +50,7 @@ export class ArrangeView implements Doer {
     });
   }
 
-  /** What can be arranged: what a job made, as it is shown; nothing else. */
+  /** Offers the result of a job for arranging, if that is what the views show. */
   offer(job: Job | null, report: Report | null): void {
     if (this.#isBusy) return this.refresh();
     const { analysis, facts, model } = this.viewer;
@@ -71,7 +71,7 @@ export class ArrangeView implements Doer {
 
   // ---- what is shown
 
-  /** Has everything show the arrangement. */
+  /** Updates everything from the arrangement. */
   refresh(): void {
     const { stage, pointing } = this.viewer;
     pointing.taken = this.isOn ? (target, isAlso) => this.#select(target?.face ?? null, isAlso) : null;
@@ -98,18 +98,18 @@ export class ArrangeView implements Doer {
     this.#scene.show(this.#placed, this.#selected, this.#wrong);
   }
 
-  /** Where islands are, those included that are being moved. */
+  /** Places of all islands, including those being moved. */
   get #placed(): Placed {
     const placed = this.#arrangement?.now.placed ?? new Map<string, Similarity>();
     return this.#moving ? moved(placed, this.#keys, this.#moving.by) : placed;
   }
 
-  /** The selected islands. */
+  /** Keys of the selected islands. */
   get #keys(): string[] {
     return [...this.#selected].map((chart) => keyOf(this.viewer.atlas, chart));
   }
 
-  /** Says in words what is selected, locked and wrong; the attributes of the views say it, too. */
+  /** Reports the selected, locked and misplaced islands, in words and in the attributes of the views. */
   #say(): void {
     const panes = byId("panes").dataset;
     if (!this.isOn) return void ["selected", "locked", "wrong"].forEach((name) => delete panes[name]);
@@ -204,7 +204,7 @@ export class ArrangeView implements Doer {
 
   // ---- jobs
 
-  /** Shows the job whose arrangement it is now. */
+  /** Shows the job of the current arrangement. */
   async #follow(): Promise<void> {
     const { job } = this.#arrangement!.now;
     this.#keep();
@@ -215,14 +215,14 @@ export class ArrangeView implements Doer {
     this.told.changed();
   }
 
-  /** Keeps the arrangement for the job whose it is now. */
+  /** Stores the arrangement under its job. */
   #keep(): void {
     const arrangement = this.#arrangement!;
     this.#kept.forEach((one, job) => one === arrangement && this.#kept.delete(job));
     this.#kept.set(arrangement.now.job, arrangement);
   }
 
-  /** Packs the others around the islands that stay, and shows what comes of it unless something else is shown by then. */
+  /** Packs the other islands around those that stay, and shows the result unless something else is shown by then. */
   async #repack(): Promise<void> {
     const { analysis, facts, model } = this.viewer;
     const arrangement = this.#arrangement!;

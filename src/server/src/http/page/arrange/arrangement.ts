@@ -1,16 +1,16 @@
-// Which islands stay and where they are put, with all that was before.
+// The islands that stay, with their places and the history of changes.
 
 import { after, IDENTITY, isStill, type Similarity } from "../viewer/similarity";
 
-/** Islands that stay, by atlas and chart, with where they are put. */
+/** Places of the islands that stay, by atlas and chart. */
 export type Placed = ReadonlyMap<string, Similarity>;
 
-/** An arrangement of what a job made. */
+/** An arrangement of the result of a job. */
 export interface Snapshot { job: string; placed: Placed }
 
 export const keyOf = (atlas: number, chart: number) => `${atlas}/${chart}`;
 
-/** The islands that stay, and their history, over all jobs that follow from each other. */
+/** The islands that stay, and their history across successive jobs. */
 export class Arrangement {
   #now: Snapshot;
   #past: Snapshot[] = [];
@@ -24,24 +24,24 @@ export class Arrangement {
     return this.#now;
   }
 
-  /** Whether something was moved that no job has. */
+  /** Set if an island was moved since the last job. */
   get isUnsaved(): boolean {
     return [...this.#now.placed.values()].some((by) => !isStill(by));
   }
 
-  /** Replaces what is, so that it can be had again. */
+  /** Replaces the current arrangement and records it for undo. */
   #change(next: Snapshot): void {
     this.#past.push(this.#now);
     this.#future = [];
     this.#now = next;
   }
 
-  /** Moves islands from where they are; those that are moved stay. */
+  /** Moves islands from their current places; they stay from then on. */
   move(keys: string[], by: Similarity): void {
     this.#change({ ...this.#now, placed: moved(this.#now.placed, keys, by) });
   }
 
-  /** Has islands stay, or else go back: one that does not stay lies where the file has it. */
+  /** Makes islands stay, or releases them: a released island returns to its place in the file. */
   lock(keys: string[]): void {
     const placed = new Map(this.#now.placed);
     const isLocked = keys.every((key) => placed.has(key));
@@ -52,7 +52,7 @@ export class Arrangement {
     this.#change({ ...this.#now, placed });
   }
 
-  /** Another job has the islands where they were put. */
+  /** Adopts a job that has the islands at their places. */
   baked(job: string): void {
     this.#change({ job, placed: new Map([...this.#now.placed.keys()].map((key) => [key, IDENTITY])) });
   }
@@ -82,7 +82,7 @@ export class Arrangement {
   }
 }
 
-/** Islands put elsewhere from where they are. */
+/** Returns the places after moving some islands. */
 export function moved(placed: Placed, keys: string[], by: Similarity): Placed {
   return new Map([...placed, ...keys.map((key): [string, Similarity] => [key, after(placed.get(key) ?? IDENTITY, by)])]);
 }

@@ -1,26 +1,26 @@
-// Islands that may not lie where they do: nearer to others than the padding, or beyond the borders of a page.
+// Misplaced islands: closer to others than the padding, or beyond the borders of a page.
 
 import { segmentDistance } from "../analysis/gaps";
 import type { Box, Island } from "./islands";
 
-/** Less than this share of a texel is rounding. */
+/** Share of a texel below which a difference is rounding. */
 const TOLERANCE = 1e-3;
 
-/** The pages that islands lie on, in heights of the texture. */
+/** The pages of an atlas, in units of the height of the texture. */
 export interface Pages { count: number; aspect: number; texel: number; padding: number }
 
-/** Whether an island lies on one page. */
+/** Returns whether an island lies on one page. */
 export function isOnPage({ box: [x0, y0, x1, y1] }: Island, { count, aspect, texel }: Pages): boolean {
   const page = Math.floor((x0 + x1) / 2 / aspect);
   const beyond = TOLERANCE * texel;
   return 0 <= page && page < count && page * aspect - beyond <= x0 && x1 <= (page + 1) * aspect + beyond && -beyond <= y0 && y1 <= 1 + beyond;
 }
 
-/** Islands among which others are looked for. */
+/** Islands that can be searched for neighbors. */
 export class Neighbors {
   readonly #gap: number;
   readonly #cell: number;
-  /** Edges by the cells that they touch: the island and the place among its edges. */
+  /** Edges by the cells that they touch: the island and the index among its edges. */
   readonly #cells = new Map<string, [Island, number][]>();
 
   constructor(readonly islands: Island[], { texel, padding }: Pages) {
@@ -44,7 +44,7 @@ export class Neighbors {
     }
   }
 
-  /** Those that an island is too near to, or overlaps. */
+  /** Returns the islands that overlap an island or are too close to it. */
   near(island: Island): Set<Island> {
     const found = new Set<Island>();
     const own = grown(island.box, this.#gap);
@@ -85,7 +85,8 @@ function cross(a: Float64Array, i: number, b: Float64Array, j: number): boolean 
   return parts(a, i, b, j) && parts(b, j, a, i);
 }
 
-/** Whether a corner of another island lies inside: the border winds around it, however often the scene shows that. */
+/** Returns whether a corner of another island lies inside, by the winding number of the border: the scene may show
+ * it several times. */
 function holds({ edges, box }: Island, other: Island): boolean {
   const [x, y] = [other.edges[0]!, other.edges[1]!];
   if (!meet(box, [x, y, x, y])) return false;

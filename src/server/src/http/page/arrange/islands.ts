@@ -1,4 +1,4 @@
-// The islands of one atlas: their borders in the plane, of which the unit is the height of the texture.
+// The islands of one atlas: their borders in the plane, whose unit is the height of the texture.
 
 import type { Analysis } from "../analysis/analysis";
 import { applied, type Point, type Similarity } from "../viewer/similarity";
@@ -6,17 +6,17 @@ import { applied, type Point, type Similarity } from "../viewer/similarity";
 /** A box: least x and y, greatest x and y. */
 export type Box = [number, number, number, number];
 
-/** What is known of an island. */
+/** Facts about an island. */
 export interface Island {
   chart: number;
-  /** A face of it. */
+  /** One of its faces. */
   face: number;
   box: Box;
   /** Its borders: four numbers each. */
   edges: Float64Array;
 }
 
-/** The islands of an atlas by their charts. */
+/** Returns the islands of an atlas by their charts. */
 export function islandsOf({ borders, chart, group }: Analysis, atlas: number, aspect: number): Map<number, Island> {
   const edges = new Map<number, number[]>();
   borders.face.forEach((face, k) => {
@@ -35,7 +35,7 @@ export function islandsOf({ borders, chart, group }: Analysis, atlas: number, as
   }));
 }
 
-/** An island elsewhere. */
+/** Returns an island at another place. */
 export function moved(island: Island, by: Similarity): Island {
   const edges = new Float64Array(island.edges.length);
   for (let k = 0; k < edges.length; k += 2) edges.set(applied(by, [island.edges[k]!, island.edges[k + 1]!]), k);
@@ -46,7 +46,7 @@ export function middleOf([x0, y0, x1, y1]: Box): Point {
   return [(x0 + x1) / 2, (y0 + y1) / 2];
 }
 
-/** The box around several. */
+/** Returns the box around several boxes. */
 export function around(boxes: Box[]): Box {
   return boxes.reduce(([x0, y0, x1, y1], [u0, v0, u1, v1]) => [Math.min(x0, u0), Math.min(y0, v0), Math.max(x1, u1), Math.max(y1, v1)], [Infinity, Infinity, -Infinity, -Infinity] as Box);
 }

@@ -1,11 +1,11 @@
-// The keys of arranging.
+// Keyboard shortcuts of arranging.
 
 import { type Key, showKeys } from "../app/keys";
 import type { ArrangeView } from "./arrange_view";
 
 const CHARACTERS = [..."0123456789.-", "Backspace"];
 
-/** All keys while islands are arranged. */
+/** Returns all shortcuts while islands are arranged. */
 export function arrangeKeys(view: ArrangeView): Key[] {
   const does = (key: string, text: string, wish: string, more: Partial<Key> = {}): Key => ({ key, does: text, act: () => view.does(wish), ...more });
   const keys: Key[] = [

@@ -1,18 +1,18 @@
-// What a pointer does while islands are moved: a key begins, a click ends.
+// Pointer gestures on islands: a key begins one, a click ends it.
 
 import { type Gesture, stretched, swept } from "../viewer/gesture";
 import { about, type Point, shifted, type Similarity } from "../viewer/similarity";
 
-/** Who does what the pointer wants. */
+/** Receiver of gestures. */
 export interface Doer {
-  /** The width of the texture over its height, which is the unit of the plane. */
+  /** Width of the texture over its height, which is the unit of the plane. */
   readonly aspect: number;
-  /** A place of the page in the plane, and back. */
+  /** Converts a place on the page to the plane, and back. */
   inPlane(at: Point): Point;
   onPage(place: Point): Point;
-  /** The islands are elsewhere for now. */
+  /** The islands are moved temporarily. */
   moving(by: Similarity): void;
-  /** They stay there, or go back. */
+  /** The islands stay there, or go back if it is null. */
   ended(by: Similarity | null): void;
 }
 
@@ -22,7 +22,7 @@ interface Motion { gesture: Gesture; pivot: Point; from: Point; axis: 0 | 1 | nu
 export class ArrangePointer {
   #at: Point = [0, 0];
   #motion: Motion | null = null;
-  /** Whether a press ended a gesture: its release is no click. */
+  /** Set if a press ended a gesture, so that its release is not a click. */
   #isSpent = false;
 
   constructor(readonly pane: HTMLElement, readonly doer: Doer) {
@@ -52,14 +52,14 @@ export class ArrangePointer {
     this.#show();
   }
 
-  /** Moves along one axis only, or freely again. */
+  /** Restricts the movement to one axis, or lifts the restriction. */
   constrain(axis: 0 | 1): void {
     if (!this.#motion) return;
     this.#motion.axis = this.#motion.axis === axis ? null : axis;
     this.#show();
   }
 
-  /** Takes a character of a number: degrees, a factor, or a way along an axis. */
+  /** Adds a character to a typed number: degrees, a factor, or a distance along an axis. */
   type(character: string): void {
     if (!this.#motion) return;
     this.#motion.typed = character === "Backspace" ? this.#motion.typed.slice(0, -1) : this.#motion.typed + character;
@@ -82,7 +82,7 @@ export class ArrangePointer {
     const isTyped = Number.isFinite(number);
     const center = this.doer.onPage(pivot);
     if (gesture === "rotate") return about(pivot, isTyped ? number : swept(center, from, this.#at), 1);
-    // What has no size left could not be scaled back.
+    // Keep a minimum size: an island scaled to zero could not be scaled back.
     if (gesture === "scale") return about(pivot, 0, Math.max(isTyped ? number : stretched(center, from, this.#at), 1e-3));
     const [[x0, y0], [x1, y1]] = [from, this.#at].map((at) => this.doer.inPlane(at)) as [Point, Point];
     if (isTyped) return shifted(axis === 1 ? [0, number] : [number * this.doer.aspect, 0]);

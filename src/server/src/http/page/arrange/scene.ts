@@ -1,4 +1,4 @@
-// The islands of the atlas that is shown, where they are put: on the GPU, and judged.
+// The islands of the shown atlas at their places: on the GPU, and judged.
 
 import type { Analysis } from "../analysis/analysis";
 import { LOCKED, PlacedTexture, SELECTED, WRONG } from "../viewer/placed";
@@ -7,7 +7,7 @@ import { keyOf, type Placed } from "./arrangement";
 import { isOnPage, Neighbors, type Pages } from "./faults";
 import { type Island, islandsOf, moved } from "./islands";
 
-/** Islands that are being moved, and all others. */
+/** The islands being moved, and all others. */
 export interface Moving { charts: Set<number>; neighbors: Neighbors }
 
 /** One atlas of a file. */
@@ -20,26 +20,26 @@ export class ArrangedScene {
     this.placed = new PlacedTexture(analysis.atlases[atlas]!.charts);
   }
 
-  /** An island where it is put. */
+  /** Returns an island at its place. */
   at(chart: number, placed: Placed): Island {
     const island = this.islands.get(chart)!;
     const by = placed.get(keyOf(this.atlas, chart));
     return by ? moved(island, by) : island;
   }
 
-  /** The charts that stay. */
+  /** Returns the charts that stay. */
   locked(placed: Placed): number[] {
     return [...this.islands.keys()].filter((chart) => placed.has(keyOf(this.atlas, chart)));
   }
 
-  /** Begins to move some. */
+  /** Begins to move charts. */
   moving(charts: Set<number>, placed: Placed): Moving {
     const others = [...this.islands.keys()].filter((chart) => !charts.has(chart));
     return { charts: new Set(charts), neighbors: new Neighbors(others.map((chart) => this.at(chart, placed)), this.pages) };
   }
 
-  /** Islands that may not stay where they are. Those that are being moved are compared with all others; later those that do not
-   * stay do not count, which are packed elsewhere. */
+  /** Returns the misplaced islands. Islands being moved are compared with all others; afterwards, only islands that
+   * stay count, since the others are packed elsewhere. */
   faults(placed: Placed, moving: Moving | null): Set<number> {
     const wrong = new Set<number>();
     const locked = this.locked(placed).map((chart) => this.at(chart, placed));
@@ -54,7 +54,7 @@ export class ArrangedScene {
     return wrong;
   }
 
-  /** Has the GPU know where islands are, and what is with them. */
+  /** Sends the places and marks of islands to the GPU. */
   show(placed: Placed, selected: Set<number>, wrong: Set<number>): void {
     for (const chart of this.islands.keys()) {
       const by = placed.get(keyOf(this.atlas, chart));

@@ -1,4 +1,4 @@
-// The tools of arranging: in the bar above the views while islands are arranged, and the keys below them.
+// The tools of arranging: buttons above the views while islands are arranged, and shortcuts below them.
 
 import { button, byId, element } from "../app/dom";
 import type { Gesture } from "../viewer/gesture";
@@ -12,10 +12,10 @@ const HINTS = [
   ["L", "lock"], ["P", "repack the others"], ["Ctrl Z", "undo"], ["Tab", "leave"],
 ] as const;
 
-/** What the tools show. */
+/** State of the tools. */
 export interface Shown { isOn: boolean; isOffered: boolean; isBusy: boolean; hasSelected: boolean; gesture: Gesture | null; canUndo: boolean; canRedo: boolean }
 
-/** The button that begins, and those that are there then. */
+/** The button that begins, and those that it reveals. */
 export class ArrangeTools {
   readonly #toggle: HTMLButtonElement;
   readonly #during: HTMLElement[];

@@ -1,4 +1,4 @@
-// The job that packs the others around islands that stay.
+// The job that packs the other islands around those that stay.
 
 import type { Analysis } from "../analysis/analysis";
 import type { Facts } from "../app/source";
@@ -11,10 +11,10 @@ import { type Island, islandsOf, middleOf } from "./islands";
 /** A primitive of the file with the UV set that was written. */
 type Primitive = { mesh: number; primitive: number; texcoord: number };
 
-/** An island as the service takes it: v points down, as in the file. */
+/** An island in the format of the service: v points down, as in the file. */
 export interface PlacedIsland { primitive: number; face: number; move?: [number, number]; turn?: number; scale?: number; pivot?: [number, number] }
 
-/** The islands that stay, of all atlases. */
+/** Returns the islands that stay, of all atlases. */
 export function wished(analysis: Analysis, aspect: number, placed: Placed, facts: Facts, primitives: Primitive[]): PlacedIsland[] {
   return analysis.atlases.flatMap((_, atlas) => [...islandsOf(analysis, atlas, aspect).values()].flatMap((island) => {
     const by = placed.get(keyOf(atlas, island.chart));
@@ -32,17 +32,17 @@ function put({ face, box }: Island, by: Similarity, aspect: number, { origins }:
   return { ...named, pivot: [middle[0] / aspect, 1 - middle[1]], move: [(x - middle[0]) / aspect, middle[1] - y], turn: -turnOf(by), scale: scaleOf(by) };
 }
 
-/** Texels that islands keep, on the finest mip level. */
+/** Returns the distance in texels that islands keep on the finest mip level. */
 function paddingOf({ padding = 2, mips = 0 }: UvRecord): number {
   return padding << mips;
 }
 
-/** The pages that islands may lie on. */
+/** Returns the pages on which islands may lie. */
 export function pagesOf({ record, texture: { width, height } }: Facts): Pages {
   return { count: record.pages ?? 1, aspect: width / height, texel: 1 / height, padding: paddingOf(record) };
 }
 
-/** The options of the job, as the UVs were made; null where primitives have different UV sets. */
+/** Returns the options of the job, as the UVs were made; null if primitives have different UV sets. */
 export function optionsOf({ record, texture }: Facts, primitives: Primitive[], islands: PlacedIsland[]): Record<string, unknown> | null {
   const [source, ...others] = new Set(primitives.map(({ texcoord }) => texcoord));
   if (others.length) return null;

@@ -4,7 +4,7 @@ import { byId, element } from "../app/dom";
 
 interface Code { code: string; status: number; title: string }
 
-// It follows the system on its pages of its own only.
+// Swagger UI follows the theme of the system only on its own pages.
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const follow = () => document.documentElement.classList.toggle("dark-mode", dark.matches);
 dark.addEventListener("change", follow);
@@ -20,7 +20,7 @@ byId("codes").append(...(api["x-problems"] as Code[]).map(row));
 
 const named = document.getElementById(location.hash.slice(1));
 if (named) {
-  // What is above grows.
+  // The document above grows while it loads, so keep the row of the code in view.
   const watch = new ResizeObserver(() => {
     named.scrollIntoView();
     if (document.querySelector(".opblock")) watch.disconnect();
@@ -28,10 +28,10 @@ if (named) {
   watch.observe(byId("api"));
 }
 SwaggerUI({
-  // Paths begin where this page is, which may be below the path of a proxy.
+  // Paths begin at this page, which may lie below the path of a proxy.
   spec: { ...api, servers: [{ url: new URL(".", location.href).pathname.replace(/\/$/, "") || "/" }] },
   domNode: byId("api"),
-  // Other names than its own are those of codes.
+  // A fragment that names a row of the table is no deep link of Swagger UI.
   deepLinking: !named,
   displayOperationId: true,
   defaultModelsExpandDepth: 0,

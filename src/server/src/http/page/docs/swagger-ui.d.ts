@@ -1,4 +1,4 @@
-// What is used of a bundle without types.
+// Types of the used part of a bundle without types.
 declare module "swagger-ui-dist/swagger-ui-es-bundle" {
   interface Settings {
     spec: object; domNode: HTMLElement; deepLinking: boolean; displayOperationId: boolean;

@@ -2,13 +2,13 @@
 
 import { decode, type LiveFrame, type LiveMesh } from "./decode";
 
-/** A handle as the options of a job have it. */
+/** A handle in the format of the options of a job. */
 export type Handle =
   | { at: number[]; to: number[] }
   | { vertex: number; to: number[] }
   | { center: number[]; radius: number; to: number[]; turn?: number; axis?: number[] };
 
-/** What a client may wish. */
+/** Command of a client. */
 export type Wish =
   | { add: { name: number; handle: Handle } }
   | { move: { name: number; to: number[] } }
@@ -16,7 +16,7 @@ export type Wish =
   | { settings: Record<string, unknown> }
   | { remember: object } | { undo: object } | { redo: object } | { reset: object } | { list: object };
 
-/** What a wish is answered. */
+/** Reply to a command. */
 export interface Reply {
   n: number;
   step: number;
@@ -25,7 +25,7 @@ export interface Reply {
   error?: { code: string; detail: string };
 }
 
-/** Who listens to a session. */
+/** Listener to a session. */
 export interface Listener {
   mesh(mesh: LiveMesh): void;
   frame(frame: LiveFrame, milliseconds: number | null): void;
@@ -37,7 +37,7 @@ export interface Listener {
 export class LiveClient {
   readonly #socket: WebSocket;
   #n = 0;
-  /** When wishes were sent that no frame has contained yet, and wishes without a reply. */
+  /** Times at which commands were sent that no frame contains yet, and commands without a reply. */
   readonly #sent = new Map<number, number>();
   readonly #wishes = new Map<number, Wish>();
 
@@ -53,7 +53,7 @@ export class LiveClient {
     this.#socket.onclose = ({ code, reason }) => listener.closed(code, reason);
   }
 
-  /** Wishes something; its number. */
+  /** Sends a command and returns its number. */
   say(wish: Wish): number {
     const n = ++this.#n;
     this.#sent.set(n, performance.now());
@@ -69,7 +69,7 @@ export class LiveClient {
     this.#socket.close();
   }
 
-  /** Whether all that was said is in a frame. */
+  /** Set if every command sent is contained in a frame. */
   get isAnswered(): boolean {
     return this.#sent.size === 0;
   }
@@ -80,7 +80,7 @@ export class LiveClient {
     listener.reply(reply, wish);
   }
 
-  /** Milliseconds since the last message was said that a frame contains and none before it did. */
+  /** Returns the milliseconds since the latest message of a frame was sent, if no earlier frame contained it. */
   #waited(message: number): number | null {
     const sent = this.#sent.get(message);
     for (const n of this.#sent.keys()) if (n <= message) this.#sent.delete(n);

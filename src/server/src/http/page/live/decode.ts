@@ -1,6 +1,6 @@
 // Meshes and frames of live sessions, from their bytes: see openapi/live.md.
 
-/** What a session holds, as it is sent once. */
+/** Data of a session that is sent once. */
 export interface LiveMesh {
   /** Coordinates of a vertex: 2 or 3. */
   dim: 2 | 3;
@@ -8,7 +8,7 @@ export interface LiveMesh {
   corners: 3 | 4;
   rest: Float64Array;
   elements: Uint32Array;
-  /** What is drawn, over the vertices or over those of the skin. */
+  /** Triangles to draw, over the vertices or over those of the skin. */
   triangles: Uint32Array;
   /** Four vertices for each vertex of the skin, and their weights; empty without one. */
   skin: Uint32Array;

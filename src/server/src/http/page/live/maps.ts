@@ -1,15 +1,15 @@
-// Charts that relax, from their bytes: see openapi/live.md.
+// Decoding of relaxing charts: see openapi/live.md.
 
 /** The map of a chart as the solver has it. */
 export interface ChartMap {
   surface: number;
-  /** With the surface, the name of the chart. */
+  /** First face; with the surface, it identifies the chart. */
   first: number;
   iteration: number;
-  /** All faces of the chart; not all may follow. */
+  /** Number of faces of the chart; not all may follow. */
   total: number;
   flips: number;
-  /** Whether seams are planned on this map of a simplification, each face of which stands for one near it. */
+  /** Set for a map of a simplified mesh on which seams are planned; each of its faces stands for one near it. */
   isPlan: boolean;
   /** Length of the surface per unit of the map. */
   unit: number;
@@ -34,7 +34,7 @@ export function decodeMaps(buffer: ArrayBuffer): MapFrame {
     const begin = at + MAP_HEADER;
     const end = begin + 4 * n;
     at = end + 6 * n * width;
-    // Copied: numbers of eight bytes may lie anywhere.
+    // Copy the bytes: numbers of eight bytes may be unaligned.
     const bytes = buffer.slice(end, at);
     const corners = width === 4 ? new Float32Array(bytes) : new Float64Array(bytes);
     maps.push({ surface, first, iteration, total, flips, isPlan: plan === 1, unit, faces: new Uint32Array(buffer.slice(begin, end)), corners });

@@ -1,30 +1,30 @@
-// The handles that a person holds: which there are, which are selected, and how they are moved together.
+// The handles of a session: their list, the selection, and moving them together.
 
 import type { Handle } from "../live/client";
 import type { Gesture } from "../viewer/gesture";
 
-/** A handle in the hand. */
+/** A handle under editing. */
 export interface Grip {
   name: number;
-  /** The place of the mesh at rest that it holds. */
+  /** Place on the mesh at rest that it holds. */
   at: number[];
   to: number[];
-  /** Of a disc; 0 for a point. */
+  /** Radius of a disc; 0 for a point. */
   radius: number;
-  /** Degrees, and in space the axis. */
+  /** Rotation in degrees, and in space its axis. */
   turn: number;
   axis: number[] | null;
-  /** Whether it stays when others are moved together. */
+  /** Set if it stays when others are moved together. */
   isLocked: boolean;
 }
 
-/** A grip as a handle. */
+/** Converts a grip to a handle. */
 export function handleOf({ at, to, radius, turn, axis }: Grip): Handle {
   if (radius === 0) return { at, to };
   return { center: at, radius, to, turn, ...(axis ? { axis } : {}) };
 }
 
-/** A handle as a grip. */
+/** Converts a handle to a grip. */
 export function gripOf(name: number, handle: Handle, isLocked: boolean): Grip {
   if ("center" in handle) {
     const { center, radius, to, turn = 0, axis = null } = handle;
@@ -33,13 +33,13 @@ export function gripOf(name: number, handle: Handle, isLocked: boolean): Grip {
   return { name, at: "at" in handle ? handle.at : handle.to, to: handle.to, radius: 0, turn: 0, axis: null, isLocked };
 }
 
-/** All grips, and which are selected. */
+/** All grips, with the selection. */
 export class Grips {
   all: Grip[] = [];
   readonly selected = new Set<number>();
   #next = 0;
 
-  /** A new one at a place of the mesh at rest, which is elsewhere now. */
+  /** Adds a grip for a place on the mesh at rest, which is now elsewhere. */
   add(at: number[], to: number[], radius: number): Grip {
     const grip: Grip = { name: this.#next++, at, to, radius, turn: 0, axis: null, isLocked: false };
     this.all.push(grip);
@@ -52,7 +52,7 @@ export class Grips {
     this.selected.delete(name);
   }
 
-  /** Takes those that the service has. */
+  /** Replaces the grips by the handles of the service. */
   take(handles: { name: number; handle: Handle }[]): void {
     const locked = new Set(this.all.filter(({ isLocked }) => isLocked).map(({ name }) => name));
     this.all = handles.map(({ name, handle }) => gripOf(name, handle, locked.has(name)));
@@ -65,7 +65,7 @@ export class Grips {
     if (name !== null) this.selected.add(name);
   }
 
-  /** The next one after that which is selected. */
+  /** Selects the grip after the selected one. */
   selectNext(): void {
     const at = this.all.findIndex(({ name }) => this.selected.has(name));
     const next = this.all[(at + 1) % this.all.length];
@@ -76,16 +76,16 @@ export class Grips {
     for (const grip of this.chosen(true)) grip.isLocked = !grip.isLocked;
   }
 
-  /** Those that are moved: the selected ones that are not locked. */
+  /** Returns the grips to move: the selected ones that are not locked. */
   chosen(withLocked = false): Grip[] {
     return this.all.filter(({ name, isLocked }) => this.selected.has(name) && (withLocked || !isLocked));
   }
 }
 
-/** Grips as they were when a gesture began, and what becomes of them. */
+/** Movement of grips, from their state when the gesture began. */
 export class Motion {
   readonly #before: Grip[];
-  /** Around which they turn and grow. */
+  /** Center of rotating and scaling. */
   readonly pivot: number[];
 
   constructor(readonly gesture: Gesture, grips: Grip[]) {
@@ -98,17 +98,18 @@ export class Motion {
     return this.#before.map(({ name }) => name);
   }
 
-  /** Shifted. */
+  /** Returns the grips shifted. */
   shifted(by: number[]): Grip[] {
     return this.#before.map((grip) => ({ ...grip, to: grip.to.map((x, k) => x + by[k]!) }));
   }
 
-  /** Turned by degrees, counter-clockwise in the numbers of the plane or as seen against the axis. */
+  /** Returns the grips turned by degrees, counter-clockwise in the coordinates of the plane or as seen against the
+   * axis. */
   turned(degrees: number, axis: number[] | null): Grip[] {
     return this.#before.map((grip) => ({
       ...grip,
       to: rotated(grip.to, this.pivot, degrees, axis),
-      // A disc that turned about another axis before begins anew.
+      // A disc that was turned about another axis before starts from zero.
       turn: (isSame(grip.axis, axis) ? grip.turn : 0) + degrees,
       axis: grip.radius ? axis : null,
     }));
@@ -128,7 +129,7 @@ function rotated(point: number[], pivot: number[], degrees: number, axis: number
   const [sin, cos] = [Math.sin(angle), Math.cos(angle)];
   const d = point.map((x, k) => x - pivot[k]!);
   if (!axis) return [pivot[0]! + cos * d[0]! - sin * d[1]!, pivot[1]! + sin * d[0]! + cos * d[1]!];
-  // Rodrigues.
+  // Rodrigues' rotation formula.
   const along = axis.reduce((sum, a, k) => sum + a * d[k]!, 0) * (1 - cos);
   const cross = [0, 1, 2].map((k) => axis[(k + 1) % 3]! * d[(k + 2) % 3]! - axis[(k + 2) % 3]! * d[(k + 1) % 3]!);
   return [0, 1, 2].map((k) => pivot[k]! + cos * d[k]! + sin * cross[k]! + along * axis[k]!);

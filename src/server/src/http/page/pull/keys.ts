@@ -1,9 +1,9 @@
-// The keys of pulling.
+// Keyboard shortcuts of pulling.
 
 import { type Key, showKeys } from "../app/keys";
 import type { PullView } from "./pull_view";
 
-/** All keys while something is pulled. */
+/** Returns all shortcuts while something is pulled. */
 export function pullKeys(pull: PullView): Key[] {
   const pulls = (key: string, does: string, wish: string, more: Partial<Key> = {}): Key => ({ key, does, act: () => pull.does(wish), ...more });
   const keys: Key[] = [

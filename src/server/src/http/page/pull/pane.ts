@@ -1,10 +1,10 @@
-// What is drawn on while a file is pulled, and the marks of handles over it.
+// The canvas of the pull view, and the marks of handles over it.
 
 import { byId, element, svg } from "../app/dom";
 import type { Grip, Grips } from "./grips";
 import { PullScene } from "./scene";
 
-/** The scene of the page's third view; null without WebGL. */
+/** Creates the scene of the page's third view; null without WebGL. */
 export function sceneOn(): PullScene | null {
   const pane = byId("pull-pane");
   const places = { plane: element("div", { className: "pane" }), solid: element("div", { className: "pane", hidden: true }) };
@@ -21,7 +21,7 @@ export function sceneOn(): PullScene | null {
   }
 }
 
-/** Marks every handle where it is seen. */
+/** Marks every handle at its place in the view. */
 export function showMarks(scene: PullScene, grips: Grips): void {
   byId("pull-grips").replaceChildren(...grips.all.map((grip) => mark(scene, grip, grips.selected.has(grip.name))));
 }

@@ -1,20 +1,20 @@
-// What a pointer does in the view of a session: it holds, drags, and moves grips together.
+// Pointer gestures in the view of a session: holding, dragging, and moving grips together.
 
 import { type Gesture, stretched, swept } from "../viewer/gesture";
 import { type Grip, type Grips, Motion } from "./grips";
 import type { PullScene, Touched } from "./scene";
 
-/** Pixels within which a grip is below the pointer. */
+/** Distance in pixels within which a grip is under the pointer. */
 const NEAR = 12;
-/** Pixels up to which a press is no drag. */
+/** Maximum movement in pixels of a press that is not a drag. */
 const STILL = 3;
 
-/** Who does what the pointer wants. */
+/** Receiver of gestures. */
 export interface Doer {
-  /** Before the grips are moved. */
+  /** Called before the grips are moved. */
   begin(): void;
   hold(touched: Touched): Grip;
-  /** Grips are elsewhere; `isTurned` if more than their targets changed. */
+  /** The grips have moved; `isTurned` if more than their targets changed. */
   moved(grips: Grip[], isTurned: boolean): void;
   cancel(): void;
   refresh(): void;
@@ -23,11 +23,11 @@ export interface Doer {
 /** Follows the pointer. */
 export class Pointer {
   #motion: Motion | null = null;
-  /** Where a gesture or a drag began, and where the pointer is. */
+  /** Start of a gesture or a drag, and the current position of the pointer. */
   #from: [number, number] = [0, 0];
   #at: [number, number] = [0, 0];
   #dragged = false;
-  /** Whether a button is down, or else a key began the gesture. */
+  /** Set while a button is down; otherwise a key began the gesture. */
   #isDown = false;
 
   constructor(readonly scene: PullScene, readonly grips: Grips, readonly doer: Doer) {
@@ -42,7 +42,7 @@ export class Pointer {
     return this.#motion?.gesture ?? null;
   }
 
-  /** The place of the mesh below the pointer. */
+  /** The place of the mesh under the pointer. */
   get touched(): Touched | null {
     return this.scene.touch(this.#at);
   }
@@ -56,7 +56,7 @@ export class Pointer {
     this.doer.refresh();
   }
 
-  /** Ends the gesture; the grips go back if it is not wanted. */
+  /** Ends the gesture; the grips go back unless it is wanted. */
   end(isWanted: boolean): void {
     if (!this.#motion) return;
     this.#motion = null;
@@ -64,7 +64,7 @@ export class Pointer {
     this.doer.refresh();
   }
 
-  /** The grip at a place. */
+  /** Returns the grip at a place. */
   #gripAt([x, y]: [number, number]): Grip | null {
     const distance = ({ to }: Grip) => {
       const [px, py] = this.scene.project(to);
@@ -114,7 +114,7 @@ export class Pointer {
     this.doer.moved(this.#grips(this.#motion), this.#motion.gesture === "rotate");
   }
 
-  /** What the gesture has made of the grips by now. */
+  /** Returns the grips as the gesture has moved them so far. */
   #grips(motion: Motion): Grip[] {
     const { scene } = this;
     const [from, to] = [this.#from, this.#at].map((at) => scene.placeAt(at, motion.pivot)) as [number[], number[]];

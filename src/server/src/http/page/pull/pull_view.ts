@@ -1,4 +1,4 @@
-// The page's third view: a file in the hand, pulled live.
+// The page's third view: a file that is pulled live.
 
 import { call, type Job } from "../app/api";
 import { LiveClient, type Reply, type Wish } from "../live/client";
@@ -11,12 +11,12 @@ import type { PullScene, Touched } from "./scene";
 import { PullTools } from "./tools";
 import { type Known, type Origin, openSession, type Session, socketOf, type Way, waysOf } from "./what";
 
-/** Why a session ended, in words. */
+/** Reasons for the end of a session, in words. */
 const ENDS: Record<string, string> = {
   expired: "The session ended: nothing was pulled for a while.", stopping: "The service stops.", closed: "The session was ended.",
 };
 
-/** What the view tells the page. */
+/** Callbacks to the page. */
 export interface Told {
   failed(error: unknown): void;
   /** A file was chosen here. */
@@ -40,12 +40,12 @@ export class PullView implements Doer {
   #client: LiveClient | null = null;
   #shown = Promise.resolve();
   #latest: LiveFrame | null = null;
-  /** The timer until faults are looked for again, and the step of the scene at which they were. */
+  /** Timer of the next search for faults, and the step of the scene at the last one. */
   #judging = 0;
   #latestStep = -1;
-  /** Whether something was pulled since the last bake. */
+  /** Set if something was pulled since the last bake. */
   #isUnsaved = false;
-  /** The size of the next grip, as a share of the mesh. */
+  /** Size of the next grip, as a share of the mesh. */
   #size = 0;
 
   constructor(readonly told: Told) {
@@ -62,17 +62,17 @@ export class PullView implements Doer {
     addEventListener("pagehide", () => void this.leave());
   }
 
-  /** The name of what is pulled, or would be. */
+  /** Name of the file that is pulled, or would be. */
   get name(): string | null {
     return this.#origin?.name ?? null;
   }
 
-  /** Whether something is pulled now. */
+  /** Set while something is pulled. */
   get isActive(): boolean {
     return this.#session !== null;
   }
 
-  /** What would be pulled: what the page shows. */
+  /** Offers the file that the page shows for pulling. */
   offer(origin: Origin | null, known: Known | null): void {
     if (this.#session) return;
     this.#origin = origin;
@@ -84,7 +84,7 @@ export class PullView implements Doer {
     this.#tools.offer(origin?.name ?? null, this.#ways);
   }
 
-  /** Files that are chosen here. */
+  /** Takes files that are chosen here. */
   takeFiles(files: File[]): void {
     const [first, ...others] = files;
     if (!first) return;
@@ -116,7 +116,7 @@ export class PullView implements Doer {
     this.told.changed();
   }
 
-  /** Ends the session, if there is one. */
+  /** Ends the session if there is one. */
   async leave(): Promise<void> {
     const session = this.#session;
     this.#client?.close();
@@ -143,7 +143,7 @@ export class PullView implements Doer {
     this.#tools.say("");
   }
 
-  /** Of the frames that come between two drawings only the latest is drawn. */
+  /** Draws a frame; of several between two drawings only the latest is drawn. */
   #frame(frame: LiveFrame, waited: number | null): void {
     const isAsked = this.#latest !== null;
     this.#latest = frame;
@@ -159,7 +159,7 @@ export class PullView implements Doer {
     });
   }
 
-  /** Says how charts lie to each other and to the page, as often as there is time for it. */
+  /** Reports overlaps and charts beyond the page, spending at most a fifth of the time on it. */
   #judge(): void {
     const scene = this.#scene;
     if (!scene?.isMap || this.#judging) return;
@@ -179,7 +179,7 @@ export class PullView implements Doer {
     this.refresh();
   }
 
-  /** A grip that holds nothing becomes one that holds its point, or goes. */
+  /** Handles a rejected grip: a disc that holds nothing becomes a point, and a point is removed. */
   #refused(name: number, code: string): void {
     const grip = this.grips.all.find((one) => one.name === name);
     if (!grip) return;
@@ -224,7 +224,7 @@ export class PullView implements Doer {
     this.#scene?.redraw();
   }
 
-  /** What a button or a key wishes. */
+  /** Executes the command of a button or a key. */
   does(wish: string): void {
     const client = this.#client;
     if (!client) return;
@@ -253,7 +253,7 @@ export class PullView implements Doer {
     }
   }
 
-  /** Makes a job of what is shown. */
+  /** Bakes the session to a job. */
   async bake(): Promise<void> {
     if (!this.#session) return;
     try {

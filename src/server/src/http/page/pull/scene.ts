@@ -1,4 +1,4 @@
-// What is pulled, drawn: one mesh in the plane or in space, its wire, and the places of a pointer on it.
+// Drawing of a pulled mesh: the mesh in the plane or in space, its wire, and picking of places on it.
 
 import {
   BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
@@ -12,30 +12,31 @@ import { overlapsOf } from "../analysis/overlaps";
 import { sheetOf } from "../viewer/sheet";
 import { Seen } from "./seen";
 
-/** Triangles up to which their sides are drawn. */
+/** Maximum number of triangles whose sides are drawn. Beyond it, lines would cover the mesh and slow down the
+ * frames. */
 const MOST_WIRED = 60_000;
 
-/** How what is pulled is drawn. */
+/** Settings of drawing a pulled mesh. */
 export interface Look {
-  /** The height from which y is counted down, or null where it points up. */
+  /** Height from which y is counted down; null if it points up. */
   down: number | null;
   picture: Blob | null;
-  /** Whether the pages of UVs are drawn below. */
+  /** Set if UVs are pulled, whose pages are drawn below. */
   isMap: boolean;
 }
 
-/** What is wrong with UVs that are pulled. */
+/** Defects of UVs that are pulled. */
 export interface Faults {
-  /** Pairs of faces that overlap. */
+  /** Number of pairs of faces that overlap. */
   pairs: number;
-  /** Whether a chart lies beyond the pages. */
+  /** Set if a chart lies beyond the pages. */
   leaves: boolean;
 }
 
 /** A place on the mesh: at rest, and now. */
 export interface Touched { at: number[]; to: number[] }
 
-/** The view of a session. Its constructor throws where there is no WebGL. */
+/** The view of a session. Its constructor throws without WebGL. */
 export class PullScene {
   readonly #renderer: WebGLRenderer;
   readonly #plane: PlanePane;
@@ -46,9 +47,9 @@ export class PullScene {
   #things: (Mesh | LineSegments)[] = [];
   readonly #wrong = new BufferGeometry();
   #isAsked = false;
-  /** Counts how often the vertices were moved. */
+  /** Number of times that the vertices were moved. */
   step = 0;
-  /** Called after each frame is drawn. */
+  /** Callback after each frame is drawn. */
   drawn: () => void = () => {};
 
   constructor(canvas: HTMLCanvasElement, readonly places: { plane: HTMLElement; solid: HTMLElement }) {
@@ -62,7 +63,7 @@ export class PullScene {
     return this.#seen?.mesh.dim !== 3;
   }
 
-  /** The element that is dragged in. */
+  /** The element that receives drags. */
   get pane(): HTMLElement {
     return this.isPlanar ? this.places.plane : this.places.solid;
   }
@@ -99,7 +100,7 @@ export class PullScene {
     return new MeshStandardMaterial({ color: color("--pulled"), flatShading: true, roughness: 0.8, ...offset });
   }
 
-  /** The faces that overlap others. */
+  /** Creates the mesh of faces that overlap others. */
   #marks(): Mesh {
     this.#wrong.setAttribute("position", this.#seen!.attribute);
     this.#wrong.setIndex([]);
@@ -118,19 +119,20 @@ export class PullScene {
     return wire;
   }
 
-  /** Shows where the vertices are now. */
+  /** Moves the vertices to their current places. */
   move(positions: Float32Array | Float64Array): void {
     this.#seen?.move(positions);
     this.step += 1;
     this.redraw();
   }
 
-  /** Whether UVs are pulled. */
+  /** Set if UVs are pulled. */
   get isMap(): boolean {
     return this.#look.isMap && this.#seen !== null;
   }
 
-  /** Counts the faces of UVs that overlap others, marks them in red, and says whether any leaves the pages it was on at rest. */
+  /** Counts the pairs of overlapping faces of UVs, marks them in red, and finds out whether any face leaves the
+   * pages it was on at rest. */
   faults(): Faults {
     const uvs = this.#seen!.uvs();
     const { triangles } = this.#seen!.mesh;
@@ -153,7 +155,7 @@ export class PullScene {
     this.redraw();
   }
 
-  /** Shows everything. */
+  /** Fits everything into the view. */
   frame(): void {
     if (!this.#seen) return;
     if (!this.isPlanar) return this.#solid.frame();
@@ -196,20 +198,20 @@ export class PullScene {
     return camera;
   }
 
-  /** Where a place of the mesh's coordinates is, in pixels of the view. */
+  /** Returns the position of a place of the mesh, in pixels of the view. */
   project(place: number[]): [number, number] {
     const { width, height } = this.pane.getBoundingClientRect();
     const { x, y } = this.#seen!.outward(place).project(this.#camera);
     return [((x + 1) / 2) * width, ((1 - y) / 2) * height];
   }
 
-  /** The place at a pixel, as far away as another place. */
+  /** Returns the place at a pixel, at the depth of another place. */
   placeAt([x, y]: [number, number], depthOf: number[]): number[] {
     const { z } = this.#seen!.outward(depthOf).project(this.#camera);
     return this.#seen!.inward(new Vector3(...this.#device(x, y), z).unproject(this.#camera));
   }
 
-  /** The mesh below a pixel. */
+  /** Returns the place of the mesh at a pixel. */
   touch([x, y]: [number, number]): Touched | null {
     if (!this.#body || !this.#seen) return null;
     if (this.isPlanar) return this.#seen.touchPlane(this.placeAt([x, y], [0, 0]));
@@ -220,19 +222,19 @@ export class PullScene {
     return hit?.faceIndex === undefined || hit.faceIndex === null ? null : this.#seen.touchFace(hit.faceIndex, hit.point);
   }
 
-  /** The direction that points at who looks, in the mesh's coordinates. */
+  /** Direction towards the viewer, in the mesh's coordinates. */
   get axis(): number[] | null {
     if (this.isPlanar) return null;
     const toward = new Vector3(0, 0, 1).transformDirection(this.#camera.matrixWorld);
     return toward.toArray();
   }
 
-  /** 1 where counter-clockwise in the mesh's numbers is so on the screen, too. */
+  /** 1 if counter-clockwise in the mesh's coordinates is counter-clockwise on the screen, else -1. */
   get handedness(): number {
     return this.isPlanar && this.#look.down !== null ? -1 : 1;
   }
 
-  /** The size of the mesh at rest. */
+  /** Size of the mesh at rest. */
   get extent(): number {
     return this.#seen?.extent ?? 1;
   }
@@ -254,7 +256,7 @@ async function textureOf(picture: Blob): Promise<Texture> {
   return texture;
 }
 
-/** The sides of triangles, each once. */
+/** Returns the sides of triangles, each once. */
 function edgesOf(triangles: Uint32Array): Uint32Array {
   const seen = new Set<number>();
   const edges: number[] = [];

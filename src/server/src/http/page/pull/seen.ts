@@ -1,13 +1,13 @@
-// The vertices that are seen of what is pulled, in the coordinates of the views, and the way back to those of the mesh.
+// The drawn vertices of a pulled mesh in the coordinates of the views, and conversion to those of the mesh.
 
 import { BufferAttribute, DynamicDrawUsage, Vector3 } from "three";
 import type { LiveMesh } from "../live/decode";
 import type { Touched } from "./scene";
 
-/** What is drawn of a mesh. */
+/** The drawn part of a mesh. */
 export class Seen {
   readonly attribute: BufferAttribute;
-  /** Of the vertices that are drawn, at rest and now, in the mesh's coordinates. */
+  /** Drawn vertices at rest and now, in the mesh's coordinates. */
   readonly #rest: Float64Array;
   #now: Float64Array;
 
@@ -19,7 +19,7 @@ export class Seen {
     this.move(mesh.rest);
   }
 
-  /** Where the drawn vertices are when those of the mesh are here. */
+  /** Returns the drawn vertices for these positions of the mesh's vertices. */
   #carried(positions: ArrayLike<number>): Float64Array {
     const { dim, skin, weights } = this.mesh;
     if (!skin.length) return Float64Array.from(positions);
@@ -42,13 +42,13 @@ export class Seen {
     this.attribute.needsUpdate = true;
   }
 
-  /** UVs of the corners of triangles, six numbers each, v up. */
+  /** Returns the UVs of the corners of triangles, six numbers each, v up. */
   uvs(): Float32Array {
     const { array } = this.attribute;
     return Float32Array.from({ length: 2 * this.mesh.triangles.length }, (_, k) => array[3 * this.mesh.triangles[k >> 1]! + (k & 1)]!);
   }
 
-  /** Whether a vertex lies beyond the pages, side by side, on which all were at rest. */
+  /** Returns whether a vertex lies beyond the pages, side by side, that contained all vertices at rest. */
   leavesPages(): boolean {
     const { dim } = this.mesh;
     const pages = this.#rest.reduce((most, u, k) => (k % dim ? most : Math.max(most, Math.ceil(u - 1e-6))), 1);
@@ -60,17 +60,17 @@ export class Seen {
     return this.down === null ? y : this.down - y;
   }
 
-  /** A place in the coordinates of the views. */
+  /** Converts a place to the coordinates of the views. */
   outward([x, y, z = 0]: number[]): Vector3 {
     return new Vector3(x!, this.#turned(y!), z);
   }
 
-  /** A place in the coordinates of the mesh. */
+  /** Converts a place to the coordinates of the mesh. */
   inward({ x, y, z }: Vector3): number[] {
     return this.mesh.dim === 2 ? [x, this.#turned(y)] : [x, y, z];
   }
 
-  /** The least and greatest coordinates in a view of the plane. */
+  /** Returns the least and greatest coordinates in a view of the plane. */
   box(): [number, number, number, number] {
     const { array } = this.attribute;
     const box: [number, number, number, number] = [Infinity, Infinity, -Infinity, -Infinity];
@@ -83,7 +83,7 @@ export class Seen {
     return box;
   }
 
-  /** The longest side of the box at rest. */
+  /** Longest side of the box at rest. */
   get extent(): number {
     const { dim } = this.mesh;
     const sides = Array.from({ length: dim }, (_, c) => {
@@ -100,7 +100,7 @@ export class Seen {
     return [...positions.subarray(dim * v, dim * (v + 1))];
   }
 
-  /** The first triangle that has a point of the plane. */
+  /** Returns the place in the first triangle that contains a point of the plane. */
   touchPlane(point: number[]): Touched | null {
     for (let t = 0; t < this.mesh.triangles.length / 3; t++) {
       const weights = this.#weights(t, point);
@@ -109,7 +109,7 @@ export class Seen {
     return null;
   }
 
-  /** A point of a triangle in space. */
+  /** Returns the place at a point of a triangle in space. */
   touchFace(triangle: number, point: Vector3): Touched {
     const [a, b, c] = [0, 1, 2].map((k) => new Vector3(...(this.#corner(this.#now, triangle, k) as [number, number, number]))) as [Vector3, Vector3, Vector3];
     const area = (p: Vector3, q: Vector3, r: Vector3) => q.clone().sub(p).cross(r.clone().sub(p));

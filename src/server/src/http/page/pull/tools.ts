@@ -1,4 +1,4 @@
-// The tools of the pull view: what to pull, what to do, and what the solver says.
+// The tools of the pull view: choice of the input, actions, and messages of the solver.
 
 import { button, byId, element } from "../app/dom";
 import { counted, short } from "../app/format";
@@ -8,7 +8,7 @@ import type { Grips } from "./grips";
 import type { Faults } from "./scene";
 import { ACCEPTED, type Way } from "./what";
 
-/** What the tools ask for. */
+/** Requests of the tools. */
 export interface Asked {
   start(way: number): void;
   take(files: File[]): void;
@@ -16,14 +16,14 @@ export interface Asked {
   does(wish: string): void;
 }
 
-/** Buttons of what is done while pulling: name, key, wish. */
+/** Buttons while pulling: name, key, command. */
 const ACTS = [
   ["Undo", "Ctrl Z", "undo"], ["Redo", "Ctrl Shift Z", "redo"], ["Reset", "", "reset"],
 ] as const;
 const GESTURES = [["Grab", "G", "grab"], ["Rotate", "R", "rotate"], ["Scale", "S", "scale"]] as const;
 const HELDS = [["Lock", "L", "lock"], ["Let go", "X", "let_go"], ["Next", "Tab", "next"]] as const;
 
-/** The keys, shown below the view as long as something is pulled. */
+/** Hints about keys, shown below the view while something is pulled. */
 const HINTS = [["Press", "hold"], ["Drag", "pull"], ["P", "pin"], ["G R S", "grab, rotate, scale"], ["L", "lock"], ["Tab", "next handle"], ["X", "let go"], ["Ctrl Z", "undo"]] as const;
 
 /** The bar above the view and the line below it. */
@@ -61,7 +61,7 @@ export class PullTools {
     this.ended("");
   }
 
-  /** What may be pulled; nothing where it could not be shown. */
+  /** Offers ways to pull a file; none if it cannot be shown. */
   offer(name: string | null, ways: Way[]): void {
     this.#ways.replaceChildren(...ways.map(({ name: text, title }) => element("option", { textContent: text, title })));
     this.#start.disabled = !ways.length;
@@ -90,13 +90,13 @@ export class PullTools {
     byId("pull-hints").hidden = !isPulled;
   }
 
-  /** Says something in the middle of the view. */
+  /** Shows a message in the middle of the view. */
   say(text: string): void {
     this.#said.textContent = text;
     this.#said.hidden = text === "";
   }
 
-  /** Says something for a moment. */
+  /** Shows a message for a moment. */
   note(text: string): void {
     this.say(text);
     setTimeout(() => this.#said.textContent === text && this.say(""), 4000);
@@ -111,13 +111,13 @@ export class PullTools {
     }
   }
 
-  /** Says what is wrong with UVs where they are now. */
+  /** Shows the current defects of UVs. */
   judged({ pairs, leaves }: Faults): void {
     const faults = [pairs ? counted(pairs, "overlap") : "", leaves ? "beyond the page" : ""].filter(Boolean);
     byId("pull-faults").textContent = faults.join(" · ");
   }
 
-  /** Milliseconds that a message waited for the frame that contains it. */
+  /** Shows the milliseconds that a message waited for the frame that contains it. */
   waited(milliseconds: number): void {
     this.#waits = [...this.#waits.slice(-60), milliseconds];
   }

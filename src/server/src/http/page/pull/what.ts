@@ -1,4 +1,4 @@
-// What can be pulled of a file, and the session that does so.
+// Ways to pull a file, and the session that does so.
 
 import { address, call } from "../app/api";
 import { extension } from "../viewer/loading";
@@ -9,7 +9,7 @@ export interface Way {
   title: string;
   kind: "deform" | "warp" | "edit_uv" | "texture_map";
   options: Record<string, unknown>;
-  /** The height at which y begins where it points down: of UVs of a glTF, and of pictures. */
+  /** Set if UVs are pulled. */
   isMap: boolean;
 }
 
@@ -23,13 +23,13 @@ const SOLID = way("Mesh", "The tetrahedra, or the triangles of the plane, are pu
 const PICTURE = way("Picture", "A grid over the picture is pulled", "warp");
 const DRAWING = way("Outline", "The outline is filled with triangles, which are pulled", "deform");
 
-/** File names of what can be pulled. */
+/** Extensions of files that can be pulled. */
 export const ACCEPTED = ".glb,.gltf,.obj,.ply,.stl,.off,.msh,.mesh,.tet,.png,.jpg,.jpeg,.svg";
 
-/** What is known of a surface. */
+/** Facts about a surface. */
 export interface Known { isMapped: boolean; isFlat: boolean }
 
-/** The ways to pull a file, the likeliest first; all of them where nothing is known of a surface. */
+/** Returns the ways to pull a file, the likeliest first; all of them if nothing is known of a surface. */
 export function waysOf(name: string, known: Known | null): Way[] {
   switch (extension(name)) {
     case "png": return [PICTURE, DRAWING];
@@ -43,10 +43,10 @@ export function waysOf(name: string, known: Known | null): Way[] {
   }
 }
 
-/** What is pulled: a file, or what a job made. */
+/** Input of a session: a file, or the result of a job. */
 export type Origin = { name: string; content: Blob; resources: Map<string, Blob> } | { name: string; job: string };
 
-/** A session, as the service describes it. */
+/** A session, in the JSON of the service. */
 export interface Session {
   id: string;
   kind: Way["kind"];
@@ -68,7 +68,7 @@ export async function openSession(origin: Origin, { kind, options }: Way): Promi
   return call(`v1/sessions?kind=${kind}`, { method: "POST", body: form });
 }
 
-/** The address of a session's WebSocket. */
+/** Returns the address of a session's WebSocket. */
 export function socketOf(session: Session): URL {
   const url = new URL(address(session.links.live), document.baseURI);
   url.protocol = url.protocol.replace("http", "ws");

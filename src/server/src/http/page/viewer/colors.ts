@@ -1,4 +1,4 @@
-// Colors of the views. Those of charts and of distortion are the ones of the pictures that the service draws.
+// Colors of the views. Those of charts and of distortion match the pictures that the service draws.
 
 /** Stops of the scale of distortion, in Oklab: pale where there is none. */
 const HEAT = [
@@ -18,7 +18,7 @@ const DENSITY = [
   [0.45, -0.04, -0.14],
 ] as const;
 
-/** A scale for a style sheet. */
+/** Returns a scale for a style sheet. */
 export function gradient(measure: string): string {
   const stops = stopsOf(measure).map(([l, a, b]) => `oklab(${l} ${a} ${b})`);
   return `linear-gradient(to right in oklab, ${stops.join(", ")})`;
@@ -30,7 +30,7 @@ function stopsOf(measure: string) {
 
 const array = (stops: readonly (readonly number[])[]) => stops.map((stop) => `vec3(${stop.map((x) => x.toFixed(3)).join(", ")})`).join(", ");
 
-/** The same for shaders: `oklab`, `heatColor`, `densityColor`, `chartColor`. */
+/** The scales for shaders: `oklab`, `heatColor`, `densityColor`, `chartColor`. */
 export const COLORS = /* glsl */ `
 vec3 oklab(vec3 c) {
   float l = c.x + 0.3963377774 * c.y + 0.2158037573 * c.z;

@@ -1,8 +1,8 @@
-// A picture of the user's, to fill faces with.
+// The user's picture for filling faces.
 
 import { NearestFilter, RepeatWrapping, type Texture, TextureLoader } from "three";
 
-/** Its pixels as they are: not smoothed, not corrected, repeated beyond the unit square. */
+/** Loads a picture without smoothing or color correction, repeated beyond the unit square. */
 export async function imageOf(file: Blob): Promise<Texture> {
   const url = URL.createObjectURL(file);
   const texture = await new TextureLoader().loadAsync(url).finally(() => URL.revokeObjectURL(url));

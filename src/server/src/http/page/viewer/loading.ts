@@ -10,19 +10,19 @@ import { STLLoader } from "three/addons/loaders/STLLoader.js";
 export interface Bundle {
   name: string;
   content: Blob;
-  /** By the paths that the file uses. */
+  /** Files by the paths that the main file uses. */
   resources: Map<string, Blob>;
 }
 
-/** What was made of a file. */
+/** A loaded file. */
 export interface Loaded {
   scene: Object3D;
-  /** What the file says of the UVs that this program wrote. */
+  /** The file's record of UVs that this program wrote. */
   record: UvRecord | null;
   parser: GLTFParser | null;
 }
 
-/** As in `asset.extras.unwrapd`. */
+/** Record of UVs, as in `asset.extras.unwrapd`. */
 export interface UvRecord {
   texcoord?: number;
   group_by?: "scene" | "mesh" | "material" | "primitive";
@@ -33,20 +33,20 @@ export interface UvRecord {
   mips?: number;
 }
 
-/** Endings of the names of files that can be shown. */
+/** Extensions of files that can be shown. */
 export const SHOWN = ["glb", "gltf", "obj", "ply", "stl", "off"];
 
 export function extension(name: string): string {
   return name.split(".").pop()?.toLowerCase() ?? "";
 }
 
-/** A file that may well be valid, but of which there is no view here. */
+/** Error of a file that may be valid, but that the page cannot show. */
 export class NoView extends Error {}
 
-/** One white pixel, for pictures that were not chosen. */
+/** One white pixel, in place of pictures that were not chosen. */
 const WHITE = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8/5+hHgAHggJ/PchI7wAAAABJRU5ErkJggg==";
 
-/** Reads a file; the error says what to do. */
+/** Loads a file; errors say what to do. */
 export async function load(bundle: Bundle): Promise<Loaded> {
   const kind = extension(bundle.name);
   if (kind === "glb" || kind === "gltf") return loadGltf(bundle);
@@ -58,7 +58,7 @@ export async function load(bundle: Bundle): Promise<Loaded> {
   throw new NoView(`There is no view of .${kind} files here. The job works on it all the same.`);
 }
 
-/** Three gives faces without UVs zeros where other faces of the object have UVs: what they have instead is no number. */
+/** Replaces zeros by NaN: three.js gives them to faces without UVs if other faces of the object have UVs. */
 function withoutPlaceholders(scene: Object3D): Object3D {
   scene.traverse((object) => {
     const uv = (object as Partial<Mesh>).geometry?.getAttribute("uv");
@@ -83,7 +83,7 @@ async function loadGltf({ content, resources }: Bundle): Promise<Loaded> {
     if (/^(data|blob):/.test(url)) return url;
     const path = decodeURIComponent(url).replace(/^\.\//, "");
     const resource = resources.get(path) ?? resources.get(path.split("/").pop() ?? "");
-    // The service has nothing at the paths of a file that is not uploaded yet: it is not asked for them.
+    // Do not ask the service for the resources of a file that is not uploaded yet.
     if (!resource) {
       missing.add(path);
       return /\.(png|jpe?g|webp|ktx2|avif)$/i.test(path) ? WHITE : "data:,";
@@ -109,13 +109,13 @@ async function loadGltf({ content, resources }: Bundle): Promise<Loaded> {
   }
 }
 
-/** Whether a glTF says that its meshes or pictures cannot be read without a decoder. */
+/** Returns whether a glTF needs a decoder for its meshes or pictures. */
 async function isCompressed(content: Blob): Promise<boolean> {
   const begin = await content.slice(0, 1 << 20).text();
   return /KHR_draco_mesh_compression|EXT_meshopt_compression|KHR_texture_basisu/.test(begin);
 }
 
-/** Object File Format: a line of counts, vertices, polygons. */
+/** Parses the Object File Format: a line of counts, vertices, polygons. */
 function parseOff(text: string): BufferGeometry {
   const words = text.replace(/#.*/g, "").trim().split(/\s+/);
   if (!/OFF$/.test(words[0] ?? "")) throw new Error("The file does not begin like an OFF file.");
@@ -135,7 +135,7 @@ function parseOff(text: string): BufferGeometry {
   return geometry;
 }
 
-/** Frees what a scene holds on the GPU. */
+/** Frees the GPU memory of a scene. */
 export function dispose(scene: Object3D): void {
   scene.traverse((object) => {
     const { geometry, material } = object as Partial<Mesh>;

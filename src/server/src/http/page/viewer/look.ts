@@ -1,8 +1,8 @@
-// How the views look: what a person chose, and what is pointed at.
+// The look of the views: chosen settings, and the element under the pointer.
 
 import { DataTexture, Vector2, Vector4, type Texture } from "three";
 
-/** What faces are filled with. */
+/** Fillings of faces. */
 export const SHADES = ["plain", "charts", "checker", "heat", "image", "material"] as const;
 export type Shade = (typeof SHADES)[number];
 
@@ -15,21 +15,21 @@ export function uniforms() {
     uIds: { value: none as Texture },
     uShade: { value: 0 },
     uMeasure: { value: 0 },
-    /** What the ends of the heat map's scale stand for. */
+    /** Values at the ends of the heat map's scale. */
     uRange: { value: new Vector2(4, 8) },
     uChecker: { value: new Vector2(32, 32) },
     uImage: { value: none as Texture },
-    /** The hovered and the selected face, chart with its group, and seam, -1 for none. */
+    /** The hovered and the selected face, chart with its group, and seam; -1 for none. */
     uHover: { value: new Vector4(-1, -1, -1, -1) },
     uSelected: { value: new Vector4(-1, -1, -1, -1) },
-    /** The chart with its group that alone is shown, -1 for all. */
+    /** The only shown chart with its group; -1 for all. */
     uOnly: { value: new Vector2(-1, -1) },
     uAtlas: { value: 0 },
     uAspect: { value: 1 },
     uWire: { value: 0 },
     uProblems: { value: 1 },
     uSeams: { value: 1 },
-    /** Whether islands are arranged, and where they are put. */
+    /** Set while islands are arranged, and their places. */
     uArranging: { value: 0 },
     uPlaced: { value: none as Texture },
     uViewport: { value: new Vector2(1, 1) },

@@ -1,4 +1,4 @@
-// A file that is shown: its scene, its analysis, and what of it is on the GPU.
+// A shown file: its scene, its analysis, and its data on the GPU.
 
 import { type Mesh, type MeshStandardMaterial, Sphere, type Texture, Vector3 } from "three";
 import type { Analysis } from "../analysis/analysis";
@@ -6,29 +6,29 @@ import { dispose, type Loaded } from "./loading";
 import type { Uniforms } from "./look";
 import { type Surface, surfaceOf } from "./surface";
 
-/** A face as it is drawn. */
+/** Place of a drawn face. */
 export interface FacePlace {
-  /** Its middle on the surface and the direction that it faces. */
+  /** Center on the surface, and the direction that the face points to. */
   middle: Vector3;
   normal: Vector3;
-  /** Its middle in the plane. */
+  /** Center in the plane. */
   u: number;
   v: number;
-  /** The longest sides, on the surface and in the plane. */
+  /** Longest sides, on the surface and in the plane. */
   size: number;
   planeSize: number;
 }
 
-/** Loaded and analyzed, ready to be drawn. */
+/** A file that is loaded, analyzed and ready to be drawn. */
 export class Model {
   readonly surface: Surface;
-  /** Around all that is drawn. */
+  /** Sphere around everything that is drawn. */
   readonly sphere: Sphere;
   readonly aspect: number;
   readonly #set: number;
   readonly #firstDrawn = new Map<number, number>();
 
-  /** With the UVs of a set, for a texture of this aspect. */
+  /** Creates the model with the UVs of a set, for a texture of this aspect. */
   constructor(readonly loaded: Loaded, readonly analysis: Analysis, { set, aspect }: { set: number; aspect: number }, shared: Uniforms) {
     this.aspect = aspect;
     this.#set = set;
@@ -39,13 +39,13 @@ export class Model {
     });
   }
 
-  /** Whether it lies in a plane of constant z: a body of the plane. */
+  /** Set if it lies in a plane of constant z, as bodies of the plane do. */
   get isFlat(): boolean {
     const { positions } = this.analysis.drawn;
     return positions.every((z, i) => i % 3 !== 2 || z === positions[2]);
   }
 
-  /** Where a face is; that of its chart if a simplified view does not draw it. */
+  /** Returns the place of a face, or of its chart if a simplified view does not draw it. */
   place(face: number): FacePlace | null {
     const drawn = this.#firstDrawn.get(face) ?? this.#drawnOfChart(face);
     if (drawn === undefined) return null;
@@ -66,7 +66,7 @@ export class Model {
     return 0 <= found ? found : undefined;
   }
 
-  /** The picture that the materials of an atlas show in the UV set that is shown. */
+  /** Returns the picture that the materials of an atlas show in the shown UV set. */
   picture(): Texture | null {
     let found: Texture | null = null;
     this.loaded.scene.traverse((object) => {

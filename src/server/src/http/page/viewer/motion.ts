@@ -2,10 +2,10 @@
 
 const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
-/** Whether a person wants no movement that is not theirs. */
+/** Returns whether the user prefers reduced motion. */
 export const isStill = still;
 
-/** Calls with shares of the way from above 0 to 1, once per frame; at once with 1 for those who want no movement. */
+/** Calls `step` once per frame with a share from above 0 to 1; at once with 1 if the user prefers reduced motion. */
 export function move(step: (share: number) => void, milliseconds = 380): void {
   if (still()) return step(1);
   const begin = performance.now();

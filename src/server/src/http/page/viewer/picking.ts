@@ -1,15 +1,15 @@
-// What is below the pointer: one texel is drawn with numbers instead of colors, and read.
+// Picking: draws one texel with ids instead of colors, and reads it.
 
 import { type Camera, type Mesh, type OrthographicCamera, type PerspectiveCamera, Scene, WebGLRenderTarget, type WebGLRenderer } from "three";
 
 type Movable = PerspectiveCamera | OrthographicCamera;
 
-/** Draws and reads the texel below the pointer. */
+/** Draws and reads the texel under the pointer. */
 export class Picker {
   readonly #target = new WebGLRenderTarget(1, 1);
   readonly #scene = new Scene();
 
-  /** The number that the meshes have at a place of a view of this size, or -1. Later meshes cover earlier ones. */
+  /** Returns the id at a place of a view of this size, or -1. Later meshes cover earlier ones. */
   pick(renderer: WebGLRenderer, meshes: Mesh[], camera: Camera, [x, y]: [number, number], [width, height]: [number, number]): number {
     const movable = camera as Movable;
     movable.setViewOffset(width, height, Math.floor(x), Math.floor(y), 1, 1);

@@ -1,4 +1,4 @@
-// Where the islands of an atlas are put, on the GPU: two texels per chart, which the shaders of both views read.
+// Places of the islands of an atlas on the GPU: two texels per chart, which the shaders of both views read.
 
 import { DataTexture, FloatType, RGBAFormat } from "three";
 import type { Similarity } from "./similarity";
@@ -9,7 +9,7 @@ export const SELECTED = 1;
 export const LOCKED = 2;
 export const WRONG = 4;
 
-/** The places of the islands of one atlas. */
+/** Texture with the places of the islands of one atlas. */
 export class PlacedTexture {
   readonly texture: DataTexture;
   readonly #numbers: Float32Array;
@@ -22,7 +22,7 @@ export class PlacedTexture {
     this.texture.needsUpdate = true;
   }
 
-  /** Puts a chart somewhere. */
+  /** Sets the place of a chart. */
   put(chart: number, { a, b, s, t }: Similarity, marks: number): void {
     this.#numbers.set([a, b, s, t, marks], 8 * chart);
     this.texture.needsUpdate = true;

@@ -1,16 +1,16 @@
-// The view of the UVs: a sheet that is moved and zoomed.
+// The view of the UVs: a plane that can be moved and zoomed.
 
 import { type Object3D, OrthographicCamera, Scene } from "three";
 import { move } from "./motion";
 
 const ZOOM_STEP = 0.0016;
 
-/** A camera, its scene, and how a person moves it. Its unit is the height of the texture. */
+/** Camera, scene and controls of the plane. Its unit is the height of the texture. */
 export class PlanePane {
   readonly camera = new OrthographicCamera();
   readonly scene = new Scene();
   readonly #changed: () => void;
-  /** What is in the middle, and how much is seen from there to the nearer borders. */
+  /** Center of the view, and its distance to the nearer borders. */
   #middle = [0.5, 0.5];
   #half = 0.55;
   #size = [1, 1];
@@ -36,7 +36,7 @@ export class PlanePane {
     for (const thing of things) this.scene.add(thing);
   }
 
-  /** Shows a rectangle: least u and v, greatest u and v. */
+  /** Fits a rectangle into the view: least u and v, greatest u and v. */
   frame([u0, v0, u1, v1]: [number, number, number, number]): void {
     this.place = [(u0 + u1) / 2, (v0 + v1) / 2, Math.max(this.#halfFor(u1 - u0, v1 - v0), 1e-6)];
   }
@@ -54,7 +54,7 @@ export class PlanePane {
     move((t) => (this.place = from.map((x, k) => x + (to[k]! - x) * t)));
   }
 
-  /** The middle, and how much is seen from there to the nearer borders. */
+  /** Center of the view, and its distance to the nearer borders. */
   get place(): number[] {
     return [...this.#middle, this.#half];
   }
@@ -79,7 +79,7 @@ export class PlanePane {
     this.#changed();
   }
 
-  /** The place of the plane at one of the page. */
+  /** Converts a position on the page to the plane. */
   at(x: number, y: number): [number, number] {
     const box = this.element.getBoundingClientRect();
     return [this.#middle[0]! + (x - box.left - box.width / 2) * this.#unit, this.#middle[1]! - (y - box.top - box.height / 2) * this.#unit];
@@ -95,7 +95,7 @@ export class PlanePane {
     this.#zoom(Math.exp(event.deltaY * ZOOM_STEP * (event.deltaMode ? 24 : 1)), event.clientX, event.clientY);
   }
 
-  /** Zooms so that what is below the pointer stays there. */
+  /** Zooms around the position of the pointer. */
   #zoom(factor: number, x: number, y: number): void {
     const box = this.element.getBoundingClientRect();
     const [dx, dy] = [x - box.left - box.width / 2, y - box.top - box.height / 2];

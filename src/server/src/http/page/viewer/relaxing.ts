@@ -1,4 +1,4 @@
-// Charts on their way to the optimum, side by side: where they will lie in the atlas is not known yet.
+// Relaxing charts, side by side: their places in the atlas are not known yet.
 
 import { BufferAttribute, BufferGeometry, DoubleSide, GLSL3, Mesh, NoBlending, ShaderMaterial } from "three";
 import type { ChartMap } from "../live/maps";
@@ -27,13 +27,14 @@ void main() {
   color = vec4(chartColor(uChart) * (1.0 - strength * (1.0 - min(inside.x, min(inside.y, inside.z)))), 1.0);
 }`;
 
-/** Around each chart, as a share of its size. */
+/** Margin around each chart, as a share of its size. */
 const MARGIN = 0.06;
 
-/** Where a map is drawn: its least corner, its sides in lengths of the surface, and where they are put. */
+/** A drawn map: its bounds, its sides in lengths of the surface, and its place. */
 interface Drawn { map: ChartMap; mesh: Mesh; box: [number, number, number, number]; place: [number, number] }
 
-/** The charts of a job that runs. A chart that is cut again is mapped again: its faces are where they were mapped last. */
+/** The charts of a running job. A chart that is cut again is mapped again; each face is shown where it was mapped
+ * last. */
 export class Relaxing {
   readonly #charts = new Map<string, Drawn>();
   /** The chart of each face, by surface. */
@@ -41,7 +42,7 @@ export class Relaxing {
   #count = 0;
   #sides: [number, number] = [1, 1];
 
-  /** Takes a map in place of the former ones of its faces. */
+  /** Shows a map in place of the former ones of its faces. */
   take(map: ChartMap): void {
     const name = `${map.surface}/${map.first}`;
     this.#claim(map, name);
@@ -52,7 +53,7 @@ export class Relaxing {
     this.#charts.set(name, { map, mesh, box: boxOf(map), place: [0, 0] });
   }
 
-  /** Other charts that had these faces were mapped anew: they are gone. */
+  /** Removes other charts that had these faces, which were mapped anew. */
   #claim({ surface, faces }: ChartMap, name: string): void {
     const owners = this.#owners.get(surface) ?? new Map<number, string>();
     this.#owners.set(surface, owners);
@@ -68,7 +69,7 @@ export class Relaxing {
     if (!gone) return;
     this.#charts.delete(name);
     release(gone.mesh);
-    // Those of its faces that no map has yet come back with the next one.
+    // Faces without a map now come back with their next one.
     const owners = this.#owners.get(gone.map.surface)!;
     for (const face of gone.map.faces) if (owners.get(face) === name) owners.delete(face);
   }
@@ -80,7 +81,7 @@ export class Relaxing {
     return mesh;
   }
 
-  /** Lays all charts side by side in rows, the highest first, at one scale. */
+  /** Places all charts side by side in rows, the tallest first, at one scale. */
   arrange(): void {
     const charts = [...this.#charts.values()];
     const sizes = new Map(charts.map((chart) => [chart, sizeOf(chart)]));
@@ -117,12 +118,12 @@ export class Relaxing {
     return [...this.#charts.values()].reduce((sum, { map }) => sum + map.flips, 0);
   }
 
-  /** Whether any of them is a simplification on which seams are planned. */
+  /** Set if a chart is a simplified mesh on which seams are planned. */
   get isPlan(): boolean {
     return [...this.#charts.values()].some(({ map }) => map.isPlan);
   }
 
-  /** Of all faces of charts, which share is drawn: 1, or less where there are too many. */
+  /** Share of the faces of charts that is drawn: 1, or less if there are too many. */
   get share(): number {
     const charts = [...this.#charts.values()];
     const sum = (of: (map: ChartMap) => number) => charts.reduce((all, { map }) => all + of(map), 0);
@@ -152,7 +153,7 @@ function geometryOf({ corners }: ChartMap): BufferGeometry {
   return geometry;
 }
 
-/** Least and greatest u and v. */
+/** Returns the least and greatest u and v. */
 function boxOf({ corners }: ChartMap): [number, number, number, number] {
   const box: [number, number, number, number] = [Infinity, Infinity, -Infinity, -Infinity];
   for (let k = 0; k < corners.length; k += 2) {
@@ -164,7 +165,7 @@ function boxOf({ corners }: ChartMap): [number, number, number, number] {
   return box;
 }
 
-/** Width and height with the margin around, in lengths of the surface. */
+/** Returns width and height with the margin, in lengths of the surface. */
 function sizeOf({ map, box: [u0, v0, u1, v1] }: Drawn): [number, number] {
   const margin = MARGIN * Math.max(u1 - u0, v1 - v0);
   return [(u1 - u0 + margin) * map.unit, (v1 - v0 + margin) * map.unit];

@@ -1,9 +1,9 @@
-// The shaders of both views. Faces have no shared corners, so the number of a vertex tells its face, and what is known of
-// faces lies in two textures, one texel per face: values, and ids with marks.
+// The shaders of both views. Faces share no corners, so the index of a vertex determines its face. The data of faces
+// are in two textures, one texel per face: values, and ids with marks.
 
 import { COLORS } from "./colors";
 
-/** Texels in a row of the textures of faces. */
+/** Texels per row of the textures of faces: the minimum that WebGL 2 guarantees. */
 export const ROW = 2048;
 
 const FACES = /* glsl */ `
@@ -17,8 +17,8 @@ uniform float uAspect;
 ivec2 texelOf(uint face) { return ivec2(int(face) % ${ROW}, int(face) / ${ROW}); }
 `;
 
-/** Where islands of the shown atlas are put, two texels per chart: a, b, s, t of a similarity, and its marks: 1 selected,
- * 2 locked, 4 wrong. */
+/** Places of the islands of the shown atlas, two texels per chart: a, b, s, t of a similarity, and its marks: 1
+ * selected, 2 locked, 4 wrong. */
 const PLACED = /* glsl */ `
 uniform vec2 uOnly;
 bool isLeftOut(uint chart, uint group) {
@@ -161,7 +161,7 @@ void main() {
 #endif
 }`;
 
-/** Writes the number of the drawn face, from 1. */
+/** Fragment shader that writes the number of the drawn face, from 1. */
 export const PICK_FRAGMENT = /* glsl */ `
 precision highp float;
 precision highp int;

@@ -1,4 +1,4 @@
-// What lies below the UVs: pages with their lines, and the picture of a material.
+// Background of the UVs: pages with their lines, and the picture of a material.
 
 import {
   BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, PlaneGeometry, type Texture,
@@ -13,7 +13,7 @@ export interface SheetColors {
 
 const DIVISIONS = 8;
 
-/** What lies below the UVs, made anew only if it changes: what was there before is freed. */
+/** Background of the UVs. It is rebuilt only if it changes; the former objects are freed. */
 export class Sheet {
   #key = "";
   #things: (Mesh | LineSegments)[] = [];
@@ -31,7 +31,7 @@ export class Sheet {
   }
 }
 
-/** The sheet of this many pages of this aspect. */
+/** Creates pages of this number and aspect. */
 export function sheetOf(pages: number, aspect: number, colors: SheetColors): (Mesh | LineSegments)[] {
   const inner: number[] = [];
   const outer: number[] = [];
@@ -48,15 +48,15 @@ export function sheetOf(pages: number, aspect: number, colors: SheetColors): (Me
   return [ordered(paper, -3), ordered(lines(inner, colors.line), -2), ordered(lines(outer, colors.border), -1)];
 }
 
-/** How many pages side by side UVs reach over, at least one. */
+/** Returns the number of pages, side by side, that UVs extend over, at least one. */
 export function pagesOf(bounds: [number, number, number, number]): number {
   return Number.isFinite(bounds[2]) ? Math.min(Math.max(Math.ceil(bounds[2] - 1e-4), 1), 10) : 1;
 }
 
-/** The picture of a material on the first page. */
+/** Creates the picture of a material on the first page. */
 export function pictureOf(texture: Texture, aspect: number): Mesh {
   const geometry = new PlaneGeometry(aspect, 1);
-  // glTF's pictures begin at the top.
+  // Pictures of glTF begin at the top.
   if (!texture.flipY) {
     const uv = geometry.getAttribute("uv");
     for (let k = 0; k < uv.count; k++) uv.setY(k, 1 - uv.getY(k));

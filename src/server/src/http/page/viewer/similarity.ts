@@ -1,6 +1,6 @@
-// Maps of the plane that keep shapes: turned, scaled and shifted.
+// Similarities of the plane: rotation, scaling and translation.
 
-/** (x, y) goes to (a x − b y + s, b x + a y + t). */
+/** Maps (x, y) to (a x − b y + s, b x + a y + t). */
 export interface Similarity { a: number; b: number; s: number; t: number }
 
 export type Point = readonly [number, number];
@@ -11,7 +11,7 @@ export function applied({ a, b, s, t }: Similarity, [x, y]: Point): [number, num
   return [a * x - b * y + s, b * x + a * y + t];
 }
 
-/** First one, then another. */
+/** Returns the composition of `first` and `then`. */
 export function after(first: Similarity, then: Similarity): Similarity {
   const [s, t] = applied(then, [first.s, first.t]);
   return { a: then.a * first.a - then.b * first.b, b: then.b * first.a + then.a * first.b, s, t };
@@ -21,7 +21,7 @@ export function shifted([s, t]: Point): Similarity {
   return { ...IDENTITY, s, t };
 }
 
-/** Turned by degrees, counter-clockwise, and scaled, both about a point. */
+/** Returns the rotation by degrees, counter-clockwise, and scaling about a point. */
 export function about([x, y]: Point, degrees: number, factor: number): Similarity {
   const angle = (degrees * Math.PI) / 180;
   const [a, b] = [factor * Math.cos(angle), factor * Math.sin(angle)];
@@ -32,7 +32,7 @@ export function scaleOf({ a, b }: Similarity): number {
   return Math.hypot(a, b);
 }
 
-/** Degrees. */
+/** Returns the rotation in degrees. */
 export function turnOf({ a, b }: Similarity): number {
   return (Math.atan2(b, a) * 180) / Math.PI;
 }

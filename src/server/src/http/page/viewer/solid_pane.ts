@@ -1,17 +1,17 @@
-// The view of the surface: a camera that turns around it.
+// The view of the surface: a camera that orbits it.
 
 import { type Object3D, PerspectiveCamera, Scene, Sphere, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { isStill, move } from "./motion";
 
-/** glTF's front is +z. */
+/** Initial direction of the camera, in front and a little above: the front of glTF is +z. */
 const FRONT = [0.55, 0.35, 1] as const;
 
-/** The time in which it turns once around: 60 s at a speed of 1, as `OrbitControls` have it. */
+/** Speed of turning, and the time of one turn: `OrbitControls` take 60 s at a speed of 1. */
 const SPEED = 1.4;
 const TURNING_MS = 60_000 / SPEED;
 
-/** A camera, its scene, and how a person moves it. */
+/** Camera, scene and controls of the surface. */
 export class SolidPane {
   readonly camera = new PerspectiveCamera(32, 1, 0.01, 100);
   readonly scene = new Scene();
@@ -27,21 +27,21 @@ export class SolidPane {
     this.#controls.addEventListener("start", () => this.turn(false));
   }
 
-  /** Shows these things and nothing else. */
+  /** Shows these objects and nothing else. */
   show(things: Object3D[], around: Sphere | null): void {
     this.scene.children = [];
     for (const thing of things) this.scene.add(thing);
     if (around) this.#around = around.clone();
   }
 
-  /** Looks at everything, from the front and a little from above unless told otherwise. */
+  /** Fits everything into the view, from the front and a little above by default. */
   frame(from: readonly [number, number, number] = FRONT): void {
     const { center, radius } = this.#around;
     const distance = (radius / Math.sin((this.camera.fov * Math.PI) / 360)) * 0.94 * Math.max(1, 1 / this.camera.aspect);
     this.#look(center.clone().add(new Vector3(...from).normalize().multiplyScalar(distance)), center);
   }
 
-  /** Flies to a place that is seen from the side of a direction. */
+  /** Flies to a place, seen from a direction. */
   flyTo(place: Vector3, direction: Vector3, size: number): void {
     this.turn(false);
     const distance = Math.max(size * 9, this.#around.radius * 0.55);
@@ -50,7 +50,7 @@ export class SolidPane {
     move((t) => this.#look(from.clone().lerp(to, t), target.clone().lerp(place, t)));
   }
 
-  /** Turns slowly until a person takes over, but not for longer than it takes to see all of it. */
+  /** Turns slowly until a person takes over, but for one full turn at most. */
   turn(isTurning: boolean): void {
     this.#controls.autoRotate = isTurning && !isStill();
     clearTimeout(this.#rest);
@@ -61,7 +61,7 @@ export class SolidPane {
     return this.#controls.autoRotate;
   }
 
-  /** Whether the camera moves by itself. */
+  /** Updates the camera. Returns whether it moves by itself. */
   update(): boolean {
     return this.#controls.update() || this.#controls.autoRotate;
   }
@@ -71,7 +71,7 @@ export class SolidPane {
     this.camera.updateProjectionMatrix();
   }
 
-  /** Where the camera is and at what it looks: six numbers. */
+  /** Position of the camera and its target: six numbers. */
   get place(): number[] {
     return [...this.camera.position.toArray(), ...this.#controls.target.toArray()];
   }

@@ -1,20 +1,20 @@
-// A scene as the soup that is analyzed: its triangles, by mesh and atlas.
+// Conversion of a scene to the soup that is analyzed: its triangles by mesh and atlas.
 
 import { type BufferGeometry, type Mesh, type SkinnedMesh, Vector3 } from "three";
 import type { Group, Part, Soup, Texture } from "../analysis/soup";
 import type { Loaded, UvRecord } from "./loading";
 import { attributeOf } from "./uv_sets";
 
-/** Which UVs to show. */
+/** Selection of UVs. */
 export interface Shown {
   record: UvRecord;
-  /** The UV set of a primitive, where the file has several. */
+  /** UV set of a primitive, if the file has several. */
   texcoord: (mesh: number, primitive: number) => number;
 }
 
 interface Place { mesh: number; primitive: number; material: number | null; name: string; materialName: string }
 
-/** The triangles of a scene, with the UVs that are to be shown. */
+/** Returns the triangles of a scene with the selected UVs. */
 export function soupOf(loaded: Loaded, { record, texcoord }: Shown): Soup {
   loaded.scene.updateMatrixWorld(true);
   const parts: Part[] = [];
@@ -35,10 +35,10 @@ export function soupOf(loaded: Loaded, { record, texcoord }: Shown): Soup {
   return { parts, groups, texture: textureOf(record), inScene };
 }
 
-/** The measured faces of a primitive. */
+/** Range of the measured faces of a primitive. */
 export interface Origin { mesh: number; primitive: number; begin: number; count: number }
 
-/** Which primitive the measured faces of a soup come from, in their order. */
+/** Returns the primitives that the measured faces of a soup come from, in order. */
 export function originsOf({ parts }: Soup): Origin[] {
   let begin = 0;
   return parts.filter(({ copyOf }) => copyOf < 0).map(({ mesh, primitive, positions }) => {
@@ -48,7 +48,7 @@ export function originsOf({ parts }: Soup): Origin[] {
   });
 }
 
-/** The texture that a record speaks of. */
+/** Returns the texture that a record describes. */
 export function textureOf({ resolution = 1024, padding = 0 }: UvRecord): Texture {
   const [width = 1024, height = width] = String(resolution).split("x").map(Number);
   return { width, height, padding };
@@ -67,7 +67,7 @@ function placeOf({ parser }: Loaded, mesh: Mesh): Place | null {
   };
 }
 
-/** Atlases are named as in reports. */
+/** Returns the index of an atlas, which is named as in reports. */
 function groupIndex(groups: Group[], by: NonNullable<UvRecord["group_by"]>, place: Place): number {
   const [name, label] = {
     scene: ["scene", "Whole scene"],
@@ -83,7 +83,7 @@ function trianglesOf(mesh: Mesh, texcoord: number, isGltf: boolean): Pick<Part, 
   const { geometry } = mesh;
   const corners = cornersOf(geometry);
   const uvs = spread(geometry, attributeOf(texcoord), corners, 2);
-  // v points down in glTF, and three.js leaves it so; OBJ has it up.
+  // In glTF v points down, and three.js keeps it so; in OBJ it points up.
   if (uvs && isGltf) for (let i = 1; i < uvs.length; i += 2) uvs[i] = 1 - uvs[i]!;
   return { positions: posed(mesh, corners), uvs, normals: isPosed(mesh) ? null : spread(geometry, "normal", corners, 3) };
 }
@@ -109,7 +109,7 @@ function isPosed(mesh: Mesh): boolean {
   return (mesh as SkinnedMesh).isSkinnedMesh === true || (mesh.morphTargetInfluences?.some(Boolean) ?? false);
 }
 
-/** Positions, where bones and morph targets put them. */
+/** Returns positions after applying bones and morph targets. */
 function posed(mesh: Mesh, corners: Uint32Array): Float32Array {
   if (!isPosed(mesh)) return spread(mesh.geometry, "position", corners, 3)!;
   const values = new Float32Array(3 * corners.length);

@@ -1,4 +1,4 @@
-// Both views on one canvas, with one set of buffers: drawn when something changed, and only then.
+// Both views on one canvas, with one set of buffers; drawn only when something changed.
 
 import { type Camera, Color, DirectionalLight, HemisphereLight, type Material, type Mesh, type Scene, Vector3, WebGLRenderer } from "three";
 import { type Uniforms, uniforms } from "./look";
@@ -8,7 +8,7 @@ import { PlanePane } from "./plane_pane";
 import { SolidPane } from "./solid_pane";
 import type { View } from "./surface";
 
-/** What is below the pointer. */
+/** The element under the pointer. */
 export interface Hit {
   view: View;
   face: number;
@@ -16,14 +16,14 @@ export interface Hit {
   border: number;
 }
 
-/** The elements that a stage needs. */
+/** DOM elements that a stage needs. */
 export interface Places {
   canvas: HTMLCanvasElement;
   solid: HTMLElement;
   plane: HTMLElement;
 }
 
-/** Draws both views. Its constructor throws where there is no WebGL. */
+/** Draws both views. Its constructor throws without WebGL. */
 export class Stage {
   readonly uniforms: Uniforms = uniforms();
   readonly solid: SolidPane;
@@ -32,10 +32,10 @@ export class Stage {
   readonly #picker = new Picker();
   readonly #places: Places;
   #isAsked = false;
-  /** Called before each frame is drawn. */
+  /** Callback before each frame is drawn. */
   onFrame: () => void = () => {};
   background = "#ffffff";
-  /** Milliseconds of our JavaScript for the latest frame, and frames so far. */
+  /** Milliseconds of our JavaScript in the latest frame, and the number of frames. */
   readonly figures = { milliseconds: 0, frames: 0 };
 
   constructor(places: Places) {
@@ -52,10 +52,10 @@ export class Stage {
     this.resize();
   }
 
-  /** For documents' own materials. */
+  /** Lights for the materials of documents. */
   readonly lights;
 
-  /** Draws once more, soon. */
+  /** Requests another frame. */
   redraw(): void {
     if (this.#isAsked) return;
     this.#isAsked = true;
@@ -99,18 +99,18 @@ export class Stage {
     this.renderer.render(scene, camera);
   }
 
-  /** Where a view is on the canvas, from below. */
+  /** Returns the rectangle of a view on the canvas, from below. */
   #box(view: View) {
     const canvas = this.#places.canvas.getBoundingClientRect();
     const box = this.#places[view].getBoundingClientRect();
     return { left: box.left - canvas.left, bottom: canvas.bottom - box.bottom, width: box.width, height: box.height };
   }
 
-  /** What is at a place of a view; `borders` asks for the borders of charts, too. */
+  /** Returns the element at a place of a view; with `borders`, also the border of a chart. */
   pick(model: Model, view: View, x: number, y: number, borders: boolean): Hit | null {
     const { width, height } = this.#places[view].getBoundingClientRect();
     const layer = model.surface.layers[view];
-    // One pixel is all that is drawn.
+    // Draw a single pixel.
     this.uniforms.uViewport.value.set(1, 1);
     this.uniforms.uPixelRatio.value = 1;
     this.renderer.setScissorTest(false);
@@ -122,7 +122,7 @@ export class Stage {
     return { view, border, face: 0 <= drawn ? (face[drawn] ?? -1) : (model.analysis.borders.face[border] ?? -1) };
   }
 
-  /** Has a mesh only hide what is behind it. */
+  /** Lets a mesh only occlude while something is picked. */
   #hiding<T>({ material }: Mesh, pick: () => T): T {
     const one = material as Material;
     one.colorWrite = false;
@@ -133,7 +133,7 @@ export class Stage {
     }
   }
 
-  /** Where a point of the scene or of the plane is on the page. */
+  /** Returns the position of a point of the scene or of the plane on the page. */
   project(view: View, point: Vector3): [number, number] {
     const { left, top, width, height } = this.#places[view].getBoundingClientRect();
     this[view].camera.updateMatrixWorld();

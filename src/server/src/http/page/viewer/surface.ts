@@ -1,4 +1,4 @@
-// What both views draw of an analysis: its faces and the borders of its charts, with one set of buffers for both.
+// Meshes of an analysis in both views: its faces and the borders of its charts, with shared buffers.
 
 import {
   BufferAttribute, BufferGeometry, DataTexture, DoubleSide, FloatType, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry,
@@ -11,7 +11,7 @@ import { BORDER_FRAGMENT, BORDER_VERTEX, PICK_FRAGMENT, ROW, SURFACE_FRAGMENT, S
 /** The two views. */
 export type View = "solid" | "plane";
 
-/** What a view draws, and what is drawn instead to find out what is pointed at. */
+/** Meshes of a view, and the meshes drawn for picking instead. */
 export interface Layer {
   surface: Mesh;
   overlay: Mesh;
@@ -23,12 +23,12 @@ export interface Layer {
 /** The layers of both views. */
 export interface Surface {
   layers: Record<View, Layer>;
-  /** Bytes on the GPU. */
+  /** Size on the GPU, in bytes. */
   bytes: number;
   dispose(): void;
 }
 
-/** Puts an analysis on the GPU. */
+/** Creates the meshes of an analysis on the GPU. */
 export function surfaceOf(analysis: Analysis, shared: Uniforms): Surface {
   const faces = faceGeometry(analysis);
   const borders = borderGeometry(analysis);

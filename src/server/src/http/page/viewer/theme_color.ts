@@ -1,6 +1,6 @@
-// Colors of the style sheet, as the theme has them.
+// Colors of the style sheet in the current theme.
 
-/** A color by the name of its variable. */
+/** Returns a color by the name of its variable. */
 export function color(name: string): string {
   const probe = document.documentElement;
   const before = probe.style.outlineColor;

@@ -1,13 +1,13 @@
-// UV sets, as three.js names them: `uv`, `uv1`, `uv2`, `uv3`, and those beyond as the file does.
+// UV sets in the naming of three.js: `uv`, `uv1`, `uv2`, `uv3`, and the file's names for further ones.
 
 import type { Mesh, Object3D } from "three";
 
-/** The attribute of a set. */
+/** Returns the attribute name of a set. */
 export function attributeOf(set: number): string {
   return set === 0 ? "uv" : set < 4 ? `uv${set}` : `texcoord_${set}`;
 }
 
-/** The sets that any mesh of a scene has, in their order. */
+/** Returns the sets that any mesh of a scene has, in order. */
 export function uvSetsOf(scene: Object3D): number[] {
   const sets = new Set<number>();
   scene.traverse((object) => {
