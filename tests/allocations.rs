@@ -42,7 +42,7 @@ fn allocations(body: Body, pool: &ThreadPool) -> Vec<usize> {
     let problem = Problem::new(body, &handles, &Model::default()).expect("a problem");
     counted(pool, |watch| {
         let solution = problem.solve(&Settings::follow(), watch).expect("solved");
-        assert_eq!(solution.worth.inverted, 0);
+        assert_eq!(solution.quality.inverted, 0);
     })
 }
 

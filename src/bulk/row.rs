@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::asset::Asset;
-use unwrapd_api::{Failure, Worth};
+use unwrapd_api::{Failure, Quality};
 use unwrapd_server::jobs::Gates;
 
 /// Outcome for an asset.
@@ -76,7 +76,7 @@ impl Row {
     /// Returns whether the asset passes all gates. One without an output passes none.
     pub fn is_accepted(&self, gates: &Gates) -> bool {
         match &self.status {
-            Status::Written(figures) => gates.accept(&figures.worth(), self.seconds),
+            Status::Written(figures) => gates.accept(&figures.quality(), self.seconds),
             Status::Failed { .. } | Status::Missing => false,
         }
     }
@@ -118,8 +118,8 @@ struct MeasuresRead {
 
 impl Figures {
     /// Returns the figures that gates judge.
-    fn worth(&self) -> Worth {
-        Worth {
+    fn quality(&self) -> Quality {
+        Quality {
             certified: Some(self.certified),
             charts: Some(self.charts),
             distortion: self.distortion,

@@ -5,7 +5,7 @@ use unwrapd_pipeline::{Mirrored, Report};
 use unwrapd_server::jobs::{Gate, Gates};
 
 use super::failure::Failure;
-use unwrapd_worker::worth_of;
+use unwrapd_worker::quality_of;
 
 /// The gates of a command.
 #[derive(clap::Args)]
@@ -28,8 +28,8 @@ impl Acceptance {
     /// Returns a failure if a result that took this many seconds misses a gate, or was only partly done. The result
     /// is written in any case.
     pub(super) fn judge(&self, report: &Report, seconds: f64) -> Result<(), Failure> {
-        let worth = worth_of(report);
-        let missed: Vec<&Gate> = self.accept.missed(&worth, seconds).collect();
+        let quality = quality_of(report);
+        let missed: Vec<&Gate> = self.accept.missed(&quality, seconds).collect();
         if missed.is_empty() && report.partly_done {
             let message = "certified, but not all textures and colors were resampled (partly_done)";
             return Err(Failure::partly(message));

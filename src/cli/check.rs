@@ -122,11 +122,11 @@ impl PrintedCheck {
             lost.map(|file| file.key.clone()).collect()
         };
         let unknown = found.unknown.iter().map(|(job, bytes)| {
-            let held = quarantined.iter().find(|files| files.job == *job);
+            let quarantine = quarantined.iter().find(|files| files.job == *job);
             UnknownFiles {
                 job: job.to_string(),
                 bytes: *bytes,
-                quarantine_days: held.map(|files| files.held.as_secs_f64() / DAY_SECONDS),
+                quarantine_days: quarantine.map(|files| files.age.as_secs_f64() / DAY_SECONDS),
             }
         });
         Self {
@@ -145,12 +145,12 @@ impl PrintedCheck {
             }
         }
         for files in &self.unknown {
-            let held = files.quarantine_days.map_or_else(
+            let quarantine = files.quarantine_days.map_or_else(
                 || "not in quarantine".to_owned(),
                 |days| format!("in quarantine for {days:.1} days"),
             );
             print(format!(
-                "unknown\t{}\t{} bytes\t{held}",
+                "unknown\t{}\t{} bytes\t{quarantine}",
                 files.job, files.bytes
             ));
         }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::console::{print, print_json};
 use super::failure::Failure;
 use super::store_args::StoreArgs;
-use unwrapd_server::jobs::access::{Owner, Reach};
+use unwrapd_server::jobs::access::{Owner, Visibility};
 use unwrapd_server::jobs::{JobStore, Listing, State, StoreError, retry_failed};
 use unwrapd_server::store::RecordStore;
 
@@ -84,7 +84,7 @@ async fn retry(args: &Retry) -> Result<(), Failure> {
     let mut count = 0;
     loop {
         let code = args.code.as_deref();
-        let retried = retry_failed(&store, &Reach::All, listing.clone(), code).await;
+        let retried = retry_failed(&store, &Visibility::All, listing.clone(), code).await;
         let retried = retried
             .map_err(|error| Failure::other(format!("{count} jobs tried again, then: {error}")))?;
         count += retried.jobs.len();

@@ -74,17 +74,17 @@ fn summarize(Deformed { report, .. }: &Deformed) {
             cage.crossings_after.pairs
         ));
     }
-    let (summary, worth) = (report.summary, report.worth);
+    let (summary, quality) = (report.summary, report.quality);
     say(format_args!(
         "{:?}: {} iterations, {} factorizations, energy {:.6e} {}, barrier {:.3e}, residual {:.1e}, {} inverted{}",
         summary.status,
         summary.iterations,
         summary.factorizations,
-        worth.energy,
+        quality.energy,
         report.units,
-        worth.barrier,
-        worth.residual,
-        worth.inverted,
+        quality.barrier,
+        quality.residual,
+        quality.inverted,
         (report.crossings).map_or(String::new(), |n| format!(
             ", {n} crossings of the boundary"
         ))

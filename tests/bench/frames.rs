@@ -64,14 +64,14 @@ fn plane(n: u32) -> PlanarMesh {
 }
 
 /// What is dragged.
-struct Drag {
+struct InteractiveContinuation {
     held: Handle,
     center: Vec<f64>,
     radius: f64,
     length: f64,
 }
 
-impl Drag {
+impl InteractiveContinuation {
     /// The vertices that are first and last along the second axis.
     fn of(body: &Body) -> Self {
         let dim = body.dim();
@@ -128,7 +128,7 @@ impl Drag {
 
 fn report(case: &str) {
     let body = body(case);
-    let drag = Drag::of(&body);
+    let drag = InteractiveContinuation::of(&body);
     let (mut session, id) = drag.session(&body);
     let mut times = Vec::with_capacity(FRAMES);
     let before = *session.summary();
@@ -139,10 +139,10 @@ fn report(case: &str) {
         black_box(session.step());
         black_box(session.positions());
         times.push(1e3 * clock.seconds().processor);
-        assert!(session.worth().smallest > 0.0, "valid at every iterate");
+        assert!(session.quality().smallest > 0.0, "valid at every iterate");
     }
     let of_frames = session.summary().factorizations - before.factorizations;
-    let last = session.worth();
+    let last = session.quality();
     let clock = Clock::start();
     let stage = session.step_while(|_| true);
     times.sort_by(f64::total_cmp);
@@ -156,7 +156,7 @@ fn report(case: &str) {
         times[FRAMES - 1],
         session.analyses(),
         last.energy + last.barrier,
-        session.worth().energy + session.worth().barrier,
+        session.quality().energy + session.quality().barrier,
         1e3 * clock.seconds().processor,
     );
     assert!(stage == Stage::Settled);
@@ -165,7 +165,7 @@ fn report(case: &str) {
 }
 
 /// What the parts of an iteration cost at the map of a session.
-fn parts(case: &str, body: &Body, drag: &Drag, session: &Session) {
+fn parts(case: &str, body: &Body, drag: &InteractiveContinuation, session: &Session) {
     let problem = Problem::new(body.clone(), &drag.handles(FRAMES), &Model::default());
     let problem = problem.expect("a problem");
     let terms = problem
@@ -204,7 +204,7 @@ fn parts(case: &str, body: &Body, drag: &Drag, session: &Session) {
 }
 
 /// The energy after three frames, and that of [`Problem::solve`] which is ended after one iteration in each.
-fn three_frames(case: &str, body: &Body, drag: &Drag) {
+fn three_frames(case: &str, body: &Body, drag: &InteractiveContinuation) {
     let (mut session, id) = drag.session(body);
     let problem = Problem::new(body.clone(), &drag.handles(0), &Model::default());
     let mut problem = problem.expect("a problem");
@@ -229,7 +229,7 @@ fn three_frames(case: &str, body: &Body, drag: &Drag) {
         problem.start = solution.expect("a map").x;
         milliseconds += 1e3 * clock.seconds().processor / 3.0;
     }
-    let (ours, followed) = (session.worth(), problem.worth(&problem.start));
+    let (ours, followed) = (session.quality(), problem.quality(&problem.start));
     println!(
         "{case}: after three frames energy {:.9}, residual {:.1e}; one iteration of a solve each {:.9}, {:.1e}, {milliseconds:.1} ms a frame",
         ours.energy + ours.barrier,

@@ -226,8 +226,8 @@ fn report(case: &str, energy: &EnergyKind) {
         summary.iterations,
         summary.factorizations,
         first.get().unwrap_or_default(),
-        solution.worth.inverted,
-        solution.worth.smallest,
+        solution.quality.inverted,
+        solution.quality.smallest,
         peak_megabytes(),
     );
     parts(case, &problem, &solution);

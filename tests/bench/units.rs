@@ -62,7 +62,7 @@ fn row(name: &str, folder: &Path) -> [f64; 2] {
     let (mut fewest, mut most) = (usize::MAX, 0);
     for elsewhere in poses() {
         let there = solved(&elsewhere.pose(&problem));
-        let difference = (there.worth.energy / here.worth.energy - 1.0).abs();
+        let difference = (there.quality.energy / here.quality.energy - 1.0).abs();
         if worst < difference {
             (worst, place) = (difference, elsewhere);
         }
@@ -71,7 +71,7 @@ fn row(name: &str, folder: &Path) -> [f64; 2] {
     }
     println!(
         "{name} | {:.8} | {worst:.1e} | {} | {fewest} to {most} | {place:?}",
-        here.worth.energy, here.summary.iterations
+        here.quality.energy, here.summary.iterations
     );
     let as_posed = here.summary.iterations as f64;
     let apart = [fewest, most].map(|n| (n as f64 - as_posed).abs() / as_posed);

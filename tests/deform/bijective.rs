@@ -211,7 +211,7 @@ fn pulled(mesh: &PlanarMesh, [first, second]: [Handle; 2], bijective: bool) -> S
     let solution = problem
         .solve(&Settings::follow(), watch)
         .expect("a solution");
-    assert_eq!(solution.worth.inverted, 0);
+    assert_eq!(solution.quality.inverted, 0);
     assert!(!bijective || uncrossed.seen.get() > solution.summary.iterations);
     solution
 }
@@ -238,12 +238,12 @@ fn ends_of_a_horseshoe_are_dragged_through_one_another() {
     for ends in [vertices, [point(&a, &b), point(&b, &a)]] {
         let free = pulled(&mesh, ends.clone(), false);
         assert_eq!(free.summary.status, Status::Converged);
-        assert!(crossings(&mesh, &free) > 0, "{:?}", free.worth);
+        assert!(crossings(&mesh, &free) > 0, "{:?}", free.quality);
 
         let kept = pulled(&mesh, ends, true);
         assert_eq!(crossings(&mesh, &kept), 0);
-        assert_eq!(kept.summary.status, Status::Converged, "{:?}", kept.worth);
-        assert!(kept.worth.residual < 1e-16 && kept.worth.energy > free.worth.energy);
+        assert_eq!(kept.summary.status, Status::Converged, "{:?}", kept.quality);
+        assert!(kept.quality.residual < 1e-16 && kept.quality.energy > free.quality.energy);
     }
 }
 
@@ -255,9 +255,9 @@ fn targets_in_one_place_are_not_reached() {
     assert_eq!(crossings(&mesh, &kept), 0);
     // They come as near as the barrier lets them.
     assert!(
-        0.0 < kept.worth.residual && kept.worth.residual < 0.2,
+        0.0 < kept.quality.residual && kept.quality.residual < 0.2,
         "{:?}",
-        kept.worth
+        kept.quality
     );
 }
 

@@ -68,7 +68,7 @@ fn elements_tell_how_they_are_stretched_and_their_energies_add_up() {
         }
         let densities = cells[2].values.iter();
         let sum: f64 = densities.zip(weights(&problem)).map(|(e, w)| e * w).sum();
-        let energy = problem.worth(&x).energy;
+        let energy = problem.quality(&x).energy;
         assert!((sum - energy).abs() < 1e-10 * energy, "{sum} {energy}");
     }
 }

@@ -43,7 +43,7 @@ fn a_large_cage_starts_where_a_coarse_one_ends() {
     let now = large.body.determinants_at(&large.start);
     assert!(now.iter().all(|&d| d > large.barrier.epsilon));
     // It has most of the way behind it.
-    let residual = |x: &[f64]| large.worth(x).residual;
+    let residual = |x: &[f64]| large.quality(x).residual;
     let ratio = residual(&large.start) / residual(&large.body.rest);
     assert!(ratio < 0.1, "{ratio}");
 }

@@ -36,9 +36,9 @@ fn every_energy_meets_its_targets_without_an_inversion() {
             .solve(&Settings::follow(), &watch)
             .expect("a planar energy");
         assert_eq!(solution.summary.status, Status::Converged, "{energy:?}");
-        assert!(solution.worth.residual < 1e-24, "{energy:?}");
+        assert!(solution.quality.residual < 1e-24, "{energy:?}");
         assert!(
-            smallest.get() > 0.0 && solution.worth.inverted == 0,
+            smallest.get() > 0.0 && solution.quality.inverted == 0,
             "{energy:?}"
         );
     }
@@ -56,8 +56,8 @@ fn every_barrier_holds() {
         let solution = problem
             .solve(&Settings::follow(), &go_on)
             .expect("a planar energy");
-        assert_eq!(solution.worth.inverted, 0, "{kind:?}");
-        assert!(solution.worth.residual < 1e-24, "{kind:?}");
+        assert_eq!(solution.quality.inverted, 0, "{kind:?}");
+        assert!(solution.quality.residual < 1e-24, "{kind:?}");
     }
 }
 
@@ -72,9 +72,9 @@ fn a_bar_twists_by_half_a_turn_in_one_jump() {
         let solution = problem
             .solve(&Settings::follow(), &go_on)
             .expect("an energy of space");
-        assert_eq!(solution.worth.inverted, 0, "{energy:?}");
+        assert_eq!(solution.quality.inverted, 0, "{energy:?}");
         assert!(
-            solution.worth.residual < 1e-24,
+            solution.quality.residual < 1e-24,
             "{energy:?} {:?}",
             solution.summary
         );
@@ -123,7 +123,7 @@ fn a_bar_twisted_step_by_step_keeps_its_turns() {
         .solve(&Settings::follow(), &go_on)
         .expect("an energy of space");
     assert_eq!(solution.summary.status, Status::Converged);
-    assert_eq!(solution.worth.inverted, 0);
+    assert_eq!(solution.quality.inverted, 0);
     let turns = turns(&solution.x).abs();
     assert!((turns - 3.0).abs() < 1e-6, "{turns}");
     // The tangent leads so near to the next minimum that few steps are left.
@@ -159,10 +159,10 @@ fn the_papers_iteration_ends_in_the_same_minimum() {
             assert!(after.alpha >= before.alpha);
         }
         let last = iterates[iterates.len() - 1];
-        assert_eq!(last.barrier, theirs.worth.barrier);
-        assert_eq!(last.residual, theirs.worth.residual);
-        assert!(theirs.worth.residual < 1e-12 && theirs.worth.inverted == 0);
-        let [a, b] = [ours, theirs].map(|s| s.worth.energy + s.worth.barrier);
+        assert_eq!(last.barrier, theirs.quality.barrier);
+        assert_eq!(last.residual, theirs.quality.residual);
+        assert!(theirs.quality.residual < 1e-12 && theirs.quality.inverted == 0);
+        let [a, b] = [ours, theirs].map(|s| s.quality.energy + s.quality.barrier);
         assert!((a - b).abs() < 1e-4 * b.abs(), "{energy:?}: {a} {b}");
     }
 }
@@ -202,8 +202,8 @@ fn targets_out_of_reach_end_in_a_valid_map() {
         .solve(&Settings::follow(), &go_on)
         .expect("a planar energy");
     assert_eq!(solution.summary.status, Status::TargetsUnreachable);
-    assert_eq!(solution.worth.inverted, 0);
-    assert!(solution.worth.residual > 0.0);
+    assert_eq!(solution.quality.inverted, 0);
+    assert!(solution.quality.residual > 0.0);
 }
 
 #[test]
@@ -217,9 +217,9 @@ fn a_weaker_barrier_costs_less_and_none_least() {
     let free = problem
         .energy_without_barrier(&weak, &settings, &go_on)
         .expect("a planar energy");
-    assert!(weak.worth.energy < strong.worth.energy);
-    assert!(free <= weak.worth.energy * (1.0 + 1e-6));
-    assert_eq!(weak.worth.inverted, 0);
+    assert!(weak.quality.energy < strong.quality.energy);
+    assert!(free <= weak.quality.energy * (1.0 + 1e-6));
+    assert_eq!(weak.quality.inverted, 0);
 }
 
 #[test]
@@ -248,12 +248,12 @@ fn conformal_distortion_stays_below_its_bound() {
         .solve(&Settings::follow(), &go_on)
         .expect("a planar energy");
     assert_eq!(bounded.summary.status, Status::Converged);
-    assert!(bounded.worth.residual < 1e-24);
+    assert!(bounded.quality.residual < 1e-24);
     assert!(
         worst(&problem, &bounded.x) < bound,
         "{bound} of {unbounded}"
     );
-    assert!(bounded.worth.energy > free.worth.energy);
+    assert!(bounded.quality.energy > free.quality.energy);
 }
 
 #[test]
@@ -316,8 +316,8 @@ fn points_inside_elements_come_to_their_targets() {
         .solve(&Settings::follow(), &go_on)
         .expect("a planar energy");
     assert_eq!(solution.summary.status, Status::Converged);
-    assert!(solution.worth.residual < 1e-12, "{:?}", solution.worth);
-    assert_eq!(solution.worth.inverted, 0);
+    assert!(solution.quality.residual < 1e-12, "{:?}", solution.quality);
+    assert_eq!(solution.quality.inverted, 0);
 }
 
 const ARAP: Model = Model {

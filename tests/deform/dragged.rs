@@ -29,7 +29,7 @@ fn tetrahedra_follow() {
             .move_handle(ids[2], &[4.4, 0.3, 0.2 + 0.5 * way])
             .expect("a target");
         session.step();
-        assert!(session.worth().smallest > 0.0);
+        assert!(session.quality().smallest > 0.0);
     }
     settle(&mut session);
     assert_solved(&session, &body, &model);
@@ -102,7 +102,7 @@ fn the_boundary_never_crosses_itself() {
                 .expect("a target");
             session.step();
             let x = session.positions();
-            assert!(session.worth().smallest > 0.0);
+            assert!(session.quality().smallest > 0.0);
             most = most.max(boundary_crossings(x.as_chunks().0, mesh.triangles()));
         }
         assert_eq!(most == 0, bijective);
@@ -131,8 +131,11 @@ fn a_large_sheet_keeps_its_factorization() {
         let target = [50.0 + way, 100.0 + 0.5 * way];
         session.move_handle(ids[1], &target).expect("a target");
         session.step();
-        let worth = session.worth();
-        assert!(worth.smallest > 0.0 && worth.residual < 1e-18, "{worth:?}");
+        let quality = session.quality();
+        assert!(
+            quality.smallest > 0.0 && quality.residual < 1e-18,
+            "{quality:?}"
+        );
     }
     let of_frames = session.summary().factorizations - before;
     assert!((1..=8).contains(&of_frames), "{of_frames}");

@@ -27,7 +27,7 @@ fn assert_same(a: &Problem, b: &Problem) {
     for (a, b) in a.x.iter().zip(&b.x) {
         assert!((a - b).abs() <= 1e-10, "{a} {b}");
     }
-    assert!((a.worth.energy - b.worth.energy).abs() <= 1e-10 * b.worth.energy);
+    assert!((a.quality.energy - b.quality.energy).abs() <= 1e-10 * b.quality.energy);
 }
 
 #[test]

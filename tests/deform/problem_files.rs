@@ -113,7 +113,7 @@ fn assert_minimized(problem: &Problem, name: &str) {
         .solve(&Settings::follow(), &|_: &Iterate| Control::Continue)
         .expect("a planar problem");
     assert_eq!(
-        (solution.worth.inverted, solution.worth.residual),
+        (solution.quality.inverted, solution.quality.residual),
         (0, 0.0),
         "{name}"
     );
@@ -128,7 +128,7 @@ fn assert_minimized(problem: &Problem, name: &str) {
     let decrement = objective
         .newton_direction(&mut direction)
         .expect("projected");
-    let value = solution.worth.energy + solution.worth.barrier;
+    let value = solution.quality.energy + solution.quality.barrier;
     assert!(
         (objective.value(&solution.x) - value).abs() < 1e-12 * value,
         "{name}"

@@ -41,7 +41,7 @@ pub fn session(body: &Body, handles: &[Handle], model: &Model) -> (Session, Vec<
 pub fn settle(session: &mut Session) {
     let mut steps = 0;
     while session.step() == Stage::Moving {
-        assert!(session.worth().smallest > 0.0);
+        assert!(session.quality().smallest > 0.0);
         steps += 1;
         assert!(steps < 500, "{:?}", session.summary());
     }
@@ -61,8 +61,8 @@ pub fn assert_solved(session: &Session, body: &Body, model: &Model) {
         ..Settings::follow()
     };
     let solution = problem.solve(&settings, &|_: &Iterate| Control::Continue);
-    let solved = solution.expect("a map").worth;
-    let found = session.worth();
+    let solved = solution.expect("a map").quality;
+    let found = session.quality();
     let relative = |found: f64, solved: f64| (found - solved).abs() / solved.abs().max(1e-3);
     let difference = relative(found.energy + found.barrier, solved.energy + solved.barrier);
     assert!(difference < 1e-6, "{found:?} {solved:?}");
@@ -95,7 +95,7 @@ fn it_settles_where_a_problem_ends() {
             .move_handle(ids[2], &[6.3e-3, 0.4e-3 + way])
             .expect("a target");
         session.step();
-        assert!(session.worth().smallest > 0.0);
+        assert!(session.quality().smallest > 0.0);
     }
     settle(&mut session);
     assert_solved(&session, &body, &model);
@@ -112,12 +112,12 @@ fn handles_come_and_go_with_one_analysis() {
         .move_handle(ids[1], &[11e-3, 3e-3])
         .expect("a target");
     settle(&mut session);
-    let held = session.worth().energy;
+    let held = session.quality().energy;
     let pulled = session
         .add(point(&[6.3e-3, 0.4e-3], &[6e-3, 2e-3]))
         .expect("a point");
     settle(&mut session);
-    assert!(session.worth().energy > held);
+    assert!(session.quality().energy > held);
     assert_solved(&session, &body, &model);
     let other = session.add(vertex(20, &[6e-3, 4e-3])).expect("a vertex");
     session.remove(pulled).expect("a handle");
@@ -132,7 +132,7 @@ fn handles_come_and_go_with_one_analysis() {
     assert_solved(&session, &body, &model);
     session.remove(other).expect("a handle");
     settle(&mut session);
-    assert!((session.worth().energy / held - 1.0).abs() < 1e-6);
+    assert!((session.quality().energy / held - 1.0).abs() < 1e-6);
     assert_eq!(session.analyses(), 1);
 }
 

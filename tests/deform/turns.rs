@@ -54,8 +54,8 @@ fn a_stretched_bar_keeps_all_turns_of_its_end() {
     let solution = problem.solve(&Settings::follow(), &go_on);
     let solution = solution.expect("an energy of space");
     assert_eq!(solution.summary.status, Status::Converged);
-    assert_eq!(solution.worth.inverted, 0);
-    assert!(solution.worth.residual < 1e-24);
+    assert_eq!(solution.quality.inverted, 0);
+    assert!(solution.quality.residual < 1e-24);
     let turns = sole(&problem.turns(&solution.x));
     assert_eq!((turns.handle, turns.asked), (1, 3.0));
     // The bar bends a little.
@@ -164,7 +164,7 @@ fn a_disc_in_a_fixed_border_keeps_its_turns_however_sheared() {
     let solution = problem
         .solve(&Settings::follow(), &go_on)
         .expect("an energy of the plane");
-    assert_eq!(solution.worth.inverted, 0);
+    assert_eq!(solution.quality.inverted, 0);
     let turns = sole(&problem.turns(&solution.x));
     assert_eq!(turns.asked, 2.0);
     assert!((turns.left - 2.0).abs() < 1e-9, "{turns:?}");

@@ -86,7 +86,7 @@ fn a_problem_posed_elsewhere_has_the_same_solution() {
         for elsewhere in places() {
             let there = &solved(&elsewhere.pose(&problem));
             let what = format!("{:?} {elsewhere:?}", problem.energy);
-            let difference = there.worth.energy / here.worth.energy - 1.0;
+            let difference = there.quality.energy / here.quality.energy - 1.0;
             assert!(difference.abs() < 1e-6, "{what}: {difference:e}");
             let [there, here] = [there, here].map(|it| it.summary.iterations);
             assert!(
@@ -113,9 +113,9 @@ fn solutions_are_in_the_unit_of_their_mesh() {
     for (&v, target) in handles.vertices.iter().zip(targets) {
         assert_eq!(&there.x.as_chunks::<2>().0[v as usize], target);
     }
-    let energy = posed.worth(&there.x).energy / there.worth.energy;
+    let energy = posed.quality(&there.x).energy / there.quality.energy;
     assert!((energy - 1.0).abs() < 1e-12, "{energy}");
-    assert_eq!(there.worth.residual, 0.0);
+    assert_eq!(there.quality.residual, 0.0);
 }
 
 #[test]
@@ -126,7 +126,7 @@ fn a_problem_means_its_numbers_as_given_if_it_says_so() {
         ..normalized.clone()
     };
     // A triangle of the strip has area ½: in its own unit, half the energy of the normalized one.
-    let [normalized, given] = [normalized, given].map(|problem| solved(&problem).worth);
+    let [normalized, given] = [normalized, given].map(|problem| solved(&problem).quality);
     let ratio = normalized.energy / given.energy;
     assert!((ratio - 2.0).abs() < 1e-2, "{ratio}");
 }

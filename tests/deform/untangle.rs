@@ -46,7 +46,7 @@ fn a_tangled_start_is_untangled_where_it_is() {
     let solution = problem
         .solve(&Settings::follow(), &|_: &Iterate| Control::Continue)
         .expect("a problem of the plane");
-    assert_eq!(solution.worth.inverted, 0);
+    assert_eq!(solution.quality.inverted, 0);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use unwrapd_deform::{Body, Handle, Model, Problem, Solution, Units};
 use unwrapd_method::solver::{
-    Control, Handles, Iterate, Journey, Objective, Pace, Settings, Status,
+    Continuation, Control, Handles, Iterate, LeastProgress, Objective, Settings, Status,
 };
 
 use crate::bodies::{block, sheet};
@@ -22,7 +22,7 @@ fn solved(problem: &Problem) -> Solution {
     let solution = problem
         .solve(&Settings::follow(), &go_on)
         .expect("a solution");
-    assert_eq!(solution.worth.inverted, 0);
+    assert_eq!(solution.quality.inverted, 0);
     solution
 }
 
@@ -41,7 +41,7 @@ fn vertices_that_change_places_pass_each_other() {
     let problem = swapped();
     let solution = solved(&problem);
     assert_eq!(solution.summary.status, Status::Converged);
-    assert!(solution.worth.residual < 1e-16, "{:?}", solution.worth);
+    assert!(solution.quality.residual < 1e-16, "{:?}", solution.quality);
     assert_eq!(problem.unreached(&solution), []);
 }
 
@@ -54,7 +54,7 @@ fn a_search_ends_no_higher_and_counts_all_its_work() {
     };
     let best = solved(&search);
     assert_eq!(best.summary.status, Status::Converged);
-    let [low, high] = [&best, &first].map(|s| s.worth.energy + s.worth.barrier);
+    let [low, high] = [&best, &first].map(|s| s.quality.energy + s.quality.barrier);
     assert!(low <= high * (1.0 + 1e-6), "{low} {high}");
     assert!(best.summary.iterations > first.summary.iterations);
 }
@@ -91,7 +91,7 @@ fn places_that_all_meet_on_straight_ways_arrive() {
     let solution = solved(&problem);
     assert_eq!(problem.unreached(&solution), []);
     assert_eq!(solution.summary.status, Status::Converged);
-    assert!(solution.worth.residual < 1e-16, "{:?}", solution.worth);
+    assert!(solution.quality.residual < 1e-16, "{:?}", solution.quality);
     assert!(solution.summary.iterations < 1000, "{:?}", solution.summary);
 }
 
@@ -110,22 +110,30 @@ fn a_journey_that_pauses_arrives_when_it_goes_on() {
     let mut objective = Objective::of_terms(problem.body.n_vertices(), terms);
     let (mut x, settings) = (problem.start.clone(), Settings::follow());
     let stations = vec![station.clone()];
-    let journey = Journey::<2>::new(&mut objective, &x, stations, &settings);
-    let mut journey = journey.expect("fitting handles");
+    let continuation = Continuation::<2>::new(&mut objective, &x, stations, &settings);
+    let mut continuation = continuation.expect("fitting handles");
     // Nothing is fast enough for this pace.
-    let pace = Pace {
+    let least_progress = LeastProgress {
         window: 1,
         gain: 1.0,
     };
-    (journey.go_on(&mut objective, &mut x, &settings, pace, &go_on)).expect("fitting handles");
-    assert!(journey.is_paused());
-    assert!(0.0 < journey.share() && journey.share() < 1.0);
-    assert_eq!(journey.summary().status, Status::TargetsUnreachable);
-    let before = journey.summary().iterations;
-    (journey.go_on(&mut objective, &mut x, &settings, Pace::ANY, &go_on)).expect("fitting handles");
-    assert!(!journey.is_paused());
-    assert_eq!(journey.share(), 1.0);
-    assert!(journey.summary().iterations > before);
+    (continuation.go_on(&mut objective, &mut x, &settings, least_progress, &go_on))
+        .expect("fitting handles");
+    assert!(continuation.is_paused());
+    assert!(0.0 < continuation.share() && continuation.share() < 1.0);
+    assert_eq!(continuation.summary().status, Status::TargetsUnreachable);
+    let before = continuation.summary().iterations;
+    (continuation.go_on(
+        &mut objective,
+        &mut x,
+        &settings,
+        LeastProgress::ANY,
+        &go_on,
+    ))
+    .expect("fitting handles");
+    assert!(!continuation.is_paused());
+    assert_eq!(continuation.share(), 1.0);
+    assert!(continuation.summary().iterations > before);
     for (&v, to) in station.vertices.iter().zip(station.targets.chunks(2)) {
         assert_eq!(&x[2 * v as usize..2 * v as usize + 2], to);
     }
@@ -153,7 +161,7 @@ fn in_space_ways_bend_too() {
     let problem = Problem::new(body, &handles, &Model::default()).expect("a problem");
     let solution = solved(&problem);
     assert_eq!(solution.summary.status, Status::Converged);
-    assert!(solution.worth.residual < 1e-16, "{:?}", solution.worth);
+    assert!(solution.quality.residual < 1e-16, "{:?}", solution.quality);
 }
 
 const CELLS: u32 = 4;
@@ -183,7 +191,7 @@ fn assert_only_the_first_is_not_reached(body: Body, mut handles: Vec<Handle>, bo
     let unreached = problem.unreached(&solution);
     assert_eq!(unreached.len(), 1, "{unreached:?}");
     assert_eq!(unreached[0].handle, 0);
-    let gap = solution.worth.residual.sqrt();
+    let gap = solution.quality.residual.sqrt();
     assert!((unreached[0].distance - gap).abs() < 1e-6 * gap, "{gap}");
 }
 

@@ -83,11 +83,11 @@ fn a_sphere_is_bent_in_its_cage() {
         disc([0.0, 0.0, 1.0], 0.75, [step[0], 0.0, 1.0 + step[2]]),
     ];
     let (solution, written, report) = deformed(&sphere, &handles);
-    assert_eq!(solution.worth.inverted, 0);
+    assert_eq!(solution.quality.inverted, 0);
     assert!(
-        solution.worth.residual < 1e-12,
+        solution.quality.residual < 1e-12,
         "{}",
-        solution.worth.residual
+        solution.quality.residual
     );
     assert_eq!(report.tets, 6 * report.voxels);
     assert_eq!(report.surface_vertices, sphere.positions.len());
@@ -119,7 +119,7 @@ fn a_part_without_a_handle_stays_at_rest() {
     let handles = [disc([0.0, 0.0, -1.0], 1.0, [0.0, 0.0, -1.0]), pulled];
     let (solution, written, report) = deformed(&both, &handles);
     assert_eq!(report.idle_parts, 1);
-    assert_eq!(solution.worth.inverted, 0);
+    assert_eq!(solution.quality.inverted, 0);
     let after = positions(&written);
     assert!(after[0][2] > 1.3, "{:?}", after[0]);
     for v in n..after.len() {

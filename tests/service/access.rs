@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use unwrapd::jobs::access::{KeyText, Owner, Reach, Scope, Scopes};
+use unwrapd::jobs::access::{KeyText, Owner, Scope, Scopes, Visibility};
 
 fn scopes(text: &str) -> Option<Scopes> {
     text.parse().ok()
@@ -40,10 +40,10 @@ fn owners_have_plain_names() {
     }
     assert_eq!(Owner::anonymous().name(), None);
     let alice: Owner = "alice".parse().expect("a name");
-    let own = Reach::Own(alice.clone());
+    let own = Visibility::Own(alice.clone());
     assert!(own.covers(&alice) && !own.covers(&Owner::anonymous()));
-    assert!(Reach::All.covers(&alice));
-    assert!(!Reach::Own(Owner::anonymous()).covers(&alice));
+    assert!(Visibility::All.covers(&alice));
+    assert!(!Visibility::Own(Owner::anonymous()).covers(&alice));
 }
 
 #[test]

@@ -13,6 +13,7 @@ mod cluster;
 mod contract;
 mod deforming;
 mod deployment;
+mod estimates;
 mod figures;
 #[path = "../harness/mod.rs"]
 #[expect(dead_code, reason = "some is for the benchmark")]
@@ -21,7 +22,6 @@ mod losses;
 mod materials;
 mod meshes;
 mod openapi;
-mod pace;
 mod pages;
 #[path = "../places.rs"]
 mod places;

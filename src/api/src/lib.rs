@@ -42,5 +42,5 @@ pub use task::{
     read_json, read_upload, write_json,
 };
 pub use upload::{START, Upload};
-pub use verdict::{Verdict, Worth};
+pub use verdict::{Quality, Verdict};
 pub use warning::Warning;

@@ -10,7 +10,7 @@ use crate::Warning;
 pub struct Verdict {
     /// Quality figures; `certified` states whether everything requested is proven on the bytes written.
     #[serde(flatten)]
-    pub worth: Worth,
+    pub quality: Quality,
     /// Outcome of the requested bound on distortion: true if it is kept, `None` without a bound.
     pub within_bound: Option<bool>,
     /// Warnings about the input, the work and the result.
@@ -22,7 +22,7 @@ pub struct Verdict {
 /// Quality figures of a result, as far as its kind reports them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Worth {
+pub struct Quality {
     /// True if everything requested is proven; `None` for kinds that prove nothing.
     pub certified: Option<bool>,
     /// Number of charts of all atlases.
@@ -33,7 +33,7 @@ pub struct Worth {
     pub stretch: Option<f64>,
 }
 
-impl Worth {
+impl Quality {
     /// Returns the figures of a result for which only this is known.
     pub fn proven(certified: bool) -> Self {
         Self {

@@ -6,7 +6,7 @@ use super::solve::Solution;
 use unwrapd_method::numerics::rotation::Rotation;
 use unwrapd_method::numerics::square::{Matrix, Square};
 use unwrapd_method::solver::{
-    Continued, Handles, Journey, Objective, Pace, Settings, Status, Summary, Watch,
+    Continuation, Continued, Handles, LeastProgress, Objective, Settings, Status, Summary, Watch,
 };
 
 /// Shared state of all attempts: the problem, the objective, the settings, and the work done so far.
@@ -43,7 +43,7 @@ impl Trial<'_> {
 /// A map and the journey of its handles.
 pub(super) struct Attempt<const D: usize> {
     x: Vec<f64>,
-    journey: Journey<D>,
+    continuation: Continuation<D>,
     settings: Settings,
 }
 
@@ -62,10 +62,10 @@ where
             max_iterations,
             ..trial.settings
         };
-        let journey = Journey::new(&mut trial.objective, &x, stations, &settings)?;
+        let continuation = Continuation::new(&mut trial.objective, &x, stations, &settings)?;
         Ok(Self {
             x,
-            journey,
+            continuation,
             settings,
         })
     }
@@ -90,15 +90,19 @@ where
     }
 
     /// Continues as long as it keeps the pace.
-    pub fn go_on(&mut self, trial: &mut Trial, pace: Pace) -> Result<(), ProblemError> {
-        let before = self.journey.summary();
+    pub fn go_on(
+        &mut self,
+        trial: &mut Trial,
+        least_progress: LeastProgress,
+    ) -> Result<(), ProblemError> {
+        let before = self.continuation.summary();
         let watch = Continued {
             watch: trial.watch,
             before: trial.total.iterations - before.iterations,
         };
         let (objective, settings) = (&mut trial.objective, &self.settings);
-        (self.journey).go_on(objective, &mut self.x, settings, pace, &watch)?;
-        let now = self.journey.summary();
+        (self.continuation).go_on(objective, &mut self.x, settings, least_progress, &watch)?;
+        let now = self.continuation.summary();
         trial.add(&Summary {
             iterations: now.iterations - before.iterations,
             factorizations: now.factorizations - before.factorizations,
@@ -109,11 +113,11 @@ where
 
     /// Returns whether it may continue at a slower pace.
     pub fn is_paused(&self) -> bool {
-        self.journey.is_paused()
+        self.continuation.is_paused()
     }
 
     pub fn is_stopped(&self) -> bool {
-        self.journey.summary().status == Status::Stopped
+        self.continuation.summary().status == Status::Stopped
     }
 
     /// Returns whether no more attempts are needed. With `search` all are made, unless stopped.
@@ -122,13 +126,13 @@ where
     }
 
     pub fn has_arrived(&self) -> bool {
-        let status = self.journey.summary().status;
+        let status = self.continuation.summary().status;
         !matches!(status, Status::TargetsUnreachable | Status::Stopped)
     }
 
     /// Returns the energy of its map.
     pub fn energy(&self) -> f64 {
-        self.journey.summary().energy_last
+        self.continuation.summary().energy_last
     }
 
     /// Returns the better attempt: that of the lower energy if both have arrived, otherwise the one that has or has
@@ -136,7 +140,7 @@ where
     pub fn or(self, other: Self) -> Self {
         let is_better = match (self.has_arrived(), other.has_arrived()) {
             (true, true) => other.energy() < self.energy(),
-            (false, false) => other.journey.share() > self.journey.share(),
+            (false, false) => other.continuation.share() > self.continuation.share(),
             (_, arrived) => arrived,
         };
         if is_better { other } else { self }
@@ -149,7 +153,7 @@ where
 
     /// Returns its map as a solution.
     pub fn into_solution(self, trial: &Trial) -> Solution {
-        let summary = self.journey.summary();
+        let summary = self.continuation.summary();
         trial.solution(self.x, summary.status, summary.energy_last)
     }
 }

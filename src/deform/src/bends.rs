@@ -1,8 +1,8 @@
 //! Bends of paths to try.
 
 use super::axes::axes;
+use super::handle_path::{BEND, HandlePath, paths};
 use super::problem::Problem;
-use super::way::{BEND, Way, ways};
 use unwrapd_method::numerics::vec3;
 
 /// Most bends that are tried: each may cost as many iterations as the straight paths.
@@ -18,15 +18,15 @@ impl Problem {
         let Some(last) = self.stations.last() else {
             return Vec::new();
         };
-        let ways = ways(self.body.dim(), last, &self.start);
-        let longest = ways.iter().map(Way::length).fold(0.0, f64::max);
-        let is_moving = |way: &Way| way.length() > SHORTEST * longest;
+        let paths = paths(self.body.dim(), last, &self.start);
+        let longest = paths.iter().map(HandlePath::length).fold(0.0, f64::max);
+        let is_moving = |path: &HandlePath| path.length() > SHORTEST * longest;
         let axes = axes(&self.body);
         let bent = |axis: [f64; 3], bend: &dyn Fn(usize) -> f64| {
             let mut n_moving = 0;
-            let bends = ways.iter().map(|way| {
-                n_moving += usize::from(is_moving(way));
-                way.left(axis).map(|x| bend(n_moving) * x)
+            let bends = paths.iter().map(|path| {
+                n_moving += usize::from(is_moving(path));
+                path.left(axis).map(|x| bend(n_moving) * x)
             });
             bends.collect::<Vec<_>>()
         };
@@ -35,7 +35,7 @@ impl Problem {
             all.extend([BEND, -BEND].map(|height| bent(axis, &|_| height)));
         }
         let first = axes[0];
-        all.push(apart(&ways, &axes));
+        all.push(apart(&paths, &axes));
         all.extend([1.0, -1.0].map(|side| bent(first, &|_| 2.0 * side * BEND)));
         all.extend([0, 1].map(|odd| bent(first, &|n| if n % 2 == odd { BEND } else { -BEND })));
         distinct(all)
@@ -71,19 +71,19 @@ const HEIGHTS: [f64; 6] = [-2.0, -1.0, -0.5, 0.5, 1.0, 2.0];
 /// Chooses a bend for each path greedily, in several sweeps, so that handles moving at the same time come as little
 /// closer to each other than at the start or the end as possible. With more than [`MOST_COMPARED`] paths all stay
 /// straight.
-fn apart(ways: &[Way], axes: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    let mut bends = vec![[0.0; 3]; ways.len()];
-    if ways.len() > MOST_COMPARED {
+fn apart(paths: &[HandlePath], axes: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let mut bends = vec![[0.0; 3]; paths.len()];
+    if paths.len() > MOST_COMPARED {
         return bends;
     }
-    let mut tracks: Vec<Track> = ways.iter().map(|way| track(way, [0.0; 3])).collect();
+    let mut tracks: Vec<Track> = paths.iter().map(|path| track(path, [0.0; 3])).collect();
     for _ in 0..SWEEPS {
         let mut has_changed = false;
         // Let each path in turn choose the bend that crowds the others least.
-        for (i, way) in ways
+        for (i, path) in paths
             .iter()
             .enumerate()
-            .filter(|(_, way)| way.length() > 0.0)
+            .filter(|(_, path)| path.length() > 0.0)
         {
             let crowding = |candidate: &Track| -> f64 {
                 let others = tracks.iter().enumerate().filter(|&(j, _)| j != i);
@@ -91,8 +91,8 @@ fn apart(ways: &[Way], axes: &[[f64; 3]]) -> Vec<[f64; 3]> {
             };
             let mut least = crowding(&tracks[i]);
             let mut chosen = None;
-            for bend in choices(way, axes) {
-                let candidate = track(way, bend);
+            for bend in choices(path, axes) {
+                let candidate = track(path, bend);
                 let crowding = crowding(&candidate);
                 // Rounding must not exchange equally good bends: sweeps would not end.
                 if crowding < (1.0 - 1e-9) * least {
@@ -113,21 +113,21 @@ fn apart(ways: &[Way], axes: &[[f64; 3]]) -> Vec<[f64; 3]> {
 
 type Track = [[f64; 3]; PLACES + 1];
 
-fn choices(way: &Way, axes: &[[f64; 3]]) -> impl Iterator<Item = [f64; 3]> {
+fn choices(path: &HandlePath, axes: &[[f64; 3]]) -> impl Iterator<Item = [f64; 3]> {
     let bent = |axis: &[f64; 3]| {
-        let left = way.left(*axis);
+        let left = path.left(*axis);
         HEIGHTS.map(|height| left.map(|x| height * BEND * x))
     };
     axes.iter().flat_map(bent).chain([[0.0; 3]])
 }
 
 /// Returns the positions of a handle at equal time steps.
-fn track(way: &Way, bend: [f64; 3]) -> Track {
-    let straight = vec3::sub(way.to, way.from);
+fn track(path: &HandlePath, bend: [f64; 3]) -> Track {
+    let straight = vec3::sub(path.to, path.from);
     std::array::from_fn(|k| {
         let s = k as f64 / PLACES as f64;
-        let height = 2.0 * s * (1.0 - s) * way.length();
-        vec3::add_scaled(vec3::add_scaled(way.from, s, straight), height, bend)
+        let height = 2.0 * s * (1.0 - s) * path.length();
+        vec3::add_scaled(vec3::add_scaled(path.from, s, straight), height, bend)
     })
 }
 

@@ -25,7 +25,7 @@ pub struct Turned {
 }
 
 /// Path of a vertex or a point: an arm that turns at constant speed about a center that moves straight.
-pub(super) struct Way<const D: usize> {
+pub(super) struct TurningPath<const D: usize> {
     pub from: [f64; D],
     pub to: [f64; D],
     pub arm: [f64; D],
@@ -33,7 +33,7 @@ pub(super) struct Way<const D: usize> {
     pub spin: Matrix<D>,
 }
 
-impl<const D: usize> Way<D>
+impl<const D: usize> TurningPath<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
@@ -58,8 +58,8 @@ where
 pub(super) fn stations<const D: usize>(
     last: Handles,
     of_vertex: &dyn Fn(u32) -> usize,
-    ways: &[Way<D>],
-    point_ways: &[Way<D>],
+    paths: &[TurningPath<D>],
+    point_paths: &[TurningPath<D>],
     turns: &[Turned],
 ) -> Vec<Handles>
 where
@@ -75,8 +75,8 @@ where
     let n_stations = (largest / BETWEEN_STATIONS).ceil();
     let between = (1..n_stations as usize).map(|k| {
         let share = k as f64 / n_stations;
-        let places = last.vertices.iter().map(|&v| ways[of_vertex(v)].at(share));
-        let points = point_ways.iter().map(|way| way.at(share));
+        let places = last.vertices.iter().map(|&v| paths[of_vertex(v)].at(share));
+        let points = point_paths.iter().map(|path| path.at(share));
         Handles {
             targets: places.flatten().collect(),
             point_targets: points.flatten().collect(),

@@ -42,7 +42,7 @@ impl Problem {
         watch: &dyn Watch,
     ) -> Result<f64, ProblemError> {
         let limit = self.lowered(solution.clone(), LEAST_CHANGE, settings, watch)?;
-        Ok(limit.worth.energy)
+        Ok(limit.quality.energy)
     }
 
     /// Lowers β as long as each step decreases the energy by the share `least_gain`; returns the last map that did.
@@ -63,8 +63,8 @@ impl Problem {
             let mut weaker = self.from(&best);
             weaker.barrier.beta = beta;
             let next = weaker.solve(settings, watch)?;
-            let wanted = best.worth.energy - least_gain * best.worth.energy.abs();
-            if next.summary.status == Status::TargetsUnreachable || next.worth.energy > wanted {
+            let wanted = best.quality.energy - least_gain * best.quality.energy.abs();
+            if next.summary.status == Status::TargetsUnreachable || next.quality.energy > wanted {
                 break;
             }
             best = Solution {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::aims::Aim;
 use super::body::{Body, BodyElements};
-use super::bound::{Turned, Way, stations};
+use super::bound::{Turned, TurningPath, stations};
 use super::locate::{locate, sole_vertex};
 use super::numbers;
 use super::paired::{handles as paired, with_points};
@@ -103,9 +103,9 @@ pub fn bind(body: &Body, handles: &[Handle]) -> Result<Bound, ProblemError> {
 struct Binder<'a, const D: usize> {
     body: &'a Body,
     vertices: Vec<u32>,
-    ways: Vec<Way<D>>,
+    paths: Vec<TurningPath<D>>,
     points: Vec<Row>,
-    point_ways: Vec<Way<D>>,
+    point_paths: Vec<TurningPath<D>>,
     turns: Vec<Turned>,
     aims: Vec<Aim>,
 }
@@ -118,9 +118,9 @@ where
         Self {
             body,
             vertices: Vec::new(),
-            ways: Vec::new(),
+            paths: Vec::new(),
             points: Vec::new(),
-            point_ways: Vec::new(),
+            point_paths: Vec::new(),
             turns: Vec::new(),
             aims: Vec::new(),
         }
@@ -139,14 +139,18 @@ where
             return Err(ProblemError::NoHandle);
         }
         let groups = self.groups();
-        let targets: Vec<Vec<f64>> = self.ways.iter().map(|way| way.at(1.0).to_vec()).collect();
+        let targets: Vec<Vec<f64>> = self
+            .paths
+            .iter()
+            .map(|path| path.at(1.0).to_vec())
+            .collect();
         let bound = paired(D, &self.vertices, &targets, &groups)?;
-        let point_targets = self.point_ways.iter().flat_map(|way| way.at(1.0));
+        let point_targets = self.point_paths.iter().flat_map(|path| path.at(1.0));
         let last = with_points(bound, self.points, point_targets.collect())?;
         let way_of: HashMap<u32, usize> = self.vertices.iter().copied().zip(0..).collect();
         let way_of = |vertex| way_of[&vertex];
         Ok(Bound {
-            stations: stations(last, &way_of, &self.ways, &self.point_ways, &self.turns),
+            stations: stations(last, &way_of, &self.paths, &self.point_paths, &self.turns),
             turns: self.turns,
             aims: self.aims,
         })
@@ -179,8 +183,8 @@ where
     fn moves(&self, i: usize) -> bool {
         let rest = &self.body.rest[D * self.vertices[i] as usize..];
         let differ = |(x, to): (&f64, f64)| (x - to).abs() > ROUNDING * x.abs().max(to.abs());
-        let way = &self.ways[i];
-        way.spin != [[0.0; D]; D] || rest.iter().zip(way.at(1.0)).any(differ)
+        let path = &self.paths[i];
+        path.spin != [[0.0; D]; D] || rest.iter().zip(path.at(1.0)).any(differ)
     }
 
     fn add(&mut self, index: usize, handle: &Handle) -> Result<(), ProblemError> {
@@ -214,7 +218,7 @@ where
                     self.add_vertex(vertex, to);
                 } else {
                     self.points.push(row);
-                    self.point_ways.push(Way::straight(at, to));
+                    self.point_paths.push(TurningPath::straight(at, to));
                 }
             }
         }
@@ -227,7 +231,8 @@ where
 
     fn add_vertex(&mut self, vertex: u32, to: [f64; D]) {
         self.vertices.push(vertex);
-        self.ways.push(Way::straight(self.place(vertex), to));
+        self.paths
+            .push(TurningPath::straight(self.place(vertex), to));
     }
 
     fn add_disc(
@@ -249,7 +254,7 @@ where
             let arm: [f64; D] = std::array::from_fn(|k| place[k] - center[k]);
             if arm.iter().map(|x| x * x).sum::<f64>() <= radius * radius {
                 self.vertices.push(v);
-                self.ways.push(Way {
+                self.paths.push(TurningPath {
                     from: center,
                     to,
                     arm,

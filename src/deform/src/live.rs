@@ -4,7 +4,7 @@ use super::body::BodyElements;
 use super::problem::Problem;
 use super::problem_error::ProblemError;
 use unwrapd_maps::plane::are_disjoint;
-use unwrapd_method::solver::{Drag, Handles, Objective, Stage, Summary};
+use unwrapd_method::solver::{Handles, InteractiveContinuation, Objective, Stage, Summary};
 
 /// Distance from their targets, for mean elements of size 1, within which handles have arrived: a body at rest stays at
 /// rest.
@@ -16,13 +16,13 @@ pub(super) struct Live {
     problem: Problem,
     objective: Objective,
     x: Vec<f64>,
-    drag: Drags,
+    continuation: LiveContinuation,
 }
 
 /// A drag in the plane or in space.
-enum Drags {
-    Planar(Drag<2>),
-    Spatial(Drag<3>),
+enum LiveContinuation {
+    Planar(InteractiveContinuation<2>),
+    Spatial(InteractiveContinuation<3>),
 }
 
 impl Live {
@@ -31,15 +31,15 @@ impl Live {
         handles.check(problem.body.dim(), problem.start.len())?;
         let mut objective = problem.objective()?;
         let x = problem.start.clone();
-        let drag = match problem.body.dim() {
-            2 => Drags::Planar(Drag::new(&mut objective, &x)?),
-            _ => Drags::Spatial(Drag::new(&mut objective, &x)?),
+        let continuation = match problem.body.dim() {
+            2 => LiveContinuation::Planar(InteractiveContinuation::new(&mut objective, &x)?),
+            _ => LiveContinuation::Spatial(InteractiveContinuation::new(&mut objective, &x)?),
         };
         let mut live = Self {
             problem,
             objective,
             x,
-            drag,
+            continuation,
         };
         live.aim(handles)?;
         Ok(live)
@@ -51,12 +51,12 @@ impl Live {
         handles.check(objective.dim(), x.len())?;
         self.problem.stations = vec![handles];
         let handles = &self.problem.stations[0];
-        if *x == self.problem.body.rest && self.problem.worth_as_given(x).residual > NEAR * NEAR {
+        if *x == self.problem.body.rest && self.problem.quality_as_given(x).residual > NEAR * NEAR {
             self.problem.shake(objective, x);
         }
-        match &mut self.drag {
-            Drags::Planar(drag) => drag.aim(objective, x, handles)?,
-            Drags::Spatial(drag) => drag.aim(objective, x, handles)?,
+        match &mut self.continuation {
+            LiveContinuation::Planar(continuation) => continuation.aim(objective, x, handles)?,
+            LiveContinuation::Spatial(continuation) => continuation.aim(objective, x, handles)?,
         }
         Ok(())
     }
@@ -64,23 +64,23 @@ impl Live {
     /// Runs one iteration, unless nothing is left to do.
     pub fn step(&mut self) -> Stage {
         let (objective, x) = (&mut self.objective, &mut self.x);
-        match &mut self.drag {
-            Drags::Planar(drag) => drag.step(objective, x),
-            Drags::Spatial(drag) => drag.step(objective, x),
+        match &mut self.continuation {
+            LiveContinuation::Planar(continuation) => continuation.step(objective, x),
+            LiveContinuation::Spatial(continuation) => continuation.step(objective, x),
         }
     }
 
     pub fn stage(&self) -> Stage {
-        match &self.drag {
-            Drags::Planar(drag) => drag.stage(),
-            Drags::Spatial(drag) => drag.stage(),
+        match &self.continuation {
+            LiveContinuation::Planar(continuation) => continuation.stage(),
+            LiveContinuation::Spatial(continuation) => continuation.stage(),
         }
     }
 
     pub fn summary(&self) -> &Summary {
-        match &self.drag {
-            Drags::Planar(drag) => drag.summary(),
-            Drags::Spatial(drag) => drag.summary(),
+        match &self.continuation {
+            LiveContinuation::Planar(continuation) => continuation.summary(),
+            LiveContinuation::Spatial(continuation) => continuation.summary(),
         }
     }
 

@@ -3,15 +3,15 @@
 use super::aims::Aim;
 use super::attempt::{Attempt, Trial};
 use super::axes::axes;
+use super::handle_path::{BEND, HandlePath, paths};
 use super::normalized::Frame;
 use super::problem::Problem;
 use super::problem_error::ProblemError;
 use super::solve::Solution;
 use super::unreached::Gaps;
-use super::way::{BEND, Way, ways};
 use unwrapd_method::numerics::rotation::Rotation;
 use unwrapd_method::numerics::square::{Matrix, Square};
-use unwrapd_method::solver::{Handles, Pace, Status};
+use unwrapd_method::solver::{Handles, LeastProgress, Status};
 
 /// Most iterations, of all attempts and of each.
 const MOST: usize = 1000;
@@ -146,7 +146,7 @@ where
             let station = self.only(set, side);
             let x = std::mem::take(&mut self.x);
             let mut attempt = Attempt::<D>::new(trial, x, vec![station], most)?;
-            attempt.go_on(trial, Pace::BRISK)?;
+            attempt.go_on(trial, LeastProgress::BRISK)?;
             let has_arrived = attempt.has_arrived();
             self.is_stopped = attempt.is_stopped();
             self.energy = attempt.energy();
@@ -188,9 +188,9 @@ where
         // Bend the paths of the parts to one side.
         if side != 0.0 {
             let axis = axes(&self.problem.body)[0];
-            let ways = ways(D, &station, &self.x);
-            let bent = |way: &Way| way.left(axis).map(|x| side * x);
-            station.bends = ways.iter().map(bent).collect();
+            let paths = paths(D, &station, &self.x);
+            let bent = |path: &HandlePath| path.left(axis).map(|x| side * x);
+            station.bends = paths.iter().map(bent).collect();
         }
         station
     }

@@ -184,15 +184,15 @@ pub(super) fn pull(
         units: Units::Normalized,
         ..problem
     };
-    let worth = normalized.worth(vertices.as_flattened());
+    let quality = normalized.quality(vertices.as_flattened());
     Ok(PulledMap {
         summary: PullSummary {
             status: solution.summary.status,
             iterations: solution.summary.iterations,
             factorizations: solution.summary.factorizations,
-            energy: worth.energy,
-            residual: worth.residual * unit * unit,
-            smallest: worth.smallest,
+            energy: quality.energy,
+            residual: quality.residual * unit * unit,
+            smallest: quality.smallest,
             unreached,
         },
         vertices,

@@ -10,7 +10,7 @@ use super::normalized::Frame;
 use super::problem::{Model, Problem};
 use super::problem_error::ProblemError;
 use super::pull::is_arrived;
-use super::worth::Worth;
+use super::quality::MapQuality;
 use unwrapd_method::solver::{Handles, Stage, Summary};
 
 /// A session in which a body is deformed: its mesh and energy are built once, handles are added, moved and removed, and
@@ -92,9 +92,9 @@ impl Session {
     }
 
     /// Measures the present map.
-    pub fn worth(&self) -> Worth {
+    pub fn quality(&self) -> MapQuality {
         let LiveBody { frame, live, .. } = &self.map;
-        live.problem().worth_as_given(live.x()).restored(frame)
+        live.problem().quality_as_given(live.x()).restored(frame)
     }
 }
 

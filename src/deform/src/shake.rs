@@ -24,13 +24,13 @@ impl Problem {
         let mut moves = vec![0.0; x.len()];
         for v in 0..n_vertices {
             let (other, share) = (random.below(n_vertices), random.unit());
-            let way = |k: usize| x[dim * other + k] - x[dim * v + k];
-            let length = (0..dim).map(|k| way(k) * way(k)).sum::<f64>().sqrt();
+            let path = |k: usize| x[dim * other + k] - x[dim * v + k];
+            let length = (0..dim).map(|k| path(k) * path(k)).sum::<f64>().sqrt();
             if is_held[v] || length == 0.0 {
                 continue;
             }
             for k in 0..dim {
-                moves[dim * v + k] = amplitude * share * way(k) / length;
+                moves[dim * v + k] = amplitude * share * path(k) / length;
             }
         }
         if objective.largest_step(x, &moves) > 1.0 {

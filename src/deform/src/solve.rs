@@ -6,8 +6,8 @@ use super::boundary_barrier::BoundaryBarrier;
 use super::normalized::{Frame, Restored};
 use super::problem::Problem;
 use super::problem_error::ProblemError;
+use super::quality::MapQuality;
 use super::units::Units;
-use super::worth::Worth;
 use unwrapd_method::barrier::Barrier;
 use unwrapd_method::energy::{Positional, Term};
 use unwrapd_method::solver::{
@@ -34,7 +34,7 @@ pub struct Solution {
     /// Summary of the solver.
     pub summary: Summary,
     /// Quality of the map.
-    pub worth: Worth,
+    pub quality: MapQuality,
 }
 
 impl Solution {
@@ -52,7 +52,7 @@ impl Problem {
     /// ([`follow`](unwrapd_method::solver::follow)). With a barrier no iterate has an inversion.
     ///
     /// Handles that change places block each other. If they do not arrive on straight paths, up to eight sets of bent
-    /// paths from the start and the [flow](unwrapd_method::solver::flow()) are tried. If no attempt reaches all
+    /// paths from the start and the [flow](unwrapd_method::solver::follow_softly()) are tried. If no attempt reaches all
     /// targets, each handle that can be reached alone is, and [`unreached`](Self::unreached) names the rest. With
     /// [`search`](Self::search) all bent paths are tried, and the map with the lowest energy is the solution.
     /// Iterations and factorizations are those of all attempts.
@@ -123,7 +123,7 @@ impl Problem {
         }
         Solution {
             x,
-            worth: solution.worth.restored(frame),
+            quality: solution.quality.restored(frame),
             summary: solution.summary,
         }
     }
@@ -191,7 +191,7 @@ impl Problem {
 
     pub(super) fn solution(&self, x: Vec<f64>, summary: Summary) -> Solution {
         Solution {
-            worth: self.worth(&x),
+            quality: self.quality(&x),
             summary,
             x,
         }

@@ -119,7 +119,7 @@ impl Session {
 
     /// Returns the quality of the map as JSON.
     fn worth(&self, py: Python<'_>) -> PyResult<String> {
-        json(py, &self.inner.worth())
+        json(py, &self.inner.quality())
     }
 
     /// Returns the summary of the solver as JSON.

@@ -9,17 +9,17 @@
 mod attempt;
 mod catalog;
 mod drawing;
+mod estimator;
 mod frames;
 mod map_frame;
 mod maps;
-mod pace;
+mod quality;
 mod reporter;
 pub mod session;
 mod work;
-mod worth;
 
 pub use attempt::{draw, run as compute};
 pub use catalog::Computations;
-pub use pace::Pace;
+pub use estimator::Estimator;
+pub use quality::quality_of;
 pub use work::Work;
-pub use worth::worth_of;

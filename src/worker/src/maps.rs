@@ -29,11 +29,11 @@ pub(crate) struct Maps {
     is_asked: AtomicBool,
     /// End of watching, in milliseconds since the start.
     watched: AtomicU64,
-    kept: Mutex<Kept>,
+    pending: Mutex<PendingMaps>,
 }
 
 #[derive(Default)]
-struct Kept {
+struct PendingMaps {
     maps: BTreeMap<ChartKey, Vec<u8>>,
     bytes: usize,
     /// Earliest time of the next frame.
@@ -48,7 +48,7 @@ impl Maps {
             start: Instant::now(),
             is_asked: AtomicBool::new(false),
             watched: AtomicU64::new(0),
-            kept: Mutex::default(),
+            pending: Mutex::default(),
         }
     }
 
@@ -68,29 +68,29 @@ impl Maps {
         }
         let key = map_frame::key(surface, map);
         let encoded = map_frame::encoded(key, map);
-        let mut kept = self.kept();
-        kept.keep(key, encoded);
-        self.tell(&mut kept);
+        let mut pending = self.pending();
+        pending.replace(key, encoded);
+        self.tell(&mut pending);
     }
 
     /// Sends the kept maps if a frame is requested and due.
     pub fn flush(&self) {
-        self.tell(&mut self.kept());
+        self.tell(&mut self.pending());
     }
 
-    fn kept(&self) -> MutexGuard<'_, Kept> {
-        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    fn pending(&self) -> MutexGuard<'_, PendingMaps> {
+        self.pending.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn tell(&self, kept: &mut Kept) {
+    fn tell(&self, pending: &mut PendingMaps) {
         let now = self.start.elapsed();
-        if kept.maps.is_empty() || now < kept.next || !self.is_asked.load(Ordering::Acquire) {
+        if pending.maps.is_empty() || now < pending.next || !self.is_asked.load(Ordering::Acquire) {
             return;
         }
         let mut frame = frame_header();
-        frame.extend(std::mem::take(&mut kept.maps).into_values().flatten());
-        kept.bytes = 0;
-        kept.next = now + INTERVAL.max(Duration::from_secs_f64(frame.len() as f64 / RATE));
+        frame.extend(std::mem::take(&mut pending.maps).into_values().flatten());
+        pending.bytes = 0;
+        pending.next = now + INTERVAL.max(Duration::from_secs_f64(frame.len() as f64 / RATE));
         self.is_asked.store(false, Ordering::Release);
         // Skip a frame that cannot be written, as slow watchers do.
         let partial = self.folder.join("maps.partial");
@@ -104,9 +104,9 @@ impl Maps {
     }
 }
 
-impl Kept {
+impl PendingMaps {
     /// Replaces the map of a chart.
-    fn keep(&mut self, key: ChartKey, map: Vec<u8>) {
+    fn replace(&mut self, key: ChartKey, map: Vec<u8>) {
         self.bytes -= self.maps.remove(&key).map_or(0, |former| former.len());
         if self.bytes + map.len() <= MOST_BYTES {
             self.bytes += map.len();

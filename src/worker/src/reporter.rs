@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 use nix::sys::resource::{UsageWho, getrusage};
 use nix::sys::time::TimeValLike;
 
+use crate::estimator::Estimator;
 use crate::frames::Frames;
 use crate::maps::Maps;
-use crate::pace::Pace;
 use unwrapd_api::{Message, Progress};
 use unwrapd_layout::charts::MapUnderway;
 use unwrapd_method::solver::Control;
@@ -25,17 +25,17 @@ const SILENCE: Duration = Duration::from_millis(500);
 pub(crate) struct Reporter {
     start: Instant,
     finish: Arc<AtomicBool>,
-    told: Arc<Mutex<Told>>,
+    sent: Arc<Mutex<SentProgress>>,
     frames: Mutex<Frames>,
     maps: Arc<Maps>,
 }
 
 /// Last progress sent, and the time at which it moved.
 #[derive(Default)]
-struct Told {
+struct SentProgress {
     progress: Progress,
     at: Duration,
-    pace: Pace,
+    estimator: Estimator,
 }
 
 impl Reporter {
@@ -49,16 +49,16 @@ impl Reporter {
         let reporter = Self {
             start: Instant::now(),
             finish,
-            told: Arc::default(),
+            sent: Arc::default(),
             frames: Mutex::new(frames),
             maps,
         };
-        let (start, told) = (reporter.start, Arc::clone(&reporter.told));
+        let (start, sent) = (reporter.start, Arc::clone(&reporter.sent));
         let maps = Arc::clone(&reporter.maps);
         std::thread::Builder::new().spawn(move || {
             loop {
                 std::thread::sleep(SILENCE);
-                lock(&told).estimate(start.elapsed());
+                lock(&sent).estimate(start.elapsed());
                 maps.flush();
             }
         })?;
@@ -81,7 +81,7 @@ impl Reporter {
     }
 }
 
-impl Told {
+impl SentProgress {
     /// Sends a report, unless one of its stage was just sent. A report without progress is replaced by an estimate if
     /// one is due.
     fn report(&mut self, progress: Progress, now: Duration) {
@@ -90,7 +90,7 @@ impl Told {
             return;
         }
         let shown = self.progress.fraction;
-        let fraction = self.pace.reported(progress.fraction, now);
+        let fraction = self.estimator.reported(progress.fraction, now);
         self.progress = progress;
         if begins || shown < fraction {
             self.tell(fraction, now);
@@ -103,7 +103,7 @@ impl Told {
     /// Sends an estimate if there was no progress for a while.
     fn estimate(&mut self, now: Duration) {
         if self.progress.stage.is_some() && self.at + SILENCE <= now {
-            let fraction = self.pace.estimated(now);
+            let fraction = self.estimator.estimated(now);
             self.tell(fraction, now);
         }
     }
@@ -127,7 +127,7 @@ impl Observer for Reporter {
             energy: Some(progress.energy).filter(|e| has_iterate && e.is_finite()),
             smallest: Some(progress.smallest).filter(|s| has_iterate && s.is_finite()),
         };
-        lock(&self.told).report(progress, self.start.elapsed());
+        lock(&self.sent).report(progress, self.start.elapsed());
         if self.finish.load(Ordering::Relaxed) {
             Control::Finish
         } else {

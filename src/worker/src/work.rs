@@ -4,8 +4,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use crate::worth::worth_of;
-use unwrapd_api::{Kind, Limits, Pictures, Upload, Verdict, Warning, Worth};
+use crate::quality::quality_of;
+use unwrapd_api::{Kind, Limits, Pictures, Quality, Upload, Verdict, Warning};
 use unwrapd_pipeline::{
     self as pipeline, AtlasPicture, CommandOptions, DeformOptions, Deformed, EditOptions, Editing,
     MeasureOptions, Observer, Options, PipelineError, RepackOptions, SolveOptions, VerifyOptions,
@@ -97,7 +97,7 @@ fn atlas(outcome: pipeline::Outcome) -> Made {
     let groups = report.groups.iter();
     let mut bounds = groups.filter_map(|group| Some(group.atlas.as_ref()?.bound.as_ref()?.kept));
     let within_bound = bounds.next().map(|first| first && bounds.all(|kept| kept));
-    let mut made = made.reported(report, worth_of(report), &report.warnings);
+    let mut made = made.reported(report, quality_of(report), &report.warnings);
     made.atlas = Some((outcome.pictures, outcome.uvs));
     made.verdict.within_bound = within_bound;
     made
@@ -106,11 +106,11 @@ fn atlas(outcome: pipeline::Outcome) -> Made {
 fn measure(upload: &Upload, options: &MeasureOptions, _: &dyn Observer) -> WorkResult {
     let report = pipeline::measure_document(upload, options)?;
     // A measurement requests nothing that could be proven.
-    let worth = Worth {
+    let quality = Quality {
         certified: None,
-        ..worth_of(&report)
+        ..quality_of(&report)
     };
-    Ok(Made::new(Vec::new()).reported(&report, worth, &report.warnings))
+    Ok(Made::new(Vec::new()).reported(&report, quality, &report.warnings))
 }
 
 fn verify(upload: &Upload, options: &VerifyOptions, _: &dyn Observer) -> WorkResult {
@@ -118,8 +118,8 @@ fn verify(upload: &Upload, options: &VerifyOptions, _: &dyn Observer) -> WorkRes
     let lacking = verified.lacking.iter();
     let lacking = lacking.map(|words| Warning::new("not_proven", (*words).to_owned()));
     let warnings: Vec<Warning> = verified.warnings.iter().cloned().chain(lacking).collect();
-    let worth = Worth::proven(verified.certified);
-    Ok(Made::new(Vec::new()).reported(&verified, worth, &warnings))
+    let quality = Quality::proven(verified.certified);
+    Ok(Made::new(Vec::new()).reported(&verified, quality, &warnings))
 }
 
 fn solve(upload: &Upload, options: &SolveOptions, observer: &dyn Observer) -> WorkResult {
@@ -132,7 +132,7 @@ fn deform(upload: &Upload, options: &DeformOptions, observer: &dyn Observer) -> 
 
 fn body(deformed: Deformed) -> Made {
     let report = &deformed.report;
-    let mut made = Made::new(deformed.files).reported(report, Worth::default(), &report.warnings);
+    let mut made = Made::new(deformed.files).reported(report, Quality::default(), &report.warnings);
     made.add("files/trace.csv", "trace.csv", deformed.trace.into_bytes());
     made
 }
@@ -140,7 +140,11 @@ fn body(deformed: Deformed) -> Made {
 fn warp(upload: &Upload, options: &WarpOptions, observer: &dyn Observer) -> WorkResult {
     let warped = pipeline::warp_file(upload, options, observer)?;
     let report = &warped.report;
-    Ok(Made::new(warped.files).reported(report, Worth::proven(report.certified), &report.warnings))
+    Ok(Made::new(warped.files).reported(
+        report,
+        Quality::proven(report.certified),
+        &report.warnings,
+    ))
 }
 
 fn edit_uv(upload: &Upload, options: &EditOptions, observer: &dyn Observer) -> WorkResult {
@@ -159,7 +163,11 @@ fn edit(
 ) -> WorkResult {
     let edited = pipeline::edit_document(upload, editing, options, observer)?;
     let report = &edited.report;
-    Ok(Made::new(edited.files).reported(report, Worth::proven(report.certified), &report.warnings))
+    Ok(Made::new(edited.files).reported(
+        report,
+        Quality::proven(report.certified),
+        &report.warnings,
+    ))
 }
 
 impl Made {
@@ -205,12 +213,12 @@ impl Made {
     }
 
     /// Adds the report, and derives the verdict of the job from it.
-    fn reported(mut self, report: &impl Serialize, worth: Worth, warnings: &[Warning]) -> Self {
+    fn reported(mut self, report: &impl Serialize, quality: Quality, warnings: &[Warning]) -> Self {
         // Reports are plain data, so serialization cannot fail.
         let bytes = serde_json::to_vec_pretty(report).unwrap_or_default();
         self.add("report", "report.json", bytes);
         self.verdict = Verdict {
-            worth,
+            quality,
             warnings: warnings.to_vec(),
             ..Verdict::default()
         };

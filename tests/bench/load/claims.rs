@@ -4,10 +4,10 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use futures_util::future;
-use unwrapd::jobs::access::Reach;
+use unwrapd::jobs::access::Visibility;
 use unwrapd::jobs::{
-    Capacity, Ending, Enqueued, Happening, Job, JobId, JobStore, OwnerQuotas, Rules, Saying, Share,
-    WorkerId,
+    Capacity, Ending, Enqueued, Job, JobId, JobStore, OwnerQuotas, ProgressReport, Rules, Share,
+    Transition, WorkerId,
 };
 use unwrapd::store::RecordStore;
 use unwrapd_api::{Kind, Verdict};
@@ -85,14 +85,14 @@ async fn work(store: Arc<RecordStore>) -> usize {
         .await
         .expect("an answer")
     {
-        let saying = Saying {
+        let report = ProgressReport {
             seq: job.seq,
-            ..Saying::default()
+            ..ProgressReport::default()
         };
         let ending = Ending::Succeeded(Vec::new(), Verdict::default());
-        let ended = Happening::Ended(job.token, saying, ending);
+        let ended = Transition::Ended(job.token, report, ending);
         store
-            .change(&Reach::All, job.id, &ended)
+            .change(&Visibility::All, job.id, &ended)
             .await
             .expect("an answer");
         done += 1;

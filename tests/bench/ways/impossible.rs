@@ -84,7 +84,7 @@ pub fn impossible((body, handles): (Body, Vec<Handle>)) {
         solution.summary.status,
         solution.summary.iterations,
         solution.summary.factorizations,
-        solution.worth.inverted
+        solution.quality.inverted
     );
     assert!(unreached.len() == 1 && unreached[0].handle == 0);
 }

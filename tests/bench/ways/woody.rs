@@ -42,9 +42,9 @@ pub fn woody() {
             summary.status,
             summary.iterations,
             summary.factorizations,
-            solution.worth.energy + solution.worth.barrier,
-            solution.worth.residual,
-            solution.worth.inverted
+            solution.quality.energy + solution.quality.barrier,
+            solution.quality.residual,
+            solution.quality.inverted
         );
     }
     conclude("woody", &all);

@@ -10,11 +10,11 @@ use std::time::Duration;
 use futures_util::FutureExt;
 use futures_util::future::{BoxFuture, pending};
 use tokio::sync::Notify;
-use unwrapd::jobs::access::Reach;
+use unwrapd::jobs::access::Visibility;
 use unwrapd::jobs::{
-    Beat, Blobs, Capacity, Census, Changed, Content, Enqueued, Event, Happening, IdempotencyKey,
-    Job, JobId, JobStore, Listing, Quarantined, Queue, Reason, Share, StoreError, StoreId,
-    StoreResult, Sweep, Timestamp, WorkerId,
+    Blobs, Capacity, Census, Changed, Content, Enqueued, Event, Heartbeat, IdempotencyKey, Job,
+    JobId, JobStore, Listing, Quarantined, Queue, Reason, Share, StoreError, StoreId, StoreResult,
+    Sweep, Timestamp, Transition, WorkerId,
 };
 
 /// What becomes of a call.
@@ -119,16 +119,20 @@ impl<S: JobStore> JobStore for Faulty<S> {
         self.fault.call("enqueue", call)
     }
 
-    fn get<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<Option<Job>>> {
-        self.inner.get(reach, id)
+    fn get<'a>(
+        &'a self,
+        visibility: &'a Visibility,
+        id: JobId,
+    ) -> BoxFuture<'a, StoreResult<Option<Job>>> {
+        self.inner.get(visibility, id)
     }
 
     fn list<'a>(
         &'a self,
-        reach: &'a Reach,
+        visibility: &'a Visibility,
         listing: &'a Listing,
     ) -> BoxFuture<'a, StoreResult<Vec<Job>>> {
-        self.inner.list(reach, listing)
+        self.inner.list(visibility, listing)
     }
 
     fn events<'a>(&'a self, ids: &'a [JobId]) -> BoxFuture<'a, StoreResult<Vec<(JobId, Event)>>> {
@@ -161,16 +165,19 @@ impl<S: JobStore> JobStore for Faulty<S> {
 
     fn change<'a>(
         &'a self,
-        reach: &'a Reach,
+        visibility: &'a Visibility,
         id: JobId,
-        happening: &'a Happening,
+        transition: &'a Transition,
     ) -> BoxFuture<'a, StoreResult<Changed>> {
-        let call = self.inner.change(reach, id, happening);
+        let call = self.inner.change(visibility, id, transition);
         self.fault.call("change", call)
     }
 
-    fn beat<'a>(&'a self, beats: &'a [Beat]) -> BoxFuture<'a, StoreResult<Vec<Changed>>> {
-        self.fault.call("beat", self.inner.beat(beats))
+    fn heartbeat<'a>(
+        &'a self,
+        heartbeats: &'a [Heartbeat],
+    ) -> BoxFuture<'a, StoreResult<Vec<Changed>>> {
+        self.fault.call("beat", self.inner.heartbeat(heartbeats))
     }
 
     fn sweep(&self, sweep: Sweep) -> BoxFuture<'_, StoreResult<Vec<Job>>> {
@@ -179,16 +186,20 @@ impl<S: JobStore> JobStore for Faulty<S> {
 
     fn delete<'a>(
         &'a self,
-        reach: &'a Reach,
+        visibility: &'a Visibility,
         id: JobId,
         reason: Reason,
     ) -> BoxFuture<'a, StoreResult<bool>> {
-        let call = self.inner.delete(reach, id, reason);
+        let call = self.inner.delete(visibility, id, reason);
         self.fault.call("delete", call)
     }
 
-    fn has_expired<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<bool>> {
-        self.inner.has_expired(reach, id)
+    fn has_expired<'a>(
+        &'a self,
+        visibility: &'a Visibility,
+        id: JobId,
+    ) -> BoxFuture<'a, StoreResult<bool>> {
+        self.inner.has_expired(visibility, id)
     }
 
     fn ended_before(&self, kept: Duration) -> BoxFuture<'_, StoreResult<Vec<JobId>>> {

@@ -9,10 +9,10 @@ mod transitions;
 
 use std::time::Duration;
 
-use unwrapd::jobs::access::Reach;
+use unwrapd::jobs::access::Visibility;
 use unwrapd::jobs::{
-    Capacity, Changed, Enqueued, Happening, IdempotencyKey, Job, JobId, JobStore, OwnerQuotas,
-    Rules, Saying, Share, WorkerId,
+    Capacity, Changed, Enqueued, IdempotencyKey, Job, JobId, JobStore, OwnerQuotas, ProgressReport,
+    Rules, Share, Transition, WorkerId,
 };
 use unwrapd::store::RecordStore;
 use unwrapd_api::{InputFile, Kind, Progress};
@@ -50,12 +50,12 @@ pub fn job() -> Job {
     }
 }
 
-pub fn saying(seq: u64, fraction: f64) -> Saying {
+pub fn report(seq: u64, fraction: f64) -> ProgressReport {
     let progress = Progress {
         fraction,
         ..Progress::default()
     };
-    Saying {
+    ProgressReport {
         seq,
         progress,
         cpu_ms: 0,
@@ -94,9 +94,9 @@ pub async fn claim_soon(store: &RecordStore) -> Job {
     }
 }
 
-pub async fn change(store: &RecordStore, id: JobId, happening: Happening) -> Changed {
+pub async fn change(store: &RecordStore, id: JobId, transition: Transition) -> Changed {
     store
-        .change(&Reach::All, id, &happening)
+        .change(&Visibility::All, id, &transition)
         .await
         .expect("an answer")
 }

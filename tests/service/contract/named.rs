@@ -1,8 +1,8 @@
 //! Failures between files and record, and between record and event: at calls of a name, not by
 //! chance, over both places for records and files.
 
-use unwrapd::jobs::access::Reach;
-use unwrapd::jobs::{JobId, Reason, State, StoreError, SubmitError, Submitted, Wish};
+use unwrapd::jobs::access::Visibility;
+use unwrapd::jobs::{Command, JobId, Reason, State, StoreError, SubmitError, Submitted};
 
 use super::faulty::{Fault, How};
 use super::place::{Place, Servers};
@@ -188,7 +188,7 @@ fn an_end_is_seen_that_nobody_tells(place: &Place) {
 /// Removes a job; nothing is left of it.
 fn removed(process: &Process, id: JobId) {
     let jobs = process.jobs();
-    let removed = process.does(jobs.remove(&Reach::All, id, Reason::Deleted));
+    let removed = process.does(jobs.remove(&Visibility::All, id, Reason::Deleted));
     assert!(removed.expect("an answer"));
     assert_eq!((process.all(), process.owners()), (vec![], vec![]));
 }
@@ -198,14 +198,14 @@ fn death_before_files_go(place: &Place) {
     let cancelled = Fault::first("change", How::After);
     let dying = place.start(0, &cancelled);
     let (id, jobs) = (dying.accepted(), dying.jobs());
-    let cancel = async move { jobs.wish(&Reach::All, id, Wish::Cancel).await };
+    let cancel = async move { jobs.command(&Visibility::All, id, Command::Cancel).await };
     dying.die_doing(cancel, &cancelled);
     let removed = Fault::first("delete", How::After);
     let dying = place.start(0, &removed);
     assert_eq!(dying.ended(id).state, State::Cancelled);
     assert_eq!(dying.owners().len(), usize::from(place.is_shared()));
     let jobs = dying.jobs();
-    let remove = async move { jobs.remove(&Reach::All, id, Reason::Deleted).await };
+    let remove = async move { jobs.remove(&Visibility::All, id, Reason::Deleted).await };
     dying.die_doing(remove, &removed);
     let process = place.start(0, &Fault::none());
     assert_eq!(process.all(), []);

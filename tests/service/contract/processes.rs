@@ -5,7 +5,7 @@ use std::sync::Arc;
 use futures_util::TryStreamExt;
 use tempfile::TempDir;
 use tokio::runtime::Runtime;
-use unwrapd::jobs::access::{Owner, Reach};
+use unwrapd::jobs::access::{Owner, Visibility};
 use unwrapd::jobs::{
     Blobs, Ended, Handling, Job, JobId, Jobs, Listing, State, Submission, SubmitError, Submitted,
 };
@@ -114,7 +114,7 @@ impl Process {
 
     /// The only job, after its end.
     pub fn ended(&self, id: JobId) -> Job {
-        let ended = self.does(self.jobs().wait(&Reach::All, id, SOON));
+        let ended = self.does(self.jobs().wait(&Visibility::All, id, SOON));
         match ended.expect("an answer") {
             Some(Ended::Yes(job)) => job,
             other => panic!("it does not end: {other:?}"),
@@ -143,7 +143,7 @@ impl Process {
             limit: 10,
             ..Listing::default()
         };
-        let list = self.does(self.jobs().list(&Reach::All, &listing));
+        let list = self.does(self.jobs().list(&Visibility::All, &listing));
         let list = list.expect("an answer");
         list.iter().map(|job| job.id).collect()
     }

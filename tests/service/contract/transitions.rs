@@ -2,10 +2,10 @@
 
 use std::time::Duration;
 
-use unwrapd::jobs::{Ending, Happening, Job, Refusal, State, Timestamp, Wish, WorkerId, after};
+use unwrapd::jobs::{Command, Ending, Job, Refusal, State, Timestamp, Transition, WorkerId, after};
 use unwrapd_api::{Failure, OutputFile, Verdict};
 
-use super::{RULES, job, saying};
+use super::{RULES, job, report};
 
 const NOW: Timestamp = Timestamp(1_000_000);
 const TOKEN: u64 = 5;
@@ -38,8 +38,8 @@ fn output() -> Vec<OutputFile> {
 }
 
 /// Everything that can happen, by the token of the holder and by that of a former one.
-fn happenings() -> Vec<(&'static str, Happening)> {
-    let said = saying(2_000_020, 0.5);
+fn transitions() -> Vec<(&'static str, Transition)> {
+    let said = report(2_000_020, 0.5);
     let endings = [
         ("succeeded", Ending::Succeeded(output(), Verdict::default())),
         ("failed", Ending::Failed(Failure::new("no_uvs", "none"))),
@@ -49,21 +49,21 @@ fn happenings() -> Vec<(&'static str, Happening)> {
             "interrupted",
             Ending::Interrupted(Failure::new("worker_lost", "told")),
         ),
-        ("handed back", Ending::HandedBack(Duration::ZERO)),
+        ("handed back", Ending::Requeued(Duration::ZERO)),
     ];
     let mut all = vec![
-        ("claim", Happening::Claimed(WorkerId::fresh())),
-        ("beat", Happening::Beat(TOKEN, said)),
-        ("old beat", Happening::Beat(TOKEN - 1, said)),
-        ("sweep", Happening::Swept),
-        ("abandon", Happening::Abandoned),
-        ("cancel", Happening::Wished(Wish::Cancel)),
-        ("finish", Happening::Wished(Wish::FinishEarly)),
-        ("retry", Happening::Wished(Wish::Retry)),
+        ("claim", Transition::Claimed(WorkerId::fresh())),
+        ("beat", Transition::Heartbeat(TOKEN, said)),
+        ("old beat", Transition::Heartbeat(TOKEN - 1, said)),
+        ("sweep", Transition::Swept),
+        ("abandon", Transition::Abandoned),
+        ("cancel", Transition::Commanded(Command::Cancel)),
+        ("finish", Transition::Commanded(Command::FinishEarly)),
+        ("retry", Transition::Commanded(Command::Retry)),
     ];
     for (name, ending) in endings {
-        all.push((name, Happening::Ended(TOKEN, said, ending.clone())));
-        all.push(("old end", Happening::Ended(TOKEN - 1, said, ending)));
+        all.push((name, Transition::Ended(TOKEN, said, ending.clone())));
+        all.push(("old end", Transition::Ended(TOKEN - 1, said, ending)));
     }
     all
 }
@@ -71,7 +71,7 @@ fn happenings() -> Vec<(&'static str, Happening)> {
 /// The state afterward, or why nothing happens.
 #[allow(
     clippy::match_same_arms,
-    reason = "a line for each happening reads like a table"
+    reason = "a line for each transition reads like a table"
 )]
 fn expected(name: &str, state: State) -> Result<State, Refusal> {
     use Refusal::{Outdated, TooEarly, WrongState};
@@ -103,9 +103,9 @@ fn expected(name: &str, state: State) -> Result<State, Refusal> {
 #[test]
 fn everything_happens_as_the_table_says() {
     for state in State::ALL {
-        for (name, happening) in happenings() {
+        for (name, transition) in transitions() {
             let before = in_state(state);
-            let became = after(&before, &happening, &RULES, NOW);
+            let became = after(&before, &transition, &RULES, NOW);
             let got = became.as_ref().map(|job| job.state).map_err(|r| *r);
             assert_eq!(got, expected(name, state), "{name} of {state:?}");
             let Ok(became) = became else { continue };
@@ -119,27 +119,27 @@ fn everything_happens_as_the_table_says() {
     }
 }
 
-fn happen(job: &Job, happening: &Happening) -> Job {
-    after(job, happening, &RULES, NOW).expect("it happens")
+fn happen(job: &Job, transition: &Transition) -> Job {
+    after(job, transition, &RULES, NOW).expect("it is allowed")
 }
 
 #[test]
 fn the_token_rises_when_a_job_changes_hands() {
     let claimed = happen(
         &in_state(State::Queued),
-        &Happening::Claimed(WorkerId::fresh()),
+        &Transition::Claimed(WorkerId::fresh()),
     );
     assert_eq!((claimed.token, claimed.attempt), (TOKEN + 1, 3));
     assert_eq!(claimed.seq, 3_000_000);
     let running = in_state(State::Running);
-    assert_eq!(happen(&running, &Happening::Abandoned).token, TOKEN + 1);
+    assert_eq!(happen(&running, &Transition::Abandoned).token, TOKEN + 1);
     let silent = Job {
         lease: Some(Timestamp(NOW.0 - 1)),
         ..running.clone()
     };
-    assert_eq!(happen(&silent, &Happening::Swept).token, TOKEN + 1);
+    assert_eq!(happen(&silent, &Transition::Swept).token, TOKEN + 1);
     let ended = Ending::Lost(Failure::new("worker_lost", "gone"));
-    let ended = happen(&running, &Happening::Ended(TOKEN, saying(0, 0.0), ended));
+    let ended = happen(&running, &Transition::Ended(TOKEN, report(0, 0.0), ended));
     assert_eq!(ended.token, TOKEN);
 }
 
@@ -148,20 +148,20 @@ fn lost_attempts_are_counted_and_end_with_their_cause() {
     let mut job = in_state(State::Running);
     job.lost = RULES.attempts - 2;
     let lost = Ending::Lost(Failure::new("worker_lost", "killed"));
-    let once = happen(&job, &Happening::Ended(TOKEN, saying(0, 0.0), lost));
+    let once = happen(&job, &Transition::Ended(TOKEN, report(0, 0.0), lost));
     assert_eq!((once.state, once.lost), (State::Queued, 2));
     assert_eq!(once.due, NOW.later(RULES.pause * 2));
     job.lost = RULES.attempts - 1;
     let cause = Ending::Lost(Failure::new("out_of_memory", "killed"));
-    let parked = happen(&job, &Happening::Ended(TOKEN, saying(0, 0.0), cause));
+    let parked = happen(&job, &Transition::Ended(TOKEN, report(0, 0.0), cause));
     assert_eq!(parked.state, State::Failed);
     let failure = parked.failure.as_ref().expect("a cause");
     assert_eq!(failure.code, "out_of_memory");
     assert_eq!(failure.detail, "killed; attempts lost: 3");
-    let retried = happen(&parked, &Happening::Wished(Wish::Retry));
+    let retried = happen(&parked, &Transition::Commanded(Command::Retry));
     assert_eq!((retried.lost, retried.failure), (0, None));
-    let back = Ending::HandedBack(Duration::ZERO);
-    let back = happen(&job, &Happening::Ended(TOKEN, saying(0, 0.0), back));
+    let back = Ending::Requeued(Duration::ZERO);
+    let back = happen(&job, &Transition::Ended(TOKEN, report(0, 0.0), back));
     assert_eq!(back.lost, job.lost);
 }
 
@@ -171,9 +171,9 @@ fn attempts_lost_with_their_workers_count_apart() {
     let mut job = in_state(State::Running);
     job.lost = RULES.attempts - 1;
     let told = Ending::Interrupted(Failure::new("worker_lost", "SIGTERM"));
-    let told = Happening::Ended(TOKEN, saying(0, 0.0), told);
-    for happening in [Happening::Abandoned, told] {
-        let once = happen(&job, &happening);
+    let told = Transition::Ended(TOKEN, report(0, 0.0), told);
+    for transition in [Transition::Abandoned, told] {
+        let once = happen(&job, &transition);
         assert_eq!(
             (once.state, once.lost, once.interrupted),
             (State::Queued, job.lost, 1)
@@ -181,27 +181,30 @@ fn attempts_lost_with_their_workers_count_apart() {
         assert_eq!(once.due, NOW.later(RULES.pause));
     }
     job.interrupted = RULES.interruptions - 1;
-    let parked = happen(&job, &Happening::Abandoned);
+    let parked = happen(&job, &Transition::Abandoned);
     assert_eq!(parked.state, State::Failed);
     assert_eq!(
         parked.failure.as_ref().expect("a cause").code,
         "worker_lost"
     );
-    let retried = happen(&parked, &Happening::Wished(Wish::Retry));
+    let retried = happen(&parked, &Transition::Commanded(Command::Retry));
     assert_eq!((retried.lost, retried.interrupted), (0, 0));
 }
 
 #[test]
 fn who_wished_the_end_first_gets_it() {
-    let job = happen(&in_state(State::Running), &Happening::Wished(Wish::Cancel));
+    let job = happen(
+        &in_state(State::Running),
+        &Transition::Commanded(Command::Cancel),
+    );
     let done = Ending::Succeeded(output(), Verdict::default());
     let lost = Ending::Lost(Failure::new("worker_lost", "gone"));
-    let back = Ending::HandedBack(Duration::ZERO);
+    let back = Ending::Requeued(Duration::ZERO);
     for ending in [done, lost, back] {
-        let ended = happen(&job, &Happening::Ended(TOKEN, saying(0, 0.0), ending));
+        let ended = happen(&job, &Transition::Ended(TOKEN, report(0, 0.0), ending));
         assert_eq!((ended.state, ended.output), (State::Cancelled, Vec::new()));
     }
-    assert_eq!(happen(&job, &Happening::Abandoned).state, State::Cancelled);
+    assert_eq!(happen(&job, &Transition::Abandoned).state, State::Cancelled);
 }
 
 #[test]
@@ -211,19 +214,19 @@ fn a_clock_that_was_set_back_holds_nothing_up() {
         due: far,
         ..in_state(State::Queued)
     };
-    happen(&waiting, &Happening::Claimed(WorkerId::fresh()));
+    happen(&waiting, &Transition::Claimed(WorkerId::fresh()));
     let held = Job {
         lease: Some(far),
         ..in_state(State::Running)
     };
-    let swept = happen(&held, &Happening::Swept);
+    let swept = happen(&held, &Transition::Swept);
     assert_eq!(swept.state, State::Running);
     assert_eq!(swept.lease, Some(NOW.later(RULES.lease)));
     let soon = Job {
         due: NOW.later(RULES.pause),
         ..in_state(State::Queued)
     };
-    let early = Happening::Claimed(WorkerId::fresh());
+    let early = Transition::Claimed(WorkerId::fresh());
     assert_eq!(
         after(&soon, &early, &RULES, NOW).expect_err("it waits"),
         Refusal::TooEarly

@@ -139,7 +139,7 @@ fn a_clock_is_steady_for_as_long_as_both_advance_alike() {
     let (time, at) = (Timestamp(1_000_000_000_000), tokio::time::Instant::now());
     let minutes = |n: u64| Duration::from_mins(n);
     let look = |wall_ms: i64, monotonic: u64| {
-        clock.look(Timestamp(time.0 + wall_ms), at + minutes(monotonic))
+        clock.record(Timestamp(time.0 + wall_ms), at + minutes(monotonic))
     };
     assert_eq!(look(0, 0).steady, Duration::ZERO);
     let later = look(30 * 60_000, 30);

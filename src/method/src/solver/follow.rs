@@ -1,9 +1,9 @@
 //! Handles pulled to their targets, every iterate a valid map.
 
+use super::continuation::Continuation;
 use super::handles::{Handles, HandlesError};
-use super::journey::Journey;
+use super::least_progress::LeastProgress;
 use super::objective::Objective;
-use super::pace::Pace;
 use super::path::Rotation;
 use super::settings::{Settings, Summary};
 use super::watch::Watch;
@@ -41,7 +41,7 @@ pub fn follow<const D: usize>(
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
-    let mut journey = Journey::<D>::new(objective, x, stations.to_vec(), settings)?;
-    journey.go_on(objective, x, settings, Pace::ANY, watch)?;
-    Ok(journey.summary())
+    let mut continuation = Continuation::<D>::new(objective, x, stations.to_vec(), settings)?;
+    continuation.go_on(objective, x, settings, LeastProgress::ANY, watch)?;
+    Ok(continuation.summary())
 }

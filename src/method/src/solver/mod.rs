@@ -8,8 +8,8 @@
 //! leave the domain, then halved until the energy falls enough.
 //!
 //! [`follow()`] pulls handles to targets by Newton's method while the other vertices follow each advance. It restores
-//! the removed curvature gradually, as there are few steps between advances. A [`Journey`] is a `follow` that may
-//! pause, [`Drag`] one that runs an iteration at a time while the handles are being moved. [`flow()`] lets each point
+//! the removed curvature gradually, as there are few steps between advances. A [`Continuation`] is a `follow` that may
+//! pause, [`InteractiveContinuation`] one that runs an iteration at a time while the handles are being moved. [`follow_softly()`] lets each point
 //! go as fast as the others allow. [`levenberg()`] is the iteration of the paper itself, kept for comparison: it shifts
 //! the Hessian until it factors instead of projecting it, and holds handles by soft constraints.
 //!
@@ -17,37 +17,37 @@
 //! det J > 0 in every element, and while no handle moves the energy falls from iterate to iterate. The solver knows no energy
 //! by name, has no clock and no randomness; a [`Watch`] may end it early.
 
-mod drag;
-mod flow;
+mod continuation;
+mod fixed_unknowns;
 mod follow;
 mod handles;
-mod held;
-mod journey;
+mod interactive;
+mod least_progress;
 mod levenberg;
 mod line_search;
+mod load_steps;
 mod newton;
 mod newton_direction;
 mod objective;
-mod pace;
 mod path;
 mod quadratic_model;
 mod relaxation;
 mod scale;
 mod settings;
-mod travel;
+mod soft_targets;
 mod trust_region;
 mod watch;
 
-pub use drag::{Drag, Stage};
-pub use flow::{Flow, flow};
+pub use continuation::Continuation;
 pub use follow::follow;
 pub use handles::{Handles, HandlesError};
-pub use journey::Journey;
+pub use interactive::{InteractiveContinuation, Stage};
+pub use least_progress::LeastProgress;
 pub use levenberg::{LevenbergSettings, levenberg};
 pub use newton::minimize;
 pub use objective::Objective;
-pub use pace::Pace;
 pub use path::{Path, Rotation};
 pub use scale::best_scale;
 pub use settings::{Projection, Settings, Status, Summary};
+pub use soft_targets::{SoftTargets, follow_softly};
 pub use watch::{Continued, Control, Iterate, Watch};

@@ -1,6 +1,6 @@
 //! The quadratic model of an objective at a point: gradient, Hessian and its factorization.
 
-use super::held::{Held, form};
+use super::fixed_unknowns::{FixedUnknowns, form};
 use crate::energy::{Assembly, Term};
 use crate::numerics::block::{BlockPattern, Slots};
 use crate::numerics::cholesky::{NotPositiveDefinite, SymmetricPattern, Work};
@@ -20,7 +20,7 @@ pub(super) struct QuadraticModel {
     analyses: usize,
     gradient: Vec<f64>,
     hessian: Vec<f64>,
-    held: Held,
+    fixed: FixedUnknowns,
     /// Mean diagonal of the energy's Hessian, without constraints.
     mean_diagonal: f64,
     shift: f64,
@@ -41,7 +41,7 @@ impl QuadraticModel {
             analyses: 0,
             gradient: vec![0.0; pattern.scalar().n],
             hessian: vec![0.0; pattern.scalar().row_idx.len()],
-            held: Held::default(),
+            fixed: FixedUnknowns::default(),
             mean_diagonal: 0.0,
             shift: 0.0,
             pattern,
@@ -50,14 +50,14 @@ impl QuadraticModel {
 
     /// Fixes these vertices and no others.
     pub fn hold(&mut self, vertices: &[u32]) {
-        self.held = Held::new(&self.pattern, vertices);
+        self.fixed = FixedUnknowns::new(&self.pattern, vertices);
         self.is_factored = false;
     }
 
     /// Replaces the pattern by another one with the same number of unknowns and zeros as values. The last factorization
     /// still solves.
     pub fn exchange_pattern(&mut self, pattern: BlockPattern) {
-        self.held = Held::new(&pattern, &self.held.vertices(pattern.dim()));
+        self.fixed = FixedUnknowns::new(&pattern, &self.fixed.vertices(pattern.dim()));
         self.hessian = vec![0.0; pattern.scalar().row_idx.len()];
         self.pattern = pattern;
         self.is_stale = true;
@@ -95,7 +95,7 @@ impl QuadraticModel {
     pub fn add_gradient(&mut self, term: &dyn Term, slots: &Slots, x: &[f64]) {
         let mut assembly = Assembly::of_gradient(&self.pattern, slots, &mut self.gradient);
         term.add_derivatives(x, 1.0, &mut assembly);
-        self.held.clear_gradient(&mut self.gradient);
+        self.fixed.clear_gradient(&mut self.gradient);
     }
 
     /// Stores the mean diagonal of the sum so far as that of the energy.
@@ -110,7 +110,7 @@ impl QuadraticModel {
         self.shift_diagonal(SHIFT * self.mean_diagonal + f64::MIN_POSITIVE);
         let diagonal = self.stand_in();
         let (hessian, gradient) = (&mut self.hessian, &mut self.gradient);
-        self.held.clear(&self.pattern, hessian, gradient, diagonal);
+        self.fixed.clear(&self.pattern, hessian, gradient, diagonal);
     }
 
     /// Returns the diagonal entry of fixed vertices.
@@ -203,29 +203,29 @@ impl QuadraticModel {
         direction: &mut [f64],
         add_pull: impl FnOnce(&mut [f64]),
     ) -> Result<(), NotPositiveDefinite> {
-        self.held.take_moves(direction);
+        self.fixed.take_moves(direction);
         add_pull(direction);
         self.solve(direction)?;
-        self.held.put_moves(direction);
+        self.fixed.put_moves(direction);
         Ok(())
     }
 
     /// Computes the Newton step plus the response of all vertices to the moves of the fixed ones in `direction`, in one
     /// solve. Returns the norm of its right-hand side.
     pub fn step_and_follow(&mut self, direction: &mut [f64]) -> Result<f64, NotPositiveDefinite> {
-        self.held.take_moves(direction);
+        self.fixed.take_moves(direction);
         for (d, g) in direction.iter_mut().zip(&self.gradient) {
             *d -= g;
         }
         let norm = dot(direction, direction).sqrt();
         self.solve(direction)?;
-        self.held.put_moves(direction);
+        self.fixed.put_moves(direction);
         Ok(norm)
     }
 
     /// Returns g·d + ½d·Hd, fixed vertices included.
     pub fn change(&self, direction: &[f64]) -> f64 {
-        let cleared = self.held.model_change(self.stand_in(), direction);
+        let cleared = self.fixed.model_change(self.stand_in(), direction);
         dot(&self.gradient, direction) + 0.5 * self.curvature(direction) + cleared
     }
 

@@ -10,7 +10,9 @@ use super::missed::Completion;
 use super::plan::Plan;
 use crate::PipelineError;
 use crate::tracker::Tracker;
-use unwrapd_deform::{BodyElements, Method, Problem, Solution, Turns, Units, Unreached, Worth};
+use unwrapd_deform::{
+    BodyElements, MapQuality, Method, Problem, Solution, Turns, Units, Unreached,
+};
 use unwrapd_files::document::Warning;
 use unwrapd_maps::certificate::boundary_crossings;
 use unwrapd_method::solver::{Control, Iterate, Summary, Watch};
@@ -38,7 +40,7 @@ pub struct DeformReport {
     pub summary: Summary,
     /// Quality of the map.
     #[serde(flatten)]
-    pub worth: Worth,
+    pub quality: MapQuality,
     /// Degree to which the request was completed.
     pub completion: Completion,
     /// The handles that did not come to their targets, and how far from them they are.
@@ -105,7 +107,7 @@ pub fn solve(
         None
     };
     // Refuse a result that breaks a promise.
-    if solution.worth.inverted > 0 && problem.forbids_inversion() {
+    if solution.quality.inverted > 0 && problem.forbids_inversion() {
         return Err(PipelineError::Inverted);
     }
     let crossings = crossings(problem, &solution.x);
@@ -121,14 +123,14 @@ pub fn solve(
     let report = DeformReport {
         method: plan.method,
         summary: solution.summary,
-        worth: solution.worth,
+        quality: solution.quality,
         completion,
         unreached,
         units: problem.units,
         crossings,
         untangled: problem.untangled,
         energy_without_barrier,
-        smallest_ever: trace.smallest().min(solution.worth.smallest),
+        smallest_ever: trace.smallest().min(solution.quality.smallest),
         setup_seconds,
         solve_seconds: tracker.elapsed().as_secs_f64() - setup_seconds,
         warnings: warnings.chain(turns_lost(&turns)).collect(),

@@ -52,7 +52,7 @@ pub(super) async fn serve(
         let mut http1 = Builder::new();
         http1.timer(TokioTimer::new());
         http1.header_read_timeout(limits.header_time);
-        let stream = HeldConnection::new(stream, limits.silence, (place, Counted::new()));
+        let stream = ConnectionWithSlot::new(stream, limits.silence, (place, Counted::new()));
         let service = TowerToHyperService::new(router.clone());
         let service = service_fn(move |mut request: Request<Incoming>| {
             request.extensions_mut().insert(Peer(peer));
@@ -205,12 +205,12 @@ impl Refused {
 // Connections that keep their slot until they are closed, even after an upgrade to a WebSocket.
 
 /// A connection together with its slot.
-struct HeldConnection<P> {
+struct ConnectionWithSlot<P> {
     stream: Pin<Box<TimeoutStream<TcpStream>>>,
     _place: P,
 }
 
-impl<P> HeldConnection<P> {
+impl<P> ConnectionWithSlot<P> {
     /// Creates a connection that fails if nothing can be written for the time `silence`.
     pub fn new(stream: TcpStream, silence: Duration, place: P) -> Self {
         let mut stream = TimeoutStream::new(stream);
@@ -222,7 +222,7 @@ impl<P> HeldConnection<P> {
     }
 }
 
-impl<P: Unpin> AsyncRead for HeldConnection<P> {
+impl<P: Unpin> AsyncRead for ConnectionWithSlot<P> {
     fn poll_read(
         mut self: Pin<&mut Self>,
         context: &mut Context<'_>,
@@ -232,7 +232,7 @@ impl<P: Unpin> AsyncRead for HeldConnection<P> {
     }
 }
 
-impl<P: Unpin> AsyncWrite for HeldConnection<P> {
+impl<P: Unpin> AsyncWrite for ConnectionWithSlot<P> {
     fn poll_write(
         mut self: Pin<&mut Self>,
         context: &mut Context<'_>,

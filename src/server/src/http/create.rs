@@ -10,9 +10,9 @@ use super::app::{App, Shared, json};
 use super::extract::preferred_wait;
 use super::jobs::{view, wait_for};
 use super::problem::{Code, Problem};
+use super::submission_headers::SubmissionHeaders;
 use super::upload;
 use super::view::{JobView, job_path};
-use super::wishes::Wishes;
 use crate::jobs::access::Caller;
 use crate::jobs::{Ended, Job, OwnerQuota, SubmitError, Submitted, Webhook};
 use crate::webhooks;
@@ -78,13 +78,13 @@ pub(super) async fn create_job(
     request: Request,
 ) -> Result<Response, Problem> {
     // Receive the upload, and check its headers and its webhook.
-    let wishes = Wishes::read(&headers)?;
+    let submission_headers = SubmissionHeaders::read(&headers)?;
     let received = upload::receive(&app, None, request).await?;
     if let Some(webhook) = &received.handling.webhook {
         check_webhook(&app, webhook)?;
     }
     // Store and queue the job.
-    let (submission, _folder) = received.into_submission(caller.owner(), wishes, false);
+    let (submission, _folder) = received.into_submission(caller.owner(), submission_headers, false);
     let job = match app.jobs.submit(submission).await? {
         Submitted::New(job) | Submitted::Replay(job) => job,
     };
@@ -92,7 +92,7 @@ pub(super) async fn create_job(
     let Some(wait) = preferred_wait(&headers) else {
         return Ok(located(&app, StatusCode::ACCEPTED, &job));
     };
-    let mut response = match wait_for(&app, &caller.reach(), job.id, wait).await? {
+    let mut response = match wait_for(&app, &caller.visibility(), job.id, wait).await? {
         Ended::Yes(job) => located(&app, StatusCode::OK, &job),
         Ended::NotYet(job) => located(&app, StatusCode::ACCEPTED, &job),
     };

@@ -73,9 +73,9 @@ pub(super) async fn watch_job(
     let resumed = headers
         .get("last-event-id")
         .and_then(|id| id.to_str().ok()?.parse().ok());
-    let reach = caller.reach();
-    let Some(events) = app.jobs.subscribe(&reach, id).await? else {
-        return Err(missing(&app, &reach, id).await);
+    let visibility = caller.visibility();
+    let Some(events) = app.jobs.subscribe(&visibility, id).await? else {
+        return Err(missing(&app, &visibility, id).await);
     };
     let events = events.after(query.after.or(resumed));
     // Send the rest over the protocol that it asks for.

@@ -120,7 +120,7 @@ impl Exposition {
 
     /// Returns the metrics as text.
     pub(super) async fn text(&self) -> String {
-        let (store, blobs) = tokio::join!(self.look_at_store(), self.jobs.check_blobs());
+        let (store, blobs) = tokio::join!(self.read_store(), self.jobs.check_blobs());
         let is_up = store.is_ok();
         gauge!(STORE_UP).set(f64::from(u8::from(is_up)));
         gauge!(BLOBS_UP).set(f64::from(u8::from(blobs.is_ok())));
@@ -129,11 +129,11 @@ impl Exposition {
             // The age is unknown now, and its last value would look current.
             gauge!(OLDEST).set(f64::NAN);
         }
-        self.look_at_process();
+        self.read_process();
         self.measured.render()
     }
 
-    async fn look_at_store(&self) -> StoreResult<()> {
+    async fn read_store(&self) -> StoreResult<()> {
         let queue = self.jobs.queue().await?;
         for (state, count) in queue.counts {
             gauge!(JOBS, "state" => state.word()).set(count as f64);
@@ -155,7 +155,7 @@ impl Exposition {
         Ok(())
     }
 
-    fn look_at_process(&self) {
+    fn read_process(&self) {
         let settings = self.jobs.settings();
         gauge!(QUEUE_DEPTH).set(f64::from(settings.queue_depth));
         gauge!(MIN_FREE).set(settings.min_free as f64);

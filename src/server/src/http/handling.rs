@@ -11,14 +11,14 @@ const PRIORITIES: RangeInclusive<i32> = -100..=100;
 
 /// Settings received so far.
 #[derive(Default)]
-pub(super) struct Said {
+pub(super) struct HandlingBuilder {
     priority: Option<i32>,
     metadata: Option<Metadata>,
     accept: Option<Gates>,
     webhook: Option<Webhook>,
 }
 
-impl Said {
+impl HandlingBuilder {
     /// Names of the settings.
     pub const NAMES: [&str; 4] = ["priority", "metadata", "accept", "webhook"];
 

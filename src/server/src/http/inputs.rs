@@ -52,7 +52,7 @@ pub(super) async fn get_input(
     PathIndex(index): PathIndex,
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
-    let job = existing(&app, &caller.reach(), id).await?;
+    let job = existing(&app, &caller.visibility(), id).await?;
     let file = job.input.get(index).ok_or_else(|| {
         let detail = format!("the job has {} input files", job.input.len());
         Problem::new(Code::NoSuchFile, detail)

@@ -12,8 +12,8 @@ use super::extract::{MAX_WAIT_SECONDS, Parameters, PathId};
 use super::missing::{existing, missing};
 use super::problem::{Code, Problem};
 use super::view::JobView;
-use crate::jobs::access::{Caller, Reach};
-use crate::jobs::{Changed, Ended, Job, JobId, Reason, Refusal, Wish};
+use crate::jobs::access::{Caller, Visibility};
+use crate::jobs::{Changed, Command, Ended, Job, JobId, Reason, Refusal};
 
 /// Query for a job.
 #[derive(Deserialize, utoipa::IntoParams)]
@@ -47,11 +47,11 @@ pub(super) async fn get_job(
         let detail = format!("`wait` must be between 0 and {MAX_WAIT_SECONDS}");
         return Err(Problem::new(Code::InvalidRequest, detail));
     }
-    let reach = caller.reach();
+    let visibility = caller.visibility();
     let job = if wait == 0 {
-        existing(&app, &reach, id).await?
+        existing(&app, &visibility, id).await?
     } else {
-        match wait_for(&app, &reach, id, Duration::from_secs(wait)).await? {
+        match wait_for(&app, &visibility, id, Duration::from_secs(wait)).await? {
             Ended::Yes(job) | Ended::NotYet(job) => job,
         }
     };
@@ -77,11 +77,11 @@ pub(super) async fn delete_job(
     caller: Caller,
     PathId(id): PathId,
 ) -> Result<Response, Problem> {
-    let reach = caller.reach();
-    if app.jobs.remove(&reach, id, Reason::Deleted).await? {
+    let visibility = caller.visibility();
+    if app.jobs.remove(&visibility, id, Reason::Deleted).await? {
         return Ok(StatusCode::NO_CONTENT.into_response());
     }
-    let (job, _) = wished(&app, &reach, id, Wish::Cancel).await?;
+    let (job, _) = send_command(&app, &visibility, id, Command::Cancel).await?;
     Ok(json(StatusCode::ACCEPTED, &view(&app, &job)))
 }
 
@@ -104,7 +104,7 @@ pub(super) async fn finish_job(
     caller: Caller,
     PathId(id): PathId,
 ) -> Result<Response, Problem> {
-    let (job, refusal) = wished(&app, &caller.reach(), id, Wish::FinishEarly).await?;
+    let (job, refusal) = send_command(&app, &caller.visibility(), id, Command::FinishEarly).await?;
     if refusal.is_some() {
         let detail = format!("its state is {}", job.state.word());
         return Err(Problem::new(Code::AlreadyFinished, detail));
@@ -131,7 +131,7 @@ pub(super) async fn retry_job(
     caller: Caller,
     PathId(id): PathId,
 ) -> Result<Response, Problem> {
-    let (job, refusal) = wished(&app, &caller.reach(), id, Wish::Retry).await?;
+    let (job, refusal) = send_command(&app, &caller.visibility(), id, Command::Retry).await?;
     if refusal.is_some() {
         let detail = format!("the job is {}", job.state.word());
         return Err(Problem::new(Code::NotFailed, detail));
@@ -140,16 +140,16 @@ pub(super) async fn retry_job(
 }
 
 /// Applies a command to a job. Returns the job and the reason if the command was rejected.
-async fn wished(
+async fn send_command(
     app: &App,
-    reach: &Reach,
+    visibility: &Visibility,
     id: JobId,
-    wish: Wish,
+    command: Command,
 ) -> Result<(Job, Option<Refusal>), Problem> {
-    match app.jobs.wish(reach, id, wish).await? {
+    match app.jobs.command(visibility, id, command).await? {
         Changed::Yes(job) => Ok((*job, None)),
         Changed::No(job, refusal) => Ok((*job, Some(refusal))),
-        Changed::Missing => Err(missing(app, reach, id).await),
+        Changed::Missing => Err(missing(app, visibility, id).await),
     }
 }
 
@@ -161,16 +161,16 @@ pub(super) fn view(app: &App, job: &Job) -> JobView {
 /// Waits for the end of a job, or for the stop of the service.
 pub(super) async fn wait_for(
     app: &App,
-    reach: &Reach,
+    visibility: &Visibility,
     id: JobId,
     wait: Duration,
 ) -> Result<Ended, Problem> {
     let ended = tokio::select! {
-        ended = app.jobs.wait(reach, id, wait) => ended?,
-        () = app.stop.cancelled() => app.jobs.get(reach, id).await?.map(Ended::NotYet),
+        ended = app.jobs.wait(visibility, id, wait) => ended?,
+        () = app.stop.cancelled() => app.jobs.get(visibility, id).await?.map(Ended::NotYet),
     };
     match ended {
         Some(ended) => Ok(ended),
-        None => Err(missing(app, reach, id).await),
+        None => Err(missing(app, visibility, id).await),
     }
 }

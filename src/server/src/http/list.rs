@@ -149,7 +149,7 @@ pub(super) async fn list_jobs(
 ) -> Result<Response, Problem> {
     let limit = query.limit.unwrap_or(DEFAULT_PAGE);
     let listing = query.listing(limit)?;
-    let mut jobs = app.jobs.list(&caller.reach(), &listing).await?;
+    let mut jobs = app.jobs.list(&caller.visibility(), &listing).await?;
     let is_last = jobs.len() <= limit as usize;
     jobs.truncate(limit as usize);
     let next = jobs
@@ -194,7 +194,7 @@ pub(super) async fn retry_jobs(
     // Requeue them.
     let retried = app
         .jobs
-        .retry_failed(&caller.reach(), listing, code.as_deref())
+        .retry_failed(&caller.visibility(), listing, code.as_deref())
         .await?;
     let jobs: Vec<JobId> = retried.jobs.iter().map(|job| job.id).collect();
     let answer = RetriedJobs {

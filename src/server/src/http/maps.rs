@@ -53,9 +53,9 @@ pub(super) async fn watch_maps(
     Parameters(query): Parameters<MapsQuery>,
 ) -> Result<Response, Problem> {
     // Subscribe to the job.
-    let reach = caller.reach();
-    let Some(events) = app.jobs.subscribe(&reach, id).await? else {
-        return Err(missing(&app, &reach, id).await);
+    let visibility = caller.visibility();
+    let Some(events) = app.jobs.subscribe(&visibility, id).await? else {
+        return Err(missing(&app, &visibility, id).await);
     };
     // Wait for the next frame of the running attempt, or for an end.
     let next = async {

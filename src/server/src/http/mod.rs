@@ -49,12 +49,12 @@ mod sessions;
 mod settings;
 mod sign_in;
 mod socket;
+mod submission_headers;
 mod synchronous;
 mod unpack;
 mod upload;
 mod view;
 mod windows;
-mod wishes;
 
 use std::sync::Arc;
 

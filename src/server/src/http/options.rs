@@ -4,7 +4,7 @@ use axum::extract::Query;
 use axum::http::Uri;
 use serde_json::{Map, Value};
 
-use super::handling::{Said, once};
+use super::handling::{HandlingBuilder, once};
 use super::problem::{Code, Problem};
 use unwrapd_api::{Catalog, Kind, from_json};
 
@@ -16,7 +16,7 @@ pub(super) struct UploadQuery {
     /// Name of the file in a raw body.
     pub filename: Option<String>,
     /// Handling settings of the job.
-    pub said: Said,
+    pub handling: HandlingBuilder,
     /// All other parameters.
     pub options: Map<String, Value>,
 }
@@ -30,8 +30,8 @@ impl UploadQuery {
         for (name, text) in pairs {
             let is_new = match name.as_str() {
                 "kind" => query.kind.replace(kind(&text)?).is_none(),
-                name if Said::NAMES.contains(&name) => {
-                    query.said.take(name, &text)?;
+                name if HandlingBuilder::NAMES.contains(&name) => {
+                    query.handling.take(name, &text)?;
                     true
                 }
                 "filename" => query.filename.replace(text).is_none(),

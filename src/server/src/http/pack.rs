@@ -54,7 +54,7 @@ pub(super) async fn get_files(
     PathId(id): PathId,
 ) -> Result<Response, Problem> {
     // Check the job and the limit of its owner.
-    let job = existing(&app, &caller.reach(), id).await?;
+    let job = existing(&app, &caller.visibility(), id).await?;
     check_succeeded(&job)?;
     let seat = Crowds::enter(&app.archives, caller.owner().clone(), Some(MOST_OF_OWNER));
     let Some(seat) = seat else {

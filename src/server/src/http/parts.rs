@@ -2,7 +2,7 @@
 
 use axum::extract::multipart::{Field, MultipartError};
 
-use super::handling::Said;
+use super::handling::HandlingBuilder;
 use super::problem::{Code, Problem};
 
 /// Names of the part that holds the input.
@@ -47,7 +47,7 @@ pub(super) fn unexpected(part: &str) -> Problem {
     let part: String = part.chars().take(100).collect();
     let detail = format!(
         "unexpected part {part:?}: the parts of a form are mesh, image or problem, resource, options, kind, {}",
-        Said::NAMES.join(", ")
+        HandlingBuilder::NAMES.join(", ")
     );
     Problem::new(Code::InvalidRequest, detail)
 }

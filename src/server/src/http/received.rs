@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde_json::Value;
 
-use super::wishes::Wishes;
+use super::submission_headers::SubmissionHeaders;
 use crate::jobs::access::Owner;
 use crate::jobs::{Digest, Handling, Scratch, Submission};
 use unwrapd_api::{InputFile, Kind};
@@ -24,7 +24,7 @@ impl Received {
     pub fn into_submission(
         self,
         owner: &Owner,
-        wishes: Wishes,
+        submission_headers: SubmissionHeaders,
         ephemeral: bool,
     ) -> (Submission, Scratch) {
         let submission = Submission {
@@ -34,9 +34,9 @@ impl Received {
             options: self.options,
             files: self.files,
             handling: self.handling,
-            trace: wishes.trace,
-            reuse: wishes.reuse,
-            key: wishes.key,
+            trace: submission_headers.trace,
+            reuse: submission_headers.reuse,
+            key: submission_headers.key,
             ephemeral,
         };
         (submission, self.folder)

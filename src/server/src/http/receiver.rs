@@ -10,7 +10,7 @@ use sha2::{Digest as _, Sha256};
 use tokio::io::AsyncWriteExt;
 
 use super::framing;
-use super::handling::{Said, once};
+use super::handling::{HandlingBuilder, once};
 use super::options::{self, UploadQuery};
 use super::parts::{INPUT_PARTS, MAX_FILES, at_most, at_most_name, malformed, text, unexpected};
 use super::problem::{Code, Problem};
@@ -35,16 +35,16 @@ pub(super) struct Receiver {
     kind: Option<Kind>,
     has_options: bool,
     options: Map<String, Value>,
-    said: Said,
+    handling: HandlingBuilder,
 }
 
 impl Receiver {
-    /// Starts an upload of at most `limit` bytes into a new folder; `said` comes from the query.
+    /// Starts an upload of at most `limit` bytes into a new folder; `handling` comes from the query.
     pub fn new(
         catalog: &'static dyn Catalog,
         folder: PathBuf,
         limit: u64,
-        said: Said,
+        handling: HandlingBuilder,
     ) -> Result<Self, Problem> {
         Ok(Self {
             catalog,
@@ -56,7 +56,7 @@ impl Receiver {
             kind: None,
             has_options: false,
             options: Map::new(),
-            said,
+            handling,
         })
     }
 
@@ -93,9 +93,9 @@ impl Receiver {
                     })?;
                 }
                 "resource" => self.resource(field).await?,
-                part if Said::NAMES.contains(&part) => {
+                part if HandlingBuilder::NAMES.contains(&part) => {
                     let part = part.to_owned();
-                    self.said.take(&part, &text(field).await?)?;
+                    self.handling.take(&part, &text(field).await?)?;
                 }
                 part => return Err(unexpected(part)),
             }
@@ -165,7 +165,7 @@ impl Receiver {
         };
         once("kind", query.kind.or(kind).is_none() || self.kind.is_none())?;
         if kind.is_some() {
-            self.said.check_unkept()?;
+            self.handling.check_unkept()?;
         }
         // Complete the options of form and query, which must not repeat each other.
         let kind = kind.or(query.kind).or(self.kind).unwrap_or_default();
@@ -179,8 +179,8 @@ impl Receiver {
         let mut files = vec![(input, path)];
         files.extend(self.resources);
         let (catalog, limit) = (self.catalog, self.limit);
-        let looked = move || looked_at(catalog, files, kind, limit, query.filename);
-        let files = tokio::task::spawn_blocking(looked)
+        let prepare = move || prepared(catalog, files, kind, limit, query.filename);
+        let files = tokio::task::spawn_blocking(prepare)
             .await
             .map_err(|error| Problem::internal(&error))??;
         Ok(Received {
@@ -188,14 +188,14 @@ impl Receiver {
             kind,
             options,
             files,
-            handling: self.said.into_handling(kind)?,
+            handling: self.handling.into_handling(kind)?,
         })
     }
 }
 
 /// Prepares the files of an upload: unpacks an archive, drops unreferenced resources, detects the format of the input
 /// and names it. The input comes first.
-fn looked_at(
+fn prepared(
     catalog: &dyn Catalog,
     mut files: Files,
     kind: Kind,

@@ -10,7 +10,7 @@ use super::problem::Problem;
 use unwrapd_api::{Catalog, Content, Format, Kind, START, Upload};
 
 /// Lock that lets only one input at a time be in memory to find its references: it may be as large as an upload.
-static LOOKING: Mutex<()> = Mutex::new(());
+static ONE_INPUT: Mutex<()> = Mutex::new(());
 
 /// Returns the names among `known` that an input of a kind references. `input` reads the input, and `material` a
 /// material file by name. An input without other files is not read.
@@ -25,7 +25,7 @@ pub(super) fn referenced(
     if known.is_empty() {
         return Ok(BTreeSet::new());
     }
-    let _looking = LOOKING.lock().unwrap_or_else(PoisonError::into_inner);
+    let _one_input = ONE_INPUT.lock().unwrap_or_else(PoisonError::into_inner);
     let bytes = input()?;
     let mut names = match kind.reads() {
         Content::Problem => of_problem(&bytes, known),

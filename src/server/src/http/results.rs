@@ -201,7 +201,7 @@ async fn file(
     role: &str,
     headers: &HeaderMap,
 ) -> Result<Response, Problem> {
-    let job = existing(app, &caller.reach(), id).await?;
+    let job = existing(app, &caller.visibility(), id).await?;
     check_succeeded(&job)?;
     let file = job.output(role).ok_or_else(|| no_such_file(&job, role))?;
     download::answer(app, &job, File::Output(file), headers).await
@@ -214,7 +214,7 @@ async fn picture(
     picture: Picture,
     headers: &HeaderMap,
 ) -> Result<Response, Problem> {
-    let job = existing(app, &caller.reach(), id).await?;
+    let job = existing(app, &caller.visibility(), id).await?;
     check_succeeded(&job)?;
     if !job.pictures().contains(&picture) {
         return Err(no_such_file(&job, picture.role()));

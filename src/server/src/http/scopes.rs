@@ -16,8 +16,8 @@ pub(super) fn needed(method: &Method, path: &str) -> Vec<Scope> {
     if path == OF_ANY_KEY {
         return Vec::new();
     }
-    let is_looking = [Method::GET, Method::HEAD].contains(method) && path != WRITTEN;
-    let verb = if is_looking {
+    let is_reading = [Method::GET, Method::HEAD].contains(method) && path != WRITTEN;
+    let verb = if is_reading {
         Scope::Read
     } else {
         Scope::Write

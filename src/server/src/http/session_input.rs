@@ -57,7 +57,7 @@ pub(super) async fn received(
     let options = complete(app.jobs.settings().catalog, kind, query.options)?;
     // Copy the files of the job into a new folder.
     let id = job.parse().map_err(|_| job_not_found())?;
-    let job = existing(app, &caller.reach(), id).await?;
+    let job = existing(app, &caller.visibility(), id).await?;
     let path = (app.jobs.settings().scratch).join(format!("upload-{}", JobId::fresh()));
     let folder = Scratch::make(path)?;
     let mut files = Vec::new();

@@ -100,7 +100,7 @@ impl FromRequestParts<Arc<App>> for PathSession {
         let caller = Caller::from_request_parts(parts, app).await?;
         let id = Path::<String>::from_request_parts(parts, app).await;
         let id: Option<JobId> = id.ok().and_then(|Path(id)| id.parse().ok());
-        id.and_then(|id| app.sessions.get(&caller.reach(), id))
+        id.and_then(|id| app.sessions.get(&caller.visibility(), id))
             .map(Self)
             .ok_or_else(missing)
     }
@@ -175,7 +175,7 @@ impl From<Unopened> for Problem {
     responses((status = 200, description = "The sessions", body = SessionList))
 )]
 pub(super) async fn list_sessions(State(app): Shared, caller: Caller) -> Response {
-    let sessions = app.sessions.list(&caller.reach());
+    let sessions = app.sessions.list(&caller.visibility());
     let list = SessionList {
         sessions: sessions.iter().map(|session| view(&app, session)).collect(),
         limit: app.sessions.settings().most,

@@ -11,7 +11,7 @@ use super::answers::CallProblems;
 use super::app::{App, Shared};
 use super::jobs::wait_for;
 use super::problem::{Code, Problem};
-use super::wishes::Wishes;
+use super::submission_headers::SubmissionHeaders;
 use super::{download, upload};
 use crate::jobs::access::Caller;
 use crate::jobs::{Ended, Job, JobId, Jobs, State as JobState, Submitted};
@@ -75,9 +75,9 @@ async fn run(
     request: Request,
 ) -> Result<Response, Problem> {
     // Ignore an idempotency key: the job is gone when the request ends.
-    let wishes = Wishes {
+    let submission_headers = SubmissionHeaders {
         key: None,
-        ..Wishes::read(request.headers())?
+        ..SubmissionHeaders::read(request.headers())?
     };
     // Receive the upload and refuse results with several files.
     let received = upload::receive(app, Some(kind), request).await?;
@@ -90,14 +90,21 @@ async fn run(
         return Err(Problem::new(Code::NeedsJob, detail));
     }
     // Queue a job that is removed when the request ends, and wait for it.
-    let (submission, _folder) = received.into_submission(caller.owner(), wishes, true);
+    let (submission, _folder) = received.into_submission(caller.owner(), submission_headers, true);
     let (Submitted::New(job) | Submitted::Replay(job)) = app.jobs.submit(submission).await?;
     let _guest = Guest {
         jobs: &app.jobs,
         id: job.id,
     };
     // Answer with its result, or say why there is none.
-    match wait_for(app, &caller.reach(), job.id, app.settings.synchronous_time).await? {
+    match wait_for(
+        app,
+        &caller.visibility(),
+        job.id,
+        app.settings.synchronous_time,
+    )
+    .await?
+    {
         Ended::Yes(job) => answer(app, &job).await,
         Ended::NotYet(_) if app.stop.is_cancelled() => {
             Err(Problem::new(Code::Stopping, "try again, or elsewhere"))
@@ -133,7 +140,7 @@ async fn answer(app: &App, job: &Job) -> Result<Response, Problem> {
 /// Sets headers from the verdict of a job, which is not kept.
 fn tell_verdict(verdict: &Verdict, headers: &mut HeaderMap) {
     for (name, verdict) in [
-        (CERTIFIED, verdict.worth.certified),
+        (CERTIFIED, verdict.quality.certified),
         (WITHIN_BOUND, verdict.within_bound),
     ] {
         if let Some(verdict) = verdict {

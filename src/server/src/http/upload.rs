@@ -165,7 +165,7 @@ async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Receiv
         app.jobs.settings().catalog,
         folder,
         limit,
-        std::mem::take(&mut query.said),
+        std::mem::take(&mut query.handling),
     )?;
     // Read a form or a raw body.
     let media_type = media_type(request.headers());

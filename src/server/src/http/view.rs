@@ -151,7 +151,7 @@ impl JobView {
                 .finished
                 .zip(settings.retention)
                 .map(|(end, kept)| end.later(kept)),
-            certified: job.verdict.worth.certified,
+            certified: job.verdict.quality.certified,
             accepted: job.accepted(),
             within_bound: job.verdict.within_bound,
             warnings: job.verdict.warnings.clone(),

@@ -1,6 +1,6 @@
 //! One attempt at a job, from the worker's side.
 
-use super::access::Reach;
+use super::access::Visibility;
 use super::child::{Child, Exit};
 use super::deadline::{given_up_after, timed_out};
 use super::job::Job;
@@ -13,7 +13,7 @@ use super::running::Attempt;
 use super::settings::Deployment;
 use super::storage::Changed;
 use super::store_error::{StoreError, StoreResult};
-use super::transition::{Ending, Happening};
+use super::transition::{Ending, Transition};
 use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::Arc;
@@ -62,7 +62,7 @@ async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken
         if let Err(refused) = catalog.complete(job.kind, job.options.clone()) {
             let error = refused.failure.detail;
             tracing::warn!(job = %job.id, %error, "left to a newer program");
-            return Ok(Some(Ending::HandedBack(PAUSE_FOR_NEWER)));
+            return Ok(Some(Ending::Requeued(PAUSE_FOR_NEWER)));
         }
         prepare(jobs, &job, &folder).await?;
         compute(jobs, &job, attempt, &folder, leave).await
@@ -75,7 +75,7 @@ async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken
             StoreError::Missing(what) => Ending::Failed(Failure::new("missing_file", what)),
             _ if error.is_passing() => {
                 rest = PAUSE;
-                Ending::HandedBack(PAUSE)
+                Ending::Requeued(PAUSE)
             }
             StoreError::File { why, .. } => {
                 let detail = format!("a file of the service cannot be used: {why}");
@@ -208,9 +208,13 @@ async fn conclude(
     ending: Ending,
     leave: &CancellationToken,
 ) {
-    let happening = Happening::Ended(attempt.token, attempt.saying(), ending);
+    let transition = Transition::Ended(attempt.token, attempt.report(), ending);
     loop {
-        match jobs.store.change(&Reach::All, job.id, &happening).await {
+        match jobs
+            .store
+            .change(&Visibility::All, job.id, &transition)
+            .await
+        {
             Ok(Changed::Yes(job)) => {
                 let failure = job.failure.as_ref();
                 let code = failure.map(|failure| failure.code.as_str());
@@ -298,7 +302,7 @@ async fn watch(
             () = attempt.outdated.cancelled() => return Watched::Outdated,
             () = attempt.cancel.cancelled() => return Watched::EndedBy(Ending::Cancelled),
             () = leave.cancelled() => {
-                return Watched::EndedBy(Ending::HandedBack(Duration::ZERO));
+                return Watched::EndedBy(Ending::Requeued(Duration::ZERO));
             }
             () = tokio::time::sleep_until(deadline) => {
                 return Watched::EndedBy(Ending::Failed(timed_out(limits.time)));
@@ -332,7 +336,7 @@ async fn watch(
 fn lapsed(jobs: &Jobs) -> Watched {
     match jobs.settings.deployment {
         Deployment::Embedded => Watched::Outdated,
-        Deployment::Shared => Watched::EndedBy(Ending::HandedBack(Duration::ZERO)),
+        Deployment::Shared => Watched::EndedBy(Ending::Requeued(Duration::ZERO)),
     }
 }
 

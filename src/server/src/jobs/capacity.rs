@@ -9,10 +9,10 @@ use super::store_error::{StoreError, StoreResult};
 
 /// Period over which the throughput of the queue is measured. Over longer periods the estimate lags behind changes;
 /// in shorter ones too few long jobs end.
-const PACE_TIME: Duration = Duration::from_mins(5);
+const THROUGHPUT_PERIOD: Duration = Duration::from_mins(5);
 /// Estimated wait for a place in the queue when no job has ended lately. Without a throughput there is nothing to
 /// derive it from.
-const WITHOUT_PACE: Duration = Duration::from_mins(1);
+const UNKNOWN_WAIT: Duration = Duration::from_mins(1);
 
 /// Timeout for file storage to respond. `/readyz` and `/metrics` take this long at most if it hangs.
 const BLOBS_PATIENCE: Duration = Duration::from_secs(5);
@@ -46,9 +46,11 @@ impl Jobs {
 
     /// Estimates when a place in the queue will be free, from the throughput of the last minutes.
     pub(super) async fn next_place(&self) -> Duration {
-        match self.store.ended_within(PACE_TIME).await {
-            Ok(ended @ 1..) => (PACE_TIME / ended.min(1000) as u32).max(Duration::from_secs(1)),
-            _ => WITHOUT_PACE,
+        match self.store.ended_within(THROUGHPUT_PERIOD).await {
+            Ok(ended @ 1..) => {
+                (THROUGHPUT_PERIOD / ended.min(1000) as u32).max(Duration::from_secs(1))
+            }
+            _ => UNKNOWN_WAIT,
         }
     }
 

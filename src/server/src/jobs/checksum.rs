@@ -51,26 +51,29 @@ fn of_file(path: &Path) -> std::io::Result<String> {
 /// so no reader takes it for complete.
 pub(super) fn checked(content: Content, expected: String) -> Content {
     let state = (content, Sha256::new(), None::<Vec<u8>>, Some(expected));
-    let blocks = stream::unfold(state, async |(mut content, mut hash, mut held, mut end)| {
-        loop {
-            match content.next().await {
-                // Hold back the newest block, since the last one is passed on only if the checksum matches.
-                Some(Ok(block)) => {
-                    hash.update(&block);
-                    if let Some(block) = held.replace(block) {
-                        return Some((Ok(block), (content, hash, held, end)));
+    let blocks = stream::unfold(
+        state,
+        async |(mut content, mut hash, mut newest, mut end)| {
+            loop {
+                match content.next().await {
+                    // Hold back the newest block, since the last one is passed on only if the checksum matches.
+                    Some(Ok(block)) => {
+                        hash.update(&block);
+                        if let Some(block) = newest.replace(block) {
+                            return Some((Ok(block), (content, hash, newest, end)));
+                        }
+                    }
+                    Some(Err(error)) => return Some((Err(error), (content, hash, None, None))),
+                    None => {
+                        let expected = end.take()?;
+                        let sha256 = format!("{:x}", std::mem::take(&mut hash).finalize());
+                        let last = compared(&sha256, &expected);
+                        let last = last.map(|()| newest.take().unwrap_or_default());
+                        return Some((last, (content, hash, None, None)));
                     }
                 }
-                Some(Err(error)) => return Some((Err(error), (content, hash, None, None))),
-                None => {
-                    let expected = end.take()?;
-                    let sha256 = format!("{:x}", std::mem::take(&mut hash).finalize());
-                    let last = compared(&sha256, &expected);
-                    let last = last.map(|()| held.take().unwrap_or_default());
-                    return Some((last, (content, hash, None, None)));
-                }
             }
-        }
-    });
+        },
+    );
     blocks.boxed()
 }

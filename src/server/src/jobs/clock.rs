@@ -15,12 +15,12 @@ const TOLERANCE: Duration = Duration::from_mins(1);
 /// how long both have advanced alike since the start or the last jump.
 #[derive(Debug, Default)]
 pub struct SteadyClock {
-    last: Mutex<Option<Look>>,
+    last: Mutex<Option<Reading>>,
 }
 
 /// Both clocks at one moment.
 #[derive(Clone, Copy, Debug)]
-struct Look {
+struct Reading {
     /// Start of the period in which both have advanced alike.
     steady_since: Instant,
     at: Instant,
@@ -38,7 +38,7 @@ pub struct Steadiness {
 
 impl SteadyClock {
     /// Records that the store's clock showed `time` at `at`.
-    pub fn look(&self, time: Timestamp, at: Instant) -> Steadiness {
+    pub fn record(&self, time: Timestamp, at: Instant) -> Steadiness {
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
         let jump_ms = last.and_then(|last| {
             let passed = at.saturating_duration_since(last.at);
@@ -47,7 +47,7 @@ impl SteadyClock {
         });
         let before = last.filter(|_| jump_ms.is_none());
         let steady_since = before.map_or(at, |last| last.steady_since);
-        *last = Some(Look {
+        *last = Some(Reading {
             steady_since,
             at,
             time,

@@ -10,7 +10,7 @@ impl Jobs {
     pub fn set_draining(&self, draining: bool) {
         self.draining.store(draining, Ordering::Relaxed);
         tracing::info!(draining, "drain");
-        self.look();
+        self.wake_lanes();
     }
 
     /// Returns whether the process is draining.
@@ -22,7 +22,7 @@ impl Jobs {
     pub async fn set_paused(&self, paused: bool) -> StoreResult<()> {
         self.store.set_paused(paused).await?;
         tracing::info!(paused, "pause");
-        self.look();
+        self.wake_lanes();
         Ok(())
     }
 
@@ -33,6 +33,6 @@ impl Jobs {
 
     /// Returns the number of jobs that this process is computing.
     pub fn running(&self) -> usize {
-        self.running.beats().len()
+        self.running.heartbeats().len()
     }
 }

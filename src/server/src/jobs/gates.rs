@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::str::FromStr;
-use unwrapd_api::{Kind, Worth};
+use unwrapd_api::{Kind, Quality};
 
 /// One gate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,13 +67,13 @@ impl Default for Gates {
 
 impl Gates {
     /// Returns whether a result that took this many seconds passes all gates.
-    pub fn accept(&self, worth: &Worth, seconds: f64) -> bool {
-        self.missed(worth, seconds).next().is_none()
+    pub fn accept(&self, quality: &Quality, seconds: f64) -> bool {
+        self.missed(quality, seconds).next().is_none()
     }
 
     /// Returns the gates that the result misses.
-    pub fn missed(&self, worth: &Worth, seconds: f64) -> impl Iterator<Item = &Gate> {
-        let is_missed = move |gate: &&Gate| !gate.accepts(worth, seconds);
+    pub fn missed(&self, quality: &Quality, seconds: f64) -> impl Iterator<Item = &Gate> {
+        let is_missed = move |gate: &&Gate| !gate.accepts(quality, seconds);
         self.0.iter().filter(is_missed)
     }
 
@@ -94,15 +94,15 @@ impl Gates {
 }
 
 impl Gate {
-    fn accepts(self, worth: &Worth, seconds: f64) -> bool {
+    fn accepts(self, quality: &Quality, seconds: f64) -> bool {
         // A surface without area has no distortion, so it passes.
         let is_within = |figure: Option<f64>, most: f64| figure.is_none_or(|figure| figure <= most);
         match self {
             Self::Written => true,
-            Self::Certified => worth.certified == Some(true),
-            Self::MaxCharts(most) => worth.charts.is_none_or(|charts| charts <= most),
-            Self::MaxDistortion(most) => is_within(worth.distortion, most),
-            Self::MaxStretch(most) => is_within(worth.stretch, most),
+            Self::Certified => quality.certified == Some(true),
+            Self::MaxCharts(most) => quality.charts.is_none_or(|charts| charts <= most),
+            Self::MaxDistortion(most) => is_within(quality.distortion, most),
+            Self::MaxStretch(most) => is_within(quality.stretch, most),
             Self::MaxSeconds(most) => seconds <= most,
         }
     }

@@ -2,7 +2,7 @@
 
 use futures_util::TryStreamExt;
 
-use super::access::Reach;
+use super::access::Visibility;
 use super::blobs::Blobs;
 use super::checksum;
 use super::job::{Job, JobId};
@@ -62,16 +62,16 @@ pub async fn inspect(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreResult<Ins
         ..Listing::default()
     };
     loop {
-        let page = store.list(&Reach::All, &listing).await?;
+        let page = store.list(&Visibility::All, &listing).await?;
         for job in &page {
-            inspection.look_at(job, store, blobs).await?;
+            inspection.check_job(job, store, blobs).await?;
         }
         match page.last() {
             Some(last) => listing.after = Some(last.id),
             None => break,
         }
     }
-    inspection.look_for_unknown(store, blobs).await?;
+    inspection.find_unknown(store, blobs).await?;
     Ok(inspection)
 }
 
@@ -99,7 +99,7 @@ pub async fn purge(store: &dyn JobStore, blobs: &dyn Blobs) -> StoreResult<usize
 }
 
 impl Inspection {
-    async fn look_at(
+    async fn check_job(
         &mut self,
         job: &Job,
         store: &dyn JobStore,
@@ -128,7 +128,7 @@ impl Inspection {
                 Err(error) => return Err(error),
             };
             // Report a loss only if the job still has this file: it may have been deleted or cancelled since.
-            let now = store.get(&Reach::All, job.id).await?;
+            let now = store.get(&Visibility::All, job.id).await?;
             if now.is_some_and(|now| now.state == job.state && now.token == job.token) {
                 self.lost.push(LostFile {
                     job: job.id,
@@ -141,11 +141,7 @@ impl Inspection {
         Ok(())
     }
 
-    async fn look_for_unknown(
-        &mut self,
-        store: &dyn JobStore,
-        blobs: &dyn Blobs,
-    ) -> StoreResult<()> {
+    async fn find_unknown(&mut self, store: &dyn JobStore, blobs: &dyn Blobs) -> StoreResult<()> {
         for id in blobs.owners().await? {
             let is_old = SUBMISSION_MS <= Timestamp::now().since(id.made());
             if is_old && store.events(&[id]).await?.is_empty() {

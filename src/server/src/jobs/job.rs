@@ -175,7 +175,7 @@ impl Job {
         let end = self.finished?;
         let seconds = self.started.map_or(0, |started| end.since(started)) as f64 / 1000.0;
         match self.state {
-            State::Succeeded => Some(gates.accept(&self.verdict.worth, seconds)),
+            State::Succeeded => Some(gates.accept(&self.verdict.quality, seconds)),
             State::Failed => Some(false),
             _ => None,
         }

@@ -38,7 +38,6 @@
 
 pub mod access;
 mod attempt;
-mod beats;
 mod blobs;
 mod capacity;
 mod checksum;
@@ -50,6 +49,7 @@ mod digest;
 mod drain;
 mod gates;
 mod handling;
+mod heartbeats;
 mod identity;
 mod inspection;
 mod job;
@@ -105,7 +105,7 @@ pub use metadata::{Metadata, MetadataError};
 pub use outbox::{Notice, Outbox};
 pub use pictures::Undrawn;
 pub use program::Program;
-pub use progress::{Event, Saying};
+pub use progress::{Event, ProgressReport};
 pub use queue::{Ended, Jobs};
 pub use quotas::{Capacity, OwnerQuota, OwnerQuotas};
 pub use retry::{Retried, retry_failed};
@@ -114,14 +114,14 @@ pub use settings::{Deployment, Settings};
 pub use space::free_bytes;
 pub use state::State;
 pub use storage::{
-    Beat, Census, Changed, Enqueued, IdempotencyKey, JobStore, Quarantined, Queue, Reason, Share,
-    Sweep,
+    Census, Changed, Enqueued, Heartbeat, IdempotencyKey, JobStore, Quarantined, Queue, Reason,
+    Share, Sweep,
 };
 pub use store_error::{StoreError, StoreResult};
 pub use store_id::StoreId;
 pub use submit::{Submission, SubmitError, Submitted};
 pub use subscription::Subscription;
 pub use timestamp::Timestamp;
-pub use transition::{Ending, Happening, Refusal, Wish, after};
+pub use transition::{Command, Ending, Refusal, Transition, after};
 pub use watching::NextMaps;
 pub use webhook::{Webhook, WebhookError};

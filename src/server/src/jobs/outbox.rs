@@ -39,7 +39,7 @@ impl Notice {
                 "state": job.state,
                 "filename": job.input.first().map(|file| &file.name),
                 "metadata": job.metadata,
-                "certified": job.verdict.worth.certified,
+                "certified": job.verdict.quality.certified,
                 "within_bound": job.verdict.within_bound,
                 "accepted": job.accepted(),
                 "error": job.failure,

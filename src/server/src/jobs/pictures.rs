@@ -15,7 +15,7 @@ use std::time::Duration;
 
 use futures_util::TryStreamExt;
 
-use super::access::Reach;
+use super::access::Visibility;
 use super::checksum;
 use super::child::Child;
 use super::contained::finished;
@@ -25,7 +25,7 @@ use super::queue::Jobs;
 use super::scratch::Scratch;
 use super::storage::Changed;
 use super::store_error::{StoreError, StoreResult};
-use super::transition::Happening;
+use super::transition::Transition;
 use unwrapd_api::{
     DRAWING, Drawing, Failure, Format, Kind, OutputFile, PICTURE, Picture, input_file, output_file,
     sha256, write_json,
@@ -116,7 +116,7 @@ impl Jobs {
         }
         // Wait for the turn of this job, then look again at what the turn before has left.
         let turn = self.drawing.turn(job.id).await;
-        let now = self.store.get(&Reach::All, job.id).await?;
+        let now = self.store.get(&Visibility::All, job.id).await?;
         let job = now.ok_or(Undrawn::Removed)?;
         // Another request may have drawn it in the turn before.
         if let Some(kept) = self.kept(&job, picture).await? {
@@ -132,7 +132,7 @@ impl Jobs {
             match drawn {
                 Err(Undrawn::Store(error)) if error.is_loss() => {
                     // A removal deletes the record first, so a missing file may mean a removed job.
-                    let now = jobs.store.get(&Reach::All, job.id).await?;
+                    let now = jobs.store.get(&Visibility::All, job.id).await?;
                     Err(now.map_or(Undrawn::Removed, |_| error.into()))
                 }
                 drawn => drawn,
@@ -199,8 +199,8 @@ impl Jobs {
         };
         let key = picture_key(job.id, job.token, &file);
         self.blobs.put(&key, &path).await?;
-        let drawn = Happening::Drawn(job.token, file);
-        if let Changed::Missing = self.store.change(&Reach::All, job.id, &drawn).await? {
+        let drawn = Transition::Drawn(job.token, file);
+        if let Changed::Missing = self.store.change(&Visibility::All, job.id, &drawn).await? {
             // The job was removed meanwhile, perhaps before this file was stored: remove its files again.
             self.blobs.remove(&job.id.to_string()).await?;
             return Err(Undrawn::Removed);

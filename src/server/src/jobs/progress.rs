@@ -7,7 +7,7 @@ use unwrapd_api::Progress;
 
 /// Progress report of an attempt.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Saying {
+pub struct ProgressReport {
     /// Number of its latest event.
     pub seq: u64,
     /// Progress of the attempt.

@@ -31,8 +31,8 @@ impl Jobs {
         // Find the jobs that have files but no record, and the entries that are known again.
         let owners = self.blobs.owners().await?;
         let unknown = self.unknown(&owners, age).await?;
-        let held = self.store.quarantined().await?;
-        let known: Vec<JobId> = held.iter().map(|files| files.job).collect();
+        let quarantined = self.store.quarantined().await?;
+        let known: Vec<JobId> = quarantined.iter().map(|files| files.job).collect();
         let known: Vec<JobId> = (known.into_iter())
             .filter(|job| !unknown.contains(job))
             .collect();
@@ -47,7 +47,7 @@ impl Jobs {
             self.store.quarantine(&found).await?;
         }
         for job in &unknown {
-            if !held.iter().any(|files| files.job == *job) {
+            if !quarantined.iter().any(|files| files.job == *job) {
                 tracing::warn!(%job, "files without a job are in quarantine");
             }
         }
@@ -94,7 +94,7 @@ impl Jobs {
     /// Deletes files that have been in quarantine long enough.
     async fn delete_quarantined(&self) -> StoreResult<()> {
         for files in self.store.quarantined().await? {
-            let is_due = self.settings.quarantine <= files.held;
+            let is_due = self.settings.quarantine <= files.age;
             if is_due && self.store.events(&[files.job]).await?.is_empty() {
                 tracing::warn!(job = %files.job, bytes = files.bytes, "files without a job deleted");
                 self.blobs.remove(&files.job.to_string()).await?;

@@ -1,6 +1,6 @@
 //! The queue as clients see it: jobs are read, awaited, ended, retried and removed.
 
-use super::access::Reach;
+use super::access::Visibility;
 use super::blobs::Blobs;
 use super::clock::SteadyClock;
 use super::job::{Job, JobId};
@@ -16,7 +16,7 @@ use super::storage::{Changed, JobStore, Queue, Reason};
 use super::store_error::StoreResult;
 use super::store_id::StoreId;
 use super::subscription::Subscription;
-use super::transition::{Happening, Wish};
+use super::transition::{Command, Transition};
 use std::collections::HashMap;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
@@ -83,9 +83,9 @@ impl Jobs {
     }
 
     /// Returns the record of a job, with live progress if it runs in this process.
-    pub async fn get(&self, reach: &Reach, id: JobId) -> StoreResult<Option<Job>> {
+    pub async fn get(&self, visibility: &Visibility, id: JobId) -> StoreResult<Option<Job>> {
         let running = self.running.attempt(id);
-        let mut job = self.store.get(reach, id).await?;
+        let mut job = self.store.get(visibility, id).await?;
         if let (Some(job), Some(running)) = (&mut job, running) {
             let event = running.event();
             if job.state == State::Running && job.token == running.token && job.seq < event.seq {
@@ -97,13 +97,13 @@ impl Jobs {
     }
 
     /// Returns whether there was such a job until it expired.
-    pub async fn has_expired(&self, reach: &Reach, id: JobId) -> StoreResult<bool> {
-        self.store.has_expired(reach, id).await
+    pub async fn has_expired(&self, visibility: &Visibility, id: JobId) -> StoreResult<bool> {
+        self.store.has_expired(visibility, id).await
     }
 
     /// Returns a page of jobs.
-    pub async fn list(&self, reach: &Reach, listing: &Listing) -> StoreResult<Vec<Job>> {
-        self.store.list(reach, listing).await
+    pub async fn list(&self, visibility: &Visibility, listing: &Listing) -> StoreResult<Vec<Job>> {
+        self.store.list(visibility, listing).await
     }
 
     /// Returns the number of jobs in each state, and the wait of the oldest queued job.
@@ -114,16 +114,16 @@ impl Jobs {
     /// Waits for the end of a job, up to `at_most`. Returns `None` if there is no such job.
     pub async fn wait(
         &self,
-        reach: &Reach,
+        visibility: &Visibility,
         id: JobId,
         at_most: Duration,
     ) -> StoreResult<Option<Ended>> {
-        let Some(mut events) = self.subscribe(reach, id).await? else {
+        let Some(mut events) = self.subscribe(visibility, id).await? else {
             return Ok(None);
         };
         let end = async { while events.next().await.is_some() {} };
         let _ = tokio::time::timeout(at_most, end).await;
-        let job = self.get(reach, id).await?;
+        let job = self.get(visibility, id).await?;
         Ok(job.map(|job| {
             if job.state.is_final() {
                 Ended::Yes(job)
@@ -134,11 +134,16 @@ impl Jobs {
     }
 
     /// Cancels a job, ends it early with its current map, or retries it, wherever it runs.
-    pub async fn wish(&self, reach: &Reach, id: JobId, wish: Wish) -> StoreResult<Changed> {
+    pub async fn command(
+        &self,
+        visibility: &Visibility,
+        id: JobId,
+        command: Command,
+    ) -> StoreResult<Changed> {
         // Tell a child of this process first, so that it does not wait for the store.
-        self.running.wish(reach, id, wish);
-        let wished = Happening::Wished(wish);
-        let changed = self.store.change(reach, id, &wished).await?;
+        self.running.command(visibility, id, command);
+        let commanded = Transition::Commanded(command);
+        let changed = self.store.change(visibility, id, &commanded).await?;
         if let Changed::Yes(job) = &changed {
             self.tell(job).await;
         }
@@ -146,8 +151,13 @@ impl Jobs {
     }
 
     /// Removes a job in a final state with its files. Returns `false` if there is none.
-    pub async fn remove(&self, reach: &Reach, id: JobId, reason: Reason) -> StoreResult<bool> {
-        let removed = self.store.delete(reach, id, reason).await?;
+    pub async fn remove(
+        &self,
+        visibility: &Visibility,
+        id: JobId,
+        reason: Reason,
+    ) -> StoreResult<bool> {
+        let removed = self.store.delete(visibility, id, reason).await?;
         if removed {
             self.blobs.remove(&id.to_string()).await?;
             self.live.forget(id);
@@ -160,9 +170,9 @@ impl Jobs {
         let jobs = Arc::clone(self);
         self.tasks.spawn(async move {
             let dismissed = async {
-                jobs.wish(&Reach::All, id, Wish::Cancel).await?;
-                jobs.wait(&Reach::All, id, DISMISSAL_TIME).await?;
-                jobs.remove(&Reach::All, id, Reason::Deleted).await
+                jobs.command(&Visibility::All, id, Command::Cancel).await?;
+                jobs.wait(&Visibility::All, id, DISMISSAL_TIME).await?;
+                jobs.remove(&Visibility::All, id, Reason::Deleted).await
             };
             if let Err(error) = dismissed.await {
                 tracing::error!(job = %id, %error, "not removed");
@@ -178,12 +188,12 @@ impl Jobs {
         }
         self.live.publish(job.id, job.event());
         if job.state == State::Queued {
-            self.look();
+            self.wake_lanes();
         }
     }
 
     /// Wakes this process to look for jobs that can start.
-    pub(super) fn look(&self) {
+    pub(super) fn wake_lanes(&self) {
         self.wake.notify_one();
         self.wake_reserve.notify_one();
     }

@@ -6,13 +6,13 @@ use std::time::Duration;
 use tokio::time::{Instant, MissedTickBehavior};
 use tokio_util::sync::CancellationToken;
 
-use super::access::Reach;
+use super::access::Visibility;
 use super::identity::shared_identity;
 use super::queue::Jobs;
 use super::settings::Deployment;
 use super::storage::{Reason, Sweep};
 use super::store_error::{StoreError, StoreResult};
-use super::transition::Wish;
+use super::transition::Command;
 
 /// Number of searches for expired jobs per retention time, so that a job outlives it by a tenth at most.
 const SEARCHES: u32 = 10;
@@ -48,8 +48,8 @@ impl Jobs {
         if self.settings.deployment == Deployment::Embedded {
             self.sweep(Sweep::Abandoned).await?;
             for id in self.store.ephemeral().await? {
-                self.wish(&Reach::All, id, Wish::Cancel).await?;
-                self.remove(&Reach::All, id, Reason::Deleted).await?;
+                self.command(&Visibility::All, id, Command::Cancel).await?;
+                self.remove(&Visibility::All, id, Reason::Deleted).await?;
             }
             self.sweep_unknown_files(Duration::ZERO).await?;
         }
@@ -109,7 +109,7 @@ impl Jobs {
                 return Ok(removed);
             }
             for id in ids {
-                self.remove(&Reach::All, id, Reason::Expired).await?;
+                self.remove(&Visibility::All, id, Reason::Expired).await?;
                 removed += 1;
             }
         }
@@ -120,7 +120,7 @@ impl Jobs {
     pub(super) async fn clock_is_steady(&self) -> StoreResult<bool> {
         let wait = self.settings.retention.unwrap_or(STEADY).min(STEADY);
         let now = self.store.now().await?;
-        let steadiness = self.clock.look(now, Instant::now());
+        let steadiness = self.clock.record(now, Instant::now());
         let is_steady = wait <= steadiness.steady;
         if let Some(jump_ms) = steadiness.jump_ms {
             tracing::warn!(

@@ -1,13 +1,13 @@
 //! Retrying many failed jobs at once.
 
-use super::access::Reach;
+use super::access::Visibility;
 use super::job::{Job, JobId};
 use super::listing::{Listing, Order};
 use super::queue::Jobs;
 use super::state::State;
 use super::storage::{Changed, JobStore};
 use super::store_error::StoreResult;
-use super::transition::{Happening, Wish};
+use super::transition::{Command, Transition};
 
 /// Jobs per page. Larger pages hold more records in memory, smaller ones need more queries.
 const PAGE: u32 = 200;
@@ -27,7 +27,7 @@ pub struct Retried {
 /// failed with it.
 pub async fn retry_failed(
     store: &dyn JobStore,
-    reach: &Reach,
+    visibility: &Visibility,
     listing: Listing,
     code: Option<&str>,
 ) -> StoreResult<Retried> {
@@ -40,7 +40,7 @@ pub async fn retry_failed(
     };
     let mut retried = Retried::default();
     loop {
-        let page = store.list(reach, &listing).await?;
+        let page = store.list(visibility, &listing).await?;
         for job in &page {
             // The code is no filter of the store, so it is compared here.
             let failure = job.failure.as_ref().map(|failure| failure.code.as_str());
@@ -48,8 +48,8 @@ pub async fn retry_failed(
                 continue;
             }
             // Requeue the job. A job that has not failed any more is left alone.
-            let again = Happening::Wished(Wish::Retry);
-            if let Changed::Yes(job) = store.change(reach, job.id, &again).await? {
+            let again = Transition::Commanded(Command::Retry);
+            if let Changed::Yes(job) = store.change(visibility, job.id, &again).await? {
                 retried.jobs.push(*job);
             }
             if MOST <= retried.jobs.len() {
@@ -68,11 +68,11 @@ impl Jobs {
     /// Retries failed jobs and notifies watchers; see [`retry_failed`].
     pub async fn retry_failed(
         &self,
-        reach: &Reach,
+        visibility: &Visibility,
         listing: Listing,
         code: Option<&str>,
     ) -> StoreResult<Retried> {
-        let retried = retry_failed(self.store.as_ref(), reach, listing, code).await?;
+        let retried = retry_failed(self.store.as_ref(), visibility, listing, code).await?;
         for job in &retried.jobs {
             self.tell(job).await;
         }

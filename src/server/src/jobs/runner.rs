@@ -47,9 +47,9 @@ impl Jobs {
         let stopped = stop.clone();
         self.tasks
             .spawn(async move { hinted.wake_until(&stopped).await });
-        let beater = Arc::clone(&self);
-        let pace = (self.settings.deployment).beat_interval(&self.settings.rules);
-        let beats = tokio::spawn(async move { beater.beat(pace).await });
+        let sender = Arc::clone(&self);
+        let interval = (self.settings.deployment).heartbeat_interval(&self.settings.rules);
+        let heartbeats = tokio::spawn(async move { sender.send_heartbeats(interval).await });
 
         let reader = Arc::clone(&self);
         // Hash the program now, or the first job would wait for it.
@@ -71,7 +71,7 @@ impl Jobs {
             leave.cancel();
             attempts.wait().await;
         }
-        beats.abort();
+        heartbeats.abort();
         self.tasks.close();
         self.tasks.wait().await;
     }
@@ -102,7 +102,7 @@ impl Jobs {
     async fn wake_until(&self, stop: &CancellationToken) {
         loop {
             tokio::select! {
-                () = self.store.hint() => self.look(),
+                () = self.store.hint() => self.wake_lanes(),
                 () = stop.cancelled() => return,
             }
         }
@@ -142,7 +142,7 @@ impl Jobs {
                     self.wake_reserve.notify_one();
                     return Some(Claimed { slot, job, attempt });
                 }
-                Ok(None) => self.settings.deployment.look_interval(),
+                Ok(None) => self.settings.deployment.poll_interval(),
                 Err(error) => {
                     meters::store_failed();
                     tracing::error!(%error, "no job claimed");

@@ -6,13 +6,13 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::time::Instant;
 use tokio_util::sync::CancellationToken;
 
-use super::access::{Owner, Reach};
+use super::access::{Owner, Visibility};
 use super::job::{Job, JobId};
 use super::lease::{SUSPECT, Token};
 use super::map_feed::MapFeed;
-use super::progress::{Event, Saying};
-use super::storage::{Beat, Changed};
-use super::transition::Wish;
+use super::progress::{Event, ProgressReport};
+use super::storage::{Changed, Heartbeat};
+use super::transition::Command;
 
 /// An attempt of this process.
 pub(super) struct Attempt {
@@ -60,9 +60,9 @@ impl Attempt {
     }
 
     /// Returns its progress report.
-    pub fn saying(&self) -> Saying {
+    pub fn report(&self) -> ProgressReport {
         let state = self.state();
-        Saying {
+        ProgressReport {
             seq: state.event.seq,
             progress: state.event.progress,
             cpu_ms: state.cpu_ms,
@@ -134,29 +134,29 @@ impl Running {
     }
 
     /// Passes a client's command to the attempt at a job, if it runs here and is visible to the client.
-    pub fn wish(&self, reach: &Reach, id: JobId, wish: Wish) {
+    pub fn command(&self, visibility: &Visibility, id: JobId, command: Command) {
         let attempt = self.attempt(id);
-        let Some(attempt) = attempt.filter(|it| reach.covers(&it.owner)) else {
+        let Some(attempt) = attempt.filter(|it| visibility.covers(&it.owner)) else {
             return;
         };
-        match wish {
-            Wish::Cancel => attempt.cancel.cancel(),
-            Wish::FinishEarly => attempt.finish.cancel(),
-            Wish::Retry => {}
+        match command {
+            Command::Cancel => attempt.cancel.cancel(),
+            Command::FinishEarly => attempt.finish.cancel(),
+            Command::Retry => {}
         }
     }
 
     /// Returns the heartbeats of all attempts.
-    pub fn beats(&self) -> Vec<Beat> {
+    pub fn heartbeats(&self) -> Vec<Heartbeat> {
         let attempts = self.attempts();
-        let beats = attempts.iter();
-        beats
-            .map(|(&id, attempt)| (id, attempt.token, attempt.saying()))
+        let heartbeats = attempts.iter();
+        heartbeats
+            .map(|(&id, attempt)| (id, attempt.token, attempt.report()))
             .collect()
     }
 
     /// Handles the answer to a heartbeat: renews the lease and passes on commands, or marks the attempt outdated.
-    pub fn answered(&self, (id, token, _): &Beat, changed: &Changed, lease_end: Instant) {
+    pub fn answered(&self, (id, token, _): &Heartbeat, changed: &Changed, lease_end: Instant) {
         let attempt = self.attempt(*id).filter(|it| it.token == *token);
         match (attempt, changed) {
             (Some(attempt), Changed::Yes(job)) => {

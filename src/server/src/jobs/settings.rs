@@ -20,7 +20,7 @@ pub enum Deployment {
 impl Deployment {
     /// Returns the interval between heartbeats. It bounds the delay of progress shown by other processes, and of
     /// commands to the worker.
-    pub(super) fn beat_interval(self, rules: &Rules) -> Duration {
+    pub(super) fn heartbeat_interval(self, rules: &Rules) -> Duration {
         match self {
             Self::Embedded => rules.lease / 3,
             Self::Shared => (rules.lease / 3).min(Duration::from_millis(400)),
@@ -28,7 +28,7 @@ impl Deployment {
     }
 
     /// Returns the interval at which idle workers look for jobs, and at which records of watched jobs are polled.
-    pub(super) fn look_interval(self) -> Duration {
+    pub(super) fn poll_interval(self) -> Duration {
         match self {
             Self::Embedded => Duration::from_secs(1),
             Self::Shared => Duration::from_millis(400),

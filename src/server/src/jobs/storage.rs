@@ -4,17 +4,17 @@ use std::time::Duration;
 
 use futures_util::future::BoxFuture;
 
-use super::access::Reach;
+use super::access::Visibility;
 use super::job::{Job, JobId};
 use super::lease::{Token, WorkerId};
 use super::listing::Listing;
-use super::progress::{Event, Saying};
+use super::progress::{Event, ProgressReport};
 use super::quotas::{Capacity, OwnerQuota};
 use super::state::State;
 use super::store_error::StoreResult;
 use super::store_id::StoreId;
 use super::timestamp::Timestamp;
-use super::transition::{Happening, Refusal};
+use super::transition::{Refusal, Transition};
 
 /// Key by which a client marks repeated submissions as one. Each owner has keys of its own.
 #[derive(Clone, Debug)]
@@ -84,7 +84,7 @@ pub enum Changed {
 }
 
 /// Heartbeat of a worker for one job: job, token and progress.
-pub type Beat = (JobId, Token, Saying);
+pub type Heartbeat = (JobId, Token, ProgressReport);
 
 /// Running jobs to take from their workers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,11 +112,11 @@ pub struct Quarantined {
     /// Size in bytes.
     pub bytes: u64,
     /// Time for which they have been unknown.
-    pub held: Duration,
+    pub age: Duration,
 }
 
 /// Store of job records. Every call is one transaction, durable when it returns. Times are those of the store's own
-/// clock. Only [`after`](super::after) decides how a record changes. Jobs outside the reach of a call are reported as
+/// clock. Only [`after`](super::after) decides how a record changes. Jobs outside the visibility of a call are reported as
 /// missing.
 pub trait JobStore: Send + Sync {
     /// Records a job that is queued or has ended, unless it would exceed the capacity or its key has been used. Sets
@@ -129,12 +129,16 @@ pub trait JobStore: Send + Sync {
     ) -> BoxFuture<'a, StoreResult<Enqueued>>;
 
     /// Returns the record of a job.
-    fn get<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<Option<Job>>>;
+    fn get<'a>(
+        &'a self,
+        visibility: &'a Visibility,
+        id: JobId,
+    ) -> BoxFuture<'a, StoreResult<Option<Job>>>;
 
     /// Returns a page of the list.
     fn list<'a>(
         &'a self,
-        reach: &'a Reach,
+        visibility: &'a Visibility,
         listing: &'a Listing,
     ) -> BoxFuture<'a, StoreResult<Vec<Job>>>;
 
@@ -163,13 +167,16 @@ pub trait JobStore: Send + Sync {
     /// Applies an event to a record.
     fn change<'a>(
         &'a self,
-        reach: &'a Reach,
+        visibility: &'a Visibility,
         id: JobId,
-        happening: &'a Happening,
+        transition: &'a Transition,
     ) -> BoxFuture<'a, StoreResult<Changed>>;
 
     /// Records the heartbeats of one worker. Returns the outcome for each, in order.
-    fn beat<'a>(&'a self, beats: &'a [Beat]) -> BoxFuture<'a, StoreResult<Vec<Changed>>>;
+    fn heartbeat<'a>(
+        &'a self,
+        heartbeats: &'a [Heartbeat],
+    ) -> BoxFuture<'a, StoreResult<Vec<Changed>>>;
 
     /// Takes running jobs from their workers. Returns the records that changed.
     fn sweep(&self, sweep: Sweep) -> BoxFuture<'_, StoreResult<Vec<Job>>>;
@@ -177,13 +184,17 @@ pub trait JobStore: Send + Sync {
     /// Removes a record in a final state and its idempotency key. Returns `false` if there is none.
     fn delete<'a>(
         &'a self,
-        reach: &'a Reach,
+        visibility: &'a Visibility,
         id: JobId,
         reason: Reason,
     ) -> BoxFuture<'a, StoreResult<bool>>;
 
     /// Returns whether there was a job until it expired. This is known for a year.
-    fn has_expired<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<bool>>;
+    fn has_expired<'a>(
+        &'a self,
+        visibility: &'a Visibility,
+        id: JobId,
+    ) -> BoxFuture<'a, StoreResult<bool>>;
 
     /// Returns some jobs that ended longer ago than `kept`. A job that belongs to a request is included a few minutes
     /// after its end.

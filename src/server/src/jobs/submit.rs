@@ -123,7 +123,7 @@ impl Jobs {
                 meters::enqueued(&job);
                 let (kind, trace) = (job.kind.word(), job.trace.as_deref());
                 tracing::info!(job = %job.id, kind, trace, "accepted");
-                self.look();
+                self.wake_lanes();
                 Ok(Submitted::New(*job))
             }
             Enqueued::Replay(earlier) => Ok(Submitted::Replay(*earlier)),

@@ -6,33 +6,33 @@ use std::time::Duration;
 
 use super::job::Job;
 use super::lease::{Rules, Token, WorkerId};
-use super::progress::{Saying, next_attempt_seq};
+use super::progress::{ProgressReport, next_attempt_seq};
 use super::state::State;
 use super::timestamp::Timestamp;
 use unwrapd_api::{Failure, OutputFile, Progress, Verdict};
 
-/// Event in the life of a job.
+/// Event in the life of a job, which changes its record.
 #[derive(Clone, Debug)]
-pub enum Happening {
+pub enum Transition {
     /// A worker claims it.
     Claimed(WorkerId),
     /// Its worker sends a heartbeat with its progress.
-    Beat(Token, Saying),
+    Heartbeat(Token, ProgressReport),
     /// A process checks whether its lease has expired.
     Swept,
     /// Its worker is known to be gone.
     Abandoned,
     /// A worker's attempt ended.
-    Ended(Token, Saying, Ending),
+    Ended(Token, ProgressReport, Ending),
     /// A client sends a command.
-    Wished(Wish),
+    Commanded(Command),
     /// A picture of its result was drawn and stored.
     Drawn(Token, OutputFile),
 }
 
 /// Command of a client.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wish {
+pub enum Command {
     /// Stop, and keep nothing but the record.
     Cancel,
     /// Stop iterating and write the current map.
@@ -55,7 +55,7 @@ pub enum Ending {
     /// It was stopped from outside, as on shutdown, which says nothing about the job.
     Interrupted(Failure),
     /// The worker cannot go on, for a reason unrelated to the job. Any worker may take the job after this time.
-    HandedBack(Duration),
+    Requeued(Duration),
 }
 
 /// Reason why a record stays unchanged.
@@ -73,32 +73,32 @@ pub enum Refusal {
 /// error.
 pub fn after(
     job: &Job,
-    happening: &Happening,
+    transition: &Transition,
     rules: &Rules,
     now: Timestamp,
 ) -> Result<Job, Refusal> {
     let mut job = job.clone();
-    match happening {
-        Happening::Claimed(worker) => claimed(&mut job, *worker, rules, now)?,
-        Happening::Beat(token, saying) => {
+    match transition {
+        Transition::Claimed(worker) => claimed(&mut job, *worker, rules, now)?,
+        Transition::Heartbeat(token, report) => {
             check(&job, *token)?;
-            advance(&mut job, saying);
+            advance(&mut job, report);
             job.lease = Some(now.later(rules.lease));
         }
-        Happening::Swept => swept(&mut job, rules, now)?,
-        Happening::Abandoned => {
+        Transition::Swept => swept(&mut job, rules, now)?,
+        Transition::Abandoned => {
             let gone = Failure::new("worker_lost", "its worker is gone");
             taken_away(&mut job, &gone, rules, now)?;
         }
         // The end was reported before, but the answer was lost.
-        Happening::Ended(token, ..) if job.token == *token && job.state.is_final() => {}
-        Happening::Ended(token, saying, ending) => {
+        Transition::Ended(token, ..) if job.token == *token && job.state.is_final() => {}
+        Transition::Ended(token, report, ending) => {
             check(&job, *token)?;
-            advance(&mut job, saying);
+            advance(&mut job, report);
             ended(&mut job, ending, rules, now);
         }
-        Happening::Wished(wish) => wished(&mut job, *wish, now)?,
-        Happening::Drawn(token, file) => drawn(&mut job, *token, file)?,
+        Transition::Commanded(command) => commanded(&mut job, *command, now)?,
+        Transition::Drawn(token, file) => drawn(&mut job, *token, file)?,
     }
     Ok(job)
 }
@@ -206,20 +206,20 @@ fn ended(job: &mut Job, ending: &Ending, rules: &Rules, now: Timestamp) {
             job.progress.fraction = 1.0;
             end(job, State::Succeeded, now);
         }
-        Ending::HandedBack(pause) => queue(job, now.later((*pause).min(rules.longest_pause()))),
+        Ending::Requeued(pause) => queue(job, now.later((*pause).min(rules.longest_pause()))),
     }
 }
 
-fn wished(job: &mut Job, wish: Wish, now: Timestamp) -> Result<(), Refusal> {
-    match (wish, job.state) {
-        (Wish::Cancel, State::Queued) => {
+fn commanded(job: &mut Job, command: Command, now: Timestamp) -> Result<(), Refusal> {
+    match (command, job.state) {
+        (Command::Cancel, State::Queued) => {
             job.seq += 1;
             job.cancel = true;
             end(job, State::Cancelled, now);
         }
-        (Wish::Cancel, State::Running) => job.cancel = true,
-        (Wish::FinishEarly, State::Queued | State::Running) => job.finish_early = true,
-        (Wish::Retry, State::Failed) => {
+        (Command::Cancel, State::Running) => job.cancel = true,
+        (Command::FinishEarly, State::Queued | State::Running) => job.finish_early = true,
+        (Command::Retry, State::Failed) => {
             job.seq = next_attempt_seq(job.seq);
             (job.lost, job.interrupted) = (0, 0);
             job.failure = None;
@@ -244,10 +244,10 @@ fn drawn(job: &mut Job, token: Token, file: &OutputFile) -> Result<(), Refusal> 
     Ok(())
 }
 
-fn advance(job: &mut Job, saying: &Saying) {
-    if job.seq < saying.seq {
-        job.seq = saying.seq;
-        job.progress.advance(saying.progress);
+fn advance(job: &mut Job, report: &ProgressReport) {
+    if job.seq < report.seq {
+        job.seq = report.seq;
+        job.progress.advance(report.progress);
     }
 }
 

@@ -7,7 +7,7 @@ use tokio::time::MissedTickBehavior;
 use tokio_util::bytes::Bytes;
 use tokio_util::sync::CancellationToken;
 
-use super::access::Reach;
+use super::access::Visibility;
 use super::job::JobId;
 use super::map_feed::MapListener;
 use super::queue::Jobs;
@@ -18,8 +18,8 @@ use super::subscription::Subscription;
 /// Number of lookups of the attempt at a job that was just claimed, and the interval between them. The record says
 /// `running` a moment before the attempt is registered here. If another process computes the job, the request waits
 /// for all lookups in vain: a quarter of a second.
-const LOOKS: usize = 5;
-const LOOK_INTERVAL: Duration = Duration::from_millis(50);
+const LOOKUPS: usize = 5;
+const LOOKUP_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Answer to a request for the maps of a running job.
 pub enum NextMaps {
@@ -33,11 +33,15 @@ pub enum NextMaps {
 
 impl Jobs {
     /// Subscribes to a job; `None` if there is no such job.
-    pub async fn subscribe(&self, reach: &Reach, id: JobId) -> StoreResult<Option<Subscription>> {
+    pub async fn subscribe(
+        &self,
+        visibility: &Visibility,
+        id: JobId,
+    ) -> StoreResult<Option<Subscription>> {
         // Subscribe before reading the record, so that no event between the two is missed.
         let subscription = self.live.subscribe(id);
         // Do not end the events of a job outside the caller's scope: others may watch it.
-        let Some(job) = self.get(reach, id).await? else {
+        let Some(job) = self.get(visibility, id).await? else {
             return Ok(None);
         };
         self.live.publish(id, job.event());
@@ -57,18 +61,18 @@ impl Jobs {
     }
 
     async fn map_listener(&self, id: JobId) -> Option<MapListener> {
-        for _ in 0..LOOKS {
+        for _ in 0..LOOKUPS {
             if let Some(attempt) = self.running.attempt(id) {
                 return Some(attempt.maps.listener());
             }
-            tokio::time::sleep(LOOK_INTERVAL).await;
+            tokio::time::sleep(LOOKUP_INTERVAL).await;
         }
         None
     }
 
     /// Polls the records of watched jobs until stopped.
     pub(super) async fn watch_until(&self, stop: &CancellationToken) {
-        let mut interval = tokio::time::interval(self.settings.deployment.look_interval());
+        let mut interval = tokio::time::interval(self.settings.deployment.poll_interval());
         interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
         loop {
             tokio::select! {

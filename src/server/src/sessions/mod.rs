@@ -4,7 +4,7 @@
 //! moves and removes handles while the solver iterates. Every iterate is a valid map, which is sent as a binary frame.
 //!
 //! ```text
-//! client ──messages──► server ──pipe──► child: Course ─► deform::Session
+//! client ──messages──► server ──pipe──► child: LiveSession ─► deform::Session
 //! client ◄─frames───── server ◄──pipe── child
 //! ```
 //!

@@ -13,7 +13,7 @@ use tokio_util::task::TaskTracker;
 
 use super::pipe;
 use super::session::{End, Parts, Session};
-use crate::jobs::access::{Owner, Reach};
+use crate::jobs::access::{Owner, Visibility};
 use crate::jobs::{self, JobId, Scratch, read_stderr};
 use unwrapd_api::pipe::{FAILED, MESH};
 use unwrapd_api::{Failure, InputFile, Kind, Limits, Pictures, TASK, Task, input_file, write_json};
@@ -196,22 +196,24 @@ impl Sessions {
     }
 
     /// Returns the session with this id if it is visible.
-    pub fn get(&self, reach: &Reach, id: JobId) -> Option<Arc<Session>> {
+    pub fn get(&self, visibility: &Visibility, id: JobId) -> Option<Arc<Session>> {
         let session = lock(&self.open).get(&id).cloned();
-        session.filter(|session| reach.covers(&session.owner))
+        session.filter(|session| visibility.covers(&session.owner))
     }
 
     /// Returns the visible sessions in the order of opening.
-    pub fn list(&self, reach: &Reach) -> Vec<Arc<Session>> {
+    pub fn list(&self, visibility: &Visibility) -> Vec<Arc<Session>> {
         let open = lock(&self.open);
-        let within = open.values().filter(|session| reach.covers(&session.owner));
+        let within = open
+            .values()
+            .filter(|session| visibility.covers(&session.owner));
         within.cloned().collect()
     }
 
     /// Ends all sessions and waits until their children are gone.
     pub async fn stop(&self) {
         self.slots.close();
-        for session in self.list(&Reach::All) {
+        for session in self.list(&Visibility::All) {
             session.close(End::Stopping);
         }
         self.tasks.close();

@@ -8,7 +8,7 @@ use sqlx::{Any, Row, Transaction};
 
 use super::database::Database;
 use super::transitions::written;
-use crate::jobs::{Changed, Happening, Job, Rules, SUSPECT, Share, StoreResult, WorkerId};
+use crate::jobs::{Changed, Job, Rules, SUSPECT, Share, StoreResult, Transition, WorkerId};
 
 /// Condition for queued jobs of at most `$2` bytes that may start. A job whose pause exceeds the longest one (`$1`)
 /// is due, because the clock was set back since. A busy worker (`$3 = 1`) gets no job that was lost with `$4`
@@ -74,8 +74,8 @@ pub(super) async fn claim(
         .bind(next.try_get::<String, _>("id")?)
         .fetch_one(&mut *transaction)
         .await?;
-    let happening = Happening::Claimed(worker);
-    let Changed::Yes(job) = written(&row, &happening, rules, &mut transaction).await? else {
+    let transition = Transition::Claimed(worker);
+    let Changed::Yes(job) = written(&row, &transition, rules, &mut transaction).await? else {
         return Ok(None);
     };
     take_turn(&job, &mut transaction).await?;

@@ -56,7 +56,7 @@ const SQLITE_READERS: u32 = 4;
 /// the time limit of a call, so that its error, which names the cause, comes first.
 const PATIENCE: Duration = Duration::from_secs(5);
 /// Delay between attempts to connect at startup. Shorter delays only add load to a server that is starting.
-const REACH_PAUSE: Duration = Duration::from_millis(200);
+const PROBE_PAUSE: Duration = Duration::from_millis(200);
 
 /// An open database. Commits are durable.
 pub(super) struct Database {
@@ -76,7 +76,7 @@ impl Database {
         let dialect = Dialect::of(url).ok_or_else(|| {
             StoreError::Other("the URL of a database begins with postgres:".to_owned())
         })?;
-        reach(url, PATIENCE).await?;
+        probe(url, PATIENCE).await?;
         let pool = async |connections| pool(dialect, connections).connect(url).await;
         let database = match dialect {
             Dialect::Sqlite => Self {
@@ -129,7 +129,7 @@ impl Database {
     /// Replaces the error that no connection became free by the cause, if the database cannot be reached.
     pub async fn explained(&self, error: StoreError) -> StoreError {
         match error {
-            StoreError::Unavailable(_) => match reach(&self.url, Duration::ZERO).await {
+            StoreError::Unavailable(_) => match probe(&self.url, Duration::ZERO).await {
                 Err(cause) => cause,
                 Ok(()) => error,
             },
@@ -150,7 +150,7 @@ impl Database {
 
 /// Connects once to learn the cause of a failure, since a pool only reports a timeout. Retries for the time
 /// `patience` while a server is starting.
-async fn reach(url: &str, patience: Duration) -> StoreResult<()> {
+async fn probe(url: &str, patience: Duration) -> StoreResult<()> {
     let begin = Instant::now();
     loop {
         let answer = tokio::time::timeout(PATIENCE, AnyConnection::connect(url)).await;
@@ -166,7 +166,7 @@ async fn reach(url: &str, patience: Duration) -> StoreResult<()> {
         if !error.is_passing() || patience <= begin.elapsed() {
             return Err(error);
         }
-        tokio::time::sleep(REACH_PAUSE).await;
+        tokio::time::sleep(PROBE_PAUSE).await;
     }
 }
 

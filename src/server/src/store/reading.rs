@@ -8,7 +8,7 @@ use sqlx::{AnyConnection, AssertSqlSafe, Row};
 use super::database::Database;
 use super::rows;
 use super::within::within;
-use crate::jobs::access::Reach;
+use crate::jobs::access::Visibility;
 use crate::jobs::{Event, Job, JobId, Queue, State, StoreResult};
 
 /// Number of jobs per query. The statement has a placeholder for each, so a larger number wastes bindings on small
@@ -16,8 +16,12 @@ use crate::jobs::{Event, Job, JobId, Queue, State, StoreResult};
 const BATCH: usize = 64;
 
 /// Returns the job with this id if it is visible.
-pub(super) async fn one(database: &Database, reach: &Reach, id: JobId) -> StoreResult<Option<Job>> {
-    let (within, owner) = within(reach, 2);
+pub(super) async fn one(
+    database: &Database,
+    visibility: &Visibility,
+    id: JobId,
+) -> StoreResult<Option<Job>> {
+    let (within, owner) = within(visibility, 2);
     let one = format!("SELECT {{columns}} FROM job WHERE id = $1 AND {within}");
     let row = sqlx::query(database.sql(&one))
         .bind(id.to_string())
@@ -30,10 +34,10 @@ pub(super) async fn one(database: &Database, reach: &Reach, id: JobId) -> StoreR
 /// Returns whether there was a job with this id until it expired.
 pub(super) async fn has_expired(
     database: &Database,
-    reach: &Reach,
+    visibility: &Visibility,
     id: JobId,
 ) -> StoreResult<bool> {
-    let (within, owner) = within(reach, 2);
+    let (within, owner) = within(visibility, 2);
     let one = format!("SELECT id FROM expired WHERE id = $1 AND {within}");
     let row = sqlx::query(database.sql(&one))
         .bind(id.to_string())

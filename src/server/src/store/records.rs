@@ -6,11 +6,11 @@ use super::hints::Hints;
 use super::reading::stored_bytes;
 use super::within::within;
 use super::{claims, idempotency, notices, quotas, reading, rows, transitions, upkeep};
-use crate::jobs::access::{Owner, Reach};
+use crate::jobs::access::{Owner, Visibility};
 use crate::jobs::{
-    Beat, Capacity, Census, Changed, Enqueued, Event, Happening, IdempotencyKey, Job, JobId,
-    JobStore, Listing, Order, Quarantined, Queue, Reason, Rules, Share, State, StoreError, StoreId,
-    StoreResult, Sweep, Timestamp, WorkerId,
+    Capacity, Census, Changed, Enqueued, Event, Heartbeat, IdempotencyKey, Job, JobId, JobStore,
+    Listing, Order, Quarantined, Queue, Reason, Rules, Share, State, StoreError, StoreId,
+    StoreResult, Sweep, Timestamp, Transition, WorkerId,
 };
 use futures_util::FutureExt;
 use futures_util::future::BoxFuture;
@@ -69,16 +69,20 @@ impl JobStore for RecordStore {
         bounded(enqueue(&self.database, &self.hints, job, key, capacity))
     }
 
-    fn get<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<Option<Job>>> {
-        bounded(reading::one(&self.database, reach, id))
+    fn get<'a>(
+        &'a self,
+        visibility: &'a Visibility,
+        id: JobId,
+    ) -> BoxFuture<'a, StoreResult<Option<Job>>> {
+        bounded(reading::one(&self.database, visibility, id))
     }
 
     fn list<'a>(
         &'a self,
-        reach: &'a Reach,
+        visibility: &'a Visibility,
         listing: &'a Listing,
     ) -> BoxFuture<'a, StoreResult<Vec<Job>>> {
-        bounded(page(&self.database, reach, listing))
+        bounded(page(&self.database, visibility, listing))
     }
 
     fn events<'a>(&'a self, ids: &'a [JobId]) -> BoxFuture<'a, StoreResult<Vec<(JobId, Event)>>> {
@@ -112,21 +116,28 @@ impl JobStore for RecordStore {
 
     fn change<'a>(
         &'a self,
-        reach: &'a Reach,
+        visibility: &'a Visibility,
         id: JobId,
-        happening: &'a Happening,
+        transition: &'a Transition,
     ) -> BoxFuture<'a, StoreResult<Changed>> {
         bounded(transitions::change(
             &self.database,
-            reach,
+            visibility,
             id,
-            happening,
+            transition,
             &self.rules,
         ))
     }
 
-    fn beat<'a>(&'a self, beats: &'a [Beat]) -> BoxFuture<'a, StoreResult<Vec<Changed>>> {
-        bounded(transitions::beat(&self.database, beats, &self.rules))
+    fn heartbeat<'a>(
+        &'a self,
+        heartbeats: &'a [Heartbeat],
+    ) -> BoxFuture<'a, StoreResult<Vec<Changed>>> {
+        bounded(transitions::heartbeat(
+            &self.database,
+            heartbeats,
+            &self.rules,
+        ))
     }
 
     fn sweep(&self, sweep: Sweep) -> BoxFuture<'_, StoreResult<Vec<Job>>> {
@@ -135,15 +146,19 @@ impl JobStore for RecordStore {
 
     fn delete<'a>(
         &'a self,
-        reach: &'a Reach,
+        visibility: &'a Visibility,
         id: JobId,
         reason: Reason,
     ) -> BoxFuture<'a, StoreResult<bool>> {
-        bounded(transitions::delete(&self.database, reach, id, reason))
+        bounded(transitions::delete(&self.database, visibility, id, reason))
     }
 
-    fn has_expired<'a>(&'a self, reach: &'a Reach, id: JobId) -> BoxFuture<'a, StoreResult<bool>> {
-        bounded(reading::has_expired(&self.database, reach, id))
+    fn has_expired<'a>(
+        &'a self,
+        visibility: &'a Visibility,
+        id: JobId,
+    ) -> BoxFuture<'a, StoreResult<bool>> {
+        bounded(reading::has_expired(&self.database, visibility, id))
     }
 
     fn ended_before(&self, kept: Duration) -> BoxFuture<'_, StoreResult<Vec<JobId>>> {
@@ -261,9 +276,13 @@ impl Conditions {
 }
 
 /// Returns a page of jobs, without those of synchronous requests.
-async fn page(database: &Database, reach: &Reach, listing: &Listing) -> StoreResult<Vec<Job>> {
+async fn page(
+    database: &Database,
+    visibility: &Visibility,
+    listing: &Listing,
+) -> StoreResult<Vec<Job>> {
     // Collect the conditions: scope, filters and metadata.
-    let (within, owner) = within(reach, 1);
+    let (within, owner) = within(visibility, 1);
     let mut met = Conditions::default();
     met.texts.push(format!("ephemeral = 0 AND {within}"));
     met.values.push(Value::Text(owner.to_owned()));

@@ -9,10 +9,10 @@ use sqlx::{Any, Row, Transaction};
 use super::database::Database;
 use super::within::within;
 use super::{notices, quotas, rows};
-use crate::jobs::access::Reach;
+use crate::jobs::access::Visibility;
 use crate::jobs::{
-    Beat, Changed, Happening, Job, JobId, Reason, Rules, State, StoreError, StoreResult, Sweep,
-    after,
+    Changed, Heartbeat, Job, JobId, Reason, Rules, State, StoreError, StoreResult, Sweep,
+    Transition, after,
 };
 
 /// Jobs per transaction of a sweep. Larger transactions lock rows for longer, smaller ones take more commits.
@@ -29,34 +29,42 @@ const ANY_RUNNING: &str = "state = 'running' AND $1 = $1";
 
 pub(super) async fn change(
     database: &Database,
-    reach: &Reach,
+    visibility: &Visibility,
     id: JobId,
-    happening: &Happening,
+    transition: &Transition,
     rules: &Rules,
 ) -> StoreResult<Changed> {
     let mut transaction = database.begin().await?;
-    let changed = changed(database, reach, id, happening, rules, &mut transaction).await?;
+    let changed = changed(
+        database,
+        visibility,
+        id,
+        transition,
+        rules,
+        &mut transaction,
+    )
+    .await?;
     if let Changed::Yes(_) = changed {
         transaction.commit().await?;
     }
     Ok(changed)
 }
 
-pub(super) async fn beat(
+pub(super) async fn heartbeat(
     database: &Database,
-    beats: &[Beat],
+    heartbeats: &[Heartbeat],
     rules: &Rules,
 ) -> StoreResult<Vec<Changed>> {
     let mut transaction = database.begin().await?;
-    let mut answers: Vec<Option<Changed>> = vec![None; beats.len()];
+    let mut answers: Vec<Option<Changed>> = vec![None; heartbeats.len()];
     // Lock the rows in one order, so that no two transactions wait for each other.
-    let mut order: Vec<usize> = (0..beats.len()).collect();
-    order.sort_by_key(|&index| beats[index].0);
+    let mut order: Vec<usize> = (0..heartbeats.len()).collect();
+    order.sort_by_key(|&index| heartbeats[index].0);
     for index in order {
-        let (id, token, saying) = beats[index];
-        let happening = Happening::Beat(token, saying);
-        let all = &Reach::All;
-        let changed = changed(database, all, id, &happening, rules, &mut transaction).await?;
+        let (id, token, report) = heartbeats[index];
+        let transition = Transition::Heartbeat(token, report);
+        let all = &Visibility::All;
+        let changed = changed(database, all, id, &transition, rules, &mut transaction).await?;
         answers[index] = Some(changed);
     }
     transaction.commit().await?;
@@ -69,9 +77,9 @@ pub(super) async fn sweep(
     rules: &Rules,
 ) -> StoreResult<Vec<Job>> {
     // Choose the condition and the event.
-    let (meant, happening) = match sweep {
-        Sweep::Overdue => (OVERDUE, Happening::Swept),
-        Sweep::Abandoned => (ANY_RUNNING, Happening::Abandoned),
+    let (meant, transition) = match sweep {
+        Sweep::Overdue => (OVERDUE, Transition::Swept),
+        Sweep::Abandoned => (ANY_RUNNING, Transition::Abandoned),
     };
     let lease = rules.lease.as_millis() as i64;
     let mut all = Vec::new();
@@ -94,7 +102,7 @@ pub(super) async fn sweep(
             .await?;
         let mut swept = Vec::new();
         for row in &rows {
-            if let Changed::Yes(job) = written(row, &happening, rules, &mut transaction).await? {
+            if let Changed::Yes(job) = written(row, &transition, rules, &mut transaction).await? {
                 swept.push(*job);
             }
         }
@@ -109,11 +117,11 @@ pub(super) async fn sweep(
 
 pub(super) async fn delete(
     database: &Database,
-    reach: &Reach,
+    visibility: &Visibility,
     id: JobId,
     reason: Reason,
 ) -> StoreResult<bool> {
-    let (within, owner) = within(reach, 2);
+    let (within, owner) = within(visibility, 2);
     let mut transaction = database.begin().await?;
     // Delete the record. Its idempotency key and its labels go with it.
     let delete = format!(
@@ -147,13 +155,13 @@ pub(super) async fn delete(
 
 async fn changed(
     database: &Database,
-    reach: &Reach,
+    visibility: &Visibility,
     id: JobId,
-    happening: &Happening,
+    transition: &Transition,
     rules: &Rules,
     transaction: &mut Transaction<'_, Any>,
 ) -> StoreResult<Changed> {
-    let (within, owner) = within(reach, 2);
+    let (within, owner) = within(visibility, 2);
     let row = format!(
         "SELECT {{columns}}, {{now}} AS now FROM job WHERE id = $1 AND {within} {{locked}}"
     );
@@ -163,7 +171,7 @@ async fn changed(
         .fetch_optional(&mut **transaction)
         .await?;
     match row {
-        Some(row) => written(&row, happening, rules, transaction).await,
+        Some(row) => written(&row, transition, rules, transaction).await,
         None => Ok(Changed::Missing),
     }
 }
@@ -171,17 +179,17 @@ async fn changed(
 /// Applies an event to a row locked by this transaction, and writes the result.
 pub(super) async fn written(
     row: &AnyRow,
-    happening: &Happening,
+    transition: &Transition,
     rules: &Rules,
     transaction: &mut Transaction<'_, Any>,
 ) -> StoreResult<Changed> {
     let (job, now) = (rows::job(row)?, rows::now(row)?);
-    match after(&job, happening, rules, now) {
+    match after(&job, transition, rules, now) {
         Ok(next) => {
-            if let Happening::Ended(_, saying, _) = happening
+            if let Transition::Ended(_, report, _) = transition
                 && job.state == State::Running
             {
-                quotas::spend(&job.owner, saying.cpu_ms, now, transaction).await?;
+                quotas::spend(&job.owner, report.cpu_ms, now, transaction).await?;
             }
             if !rows::update(&next, job.token, transaction).await? {
                 return Err(StoreError::Conflict(format!("job {}", job.id)));

@@ -88,7 +88,7 @@ pub(super) async fn quarantined(database: &Database) -> StoreResult<Vec<Quaranti
         Ok(Quarantined {
             job: rows::id(row)?,
             bytes: row.try_get::<i64, _>("bytes").map_err(rows::damaged)? as u64,
-            held: Duration::from_millis(rows::now(row)?.since(since)),
+            age: Duration::from_millis(rows::now(row)?.since(since)),
         })
     };
     found.iter().map(files).collect()

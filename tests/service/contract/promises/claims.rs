@@ -6,12 +6,12 @@ use std::time::Duration;
 
 use futures_util::future::join_all;
 use unwrapd::jobs::access::Owner;
-use unwrapd::jobs::{Ending, Happening, Job, JobId, JobStore, Share, State, WorkerId};
+use unwrapd::jobs::{Ending, Job, JobId, JobStore, Share, State, Transition, WorkerId};
 use unwrapd::store::RecordStore;
 use unwrapd_api::Verdict;
 
 use super::get;
-use crate::contract::{RULES, change, claim, claim_soon, claimed, enqueued, job, saying, yes};
+use crate::contract::{RULES, change, claim, claim_soon, claimed, enqueued, job, report, yes};
 
 pub async fn the_oldest_is_claimed_first(store: Arc<RecordStore>) {
     let jobs = [job(), job(), job()];
@@ -92,7 +92,7 @@ pub async fn the_owner_with_the_fewest_running_is_next(store: Arc<RecordStore>) 
         let short = claim(&store).await.expect("it waits");
         assert_eq!(short.owner.as_str(), "short");
         let ending = Ending::Succeeded(Vec::new(), Verdict::default());
-        let ended = Happening::Ended(short.token, saying(short.seq, 1.0), ending);
+        let ended = Transition::Ended(short.token, report(short.seq, 1.0), ending);
         yes(change(&store, short.id, ended).await);
     }
     assert_eq!(owners_claimed(&store, 1).await, ["long"]);
@@ -177,8 +177,8 @@ pub async fn no_job_is_claimed_twice(store: Arc<RecordStore>) {
 
 pub async fn a_job_handed_back_waits_and_counts_no_loss(store: Arc<RecordStore>) {
     let job = claimed(&store).await;
-    let pause = Ending::HandedBack(RULES.pause);
-    let back = Happening::Ended(job.token, saying(job.seq + 1, 0.5), pause);
+    let pause = Ending::Requeued(RULES.pause);
+    let back = Transition::Ended(job.token, report(job.seq + 1, 0.5), pause);
     let back = yes(change(&store, job.id, back).await);
     assert_eq!(
         (back.state, back.lost, back.progress.fraction),
@@ -193,11 +193,11 @@ pub async fn a_retry_does_not_wait_behind_the_backlog(store: Arc<RecordStore>) {
     for _ in 0..3 {
         enqueued(&store, &job()).await;
     }
-    let back = Ending::HandedBack(Duration::ZERO);
+    let back = Ending::Requeued(Duration::ZERO);
     yes(change(
         &store,
         lost.id,
-        Happening::Ended(lost.token, saying(0, 0.0), back),
+        Transition::Ended(lost.token, report(0, 0.0), back),
     )
     .await);
     assert_eq!(claim_soon(&store).await.id, lost.id);

@@ -3,16 +3,16 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use unwrapd::jobs::access::Reach;
+use unwrapd::jobs::access::Visibility;
 use unwrapd::jobs::{
-    Changed, Ending, Enqueued, Happening, IdempotencyKey, JobId, JobStore, Reason, Refusal, State,
-    Wish,
+    Changed, Command, Ending, Enqueued, IdempotencyKey, JobId, JobStore, Reason, Refusal, State,
+    Transition,
 };
 use unwrapd::store::RecordStore;
 use unwrapd_api::Failure;
 
 use super::{get, succeed};
-use crate::contract::{ROOM, change, claim, claim_soon, claimed, enqueued, job, saying, yes};
+use crate::contract::{ROOM, change, claim, claim_soon, claimed, enqueued, job, report, yes};
 
 pub async fn an_end_is_recorded_once(store: Arc<RecordStore>) {
     let job = claimed(&store).await;
@@ -25,33 +25,33 @@ pub async fn an_end_is_recorded_once(store: Arc<RecordStore>) {
     let again = succeed(&store, &job).await;
     assert_eq!(format!("{again:?}"), format!("{ended:?}"));
     let failure = Ending::Failed(Failure::new("crashed", "it did"));
-    let other = Happening::Ended(job.token - 1, saying(0, 0.0), failure);
+    let other = Transition::Ended(job.token - 1, report(0, 0.0), failure);
     let refused = change(&store, job.id, other).await;
     assert!(matches!(refused, Changed::No(_, Refusal::Outdated)));
     assert_eq!(
         format!("{:?}", get(&store, job.id).await),
         format!("{ended:?}")
     );
-    let missing = change(&store, JobId::fresh(), Happening::Swept).await;
+    let missing = change(&store, JobId::fresh(), Transition::Swept).await;
     assert!(matches!(missing, Changed::Missing));
 }
 
 pub async fn a_queued_job_is_cancelled_at_once(store: Arc<RecordStore>) {
     let new = enqueued(&store, &job()).await;
-    let cancelled = yes(change(&store, new.id, Happening::Wished(Wish::Cancel)).await);
+    let cancelled = yes(change(&store, new.id, Transition::Commanded(Command::Cancel)).await);
     assert_eq!(cancelled.state, State::Cancelled);
     assert_eq!(store.stored_bytes().await.expect("an answer"), 0);
     assert!(claim(&store).await.is_none());
-    let again = change(&store, new.id, Happening::Wished(Wish::Cancel)).await;
+    let again = change(&store, new.id, Transition::Commanded(Command::Cancel)).await;
     assert!(matches!(again, Changed::No(_, Refusal::WrongState)));
 }
 
 pub async fn only_a_failed_job_is_tried_again(store: Arc<RecordStore>) {
     let job = claimed(&store).await;
-    let retry = async || change(&store, job.id, Happening::Wished(Wish::Retry)).await;
+    let retry = async || change(&store, job.id, Transition::Commanded(Command::Retry)).await;
     assert!(matches!(retry().await, Changed::No(_, Refusal::WrongState)));
     let failure = Ending::Failed(Failure::new("no_uvs", "there are none"));
-    let end = Happening::Ended(job.token, saying(job.seq, 0.5), failure.clone());
+    let end = Transition::Ended(job.token, report(job.seq, 0.5), failure.clone());
     yes(change(&store, job.id, end).await);
     let failed = get(&store, job.id).await;
     assert_eq!(failed.failure.expect("a cause").code, "no_uvs");
@@ -78,7 +78,7 @@ pub async fn only_ended_jobs_are_deleted(store: Arc<RecordStore>) {
     };
     let delete = async || {
         store
-            .delete(&Reach::All, job.id, Reason::Deleted)
+            .delete(&Visibility::All, job.id, Reason::Deleted)
             .await
             .expect("an answer")
     };
@@ -90,7 +90,7 @@ pub async fn only_ended_jobs_are_deleted(store: Arc<RecordStore>) {
     assert!(!delete().await);
     assert!(
         !store
-            .has_expired(&Reach::All, job.id)
+            .has_expired(&Visibility::All, job.id)
             .await
             .expect("an answer")
     );
@@ -106,19 +106,19 @@ pub async fn what_expired_is_remembered(store: Arc<RecordStore>) {
     while ended(Duration::ZERO).await != [running.id] {}
     assert!(
         store
-            .delete(&Reach::All, running.id, Reason::Expired)
+            .delete(&Visibility::All, running.id, Reason::Expired)
             .await
             .expect("an answer")
     );
     assert!(
         store
-            .has_expired(&Reach::All, running.id)
+            .has_expired(&Visibility::All, running.id)
             .await
             .expect("an answer")
     );
     assert!(
         store
-            .get(&Reach::All, running.id)
+            .get(&Visibility::All, running.id)
             .await
             .expect("an answer")
             .is_none()

@@ -3,25 +3,25 @@
 use std::sync::Arc;
 
 use unwrapd::jobs::{
-    Changed, Happening, JobId, JobStore, Refusal, SUSPECT, Share, State, Sweep, Wish, WorkerId,
+    Changed, Command, JobId, JobStore, Refusal, SUSPECT, Share, State, Sweep, Transition, WorkerId,
 };
 use unwrapd::store::RecordStore;
 
 use super::{get, succeed, success, swept};
-use crate::contract::{RULES, change, claim, claim_soon, claimed, enqueued, job, saying, yes};
+use crate::contract::{RULES, change, claim, claim_soon, claimed, enqueued, job, report, yes};
 
 pub async fn a_beat_renews_the_lease_and_brings_wishes(store: Arc<RecordStore>) {
     let job = claimed(&store).await;
     let first = job.lease.expect("a lease");
-    for wish in [Wish::FinishEarly, Wish::Cancel] {
-        yes(change(&store, job.id, Happening::Wished(wish)).await);
+    for command in [Command::FinishEarly, Command::Cancel] {
+        yes(change(&store, job.id, Transition::Commanded(command)).await);
     }
     let mut seq = job.seq;
     // Longer than a lease, and nobody takes the job.
     loop {
         seq += 1;
-        let beat = (job.id, job.token, saying(seq, 0.25));
-        let answers = store.beat(&[beat]).await.expect("an answer");
+        let heartbeat = (job.id, job.token, report(seq, 0.25));
+        let answers = store.heartbeat(&[heartbeat]).await.expect("an answer");
         let beaten = yes(answers[0].clone());
         assert!(beaten.cancel && beaten.finish_early);
         assert_eq!((beaten.seq, beaten.progress.fraction), (seq, 0.25));
@@ -49,13 +49,13 @@ pub async fn beats_are_answered_in_their_order(store: Arc<RecordStore>) {
     }
     jobs.reverse();
     succeed(&store, &jobs[1]).await;
-    let mut beats: Vec<_> = jobs
+    let mut heartbeats: Vec<_> = jobs
         .iter()
-        .map(|job| (job.id, job.token, saying(job.seq, 0.0)))
+        .map(|job| (job.id, job.token, report(job.seq, 0.0)))
         .collect();
-    beats[2].1 += 1;
-    beats.push((JobId::fresh(), 1, saying(1, 0.0)));
-    let answers = store.beat(&beats).await.expect("an answer");
+    heartbeats[2].1 += 1;
+    heartbeats.push((JobId::fresh(), 1, report(1, 0.0)));
+    let answers = store.heartbeat(&heartbeats).await.expect("an answer");
     assert_eq!(yes(answers[0].clone()).id, jobs[0].id);
     assert!(matches!(&answers[1], Changed::No(job, Refusal::WrongState) if job.id == jobs[1].id));
     assert!(matches!(&answers[2], Changed::No(job, Refusal::Outdated) if job.id == jobs[2].id));
@@ -91,10 +91,10 @@ pub async fn a_former_holder_changes_nothing(store: Arc<RecordStore>) {
             claim_soon(&store).await;
         }
         let before = format!("{:?}", get(&store, former.id).await);
-        let beat = (former.id, former.token, saying(former.seq + 5, 0.9));
-        let answers = store.beat(&[beat]).await.expect("an answer");
+        let heartbeat = (former.id, former.token, report(former.seq + 5, 0.9));
+        let answers = store.heartbeat(&[heartbeat]).await.expect("an answer");
         assert!(matches!(answers[0], Changed::No(_, Refusal::Outdated)));
-        let end = Happening::Ended(former.token, beat.2, success());
+        let end = Transition::Ended(former.token, heartbeat.2, success());
         let end = change(&store, former.id, end).await;
         assert!(matches!(end, Changed::No(_, Refusal::Outdated)));
         assert_eq!(format!("{:?}", get(&store, former.id).await), before);

@@ -2,15 +2,15 @@
 
 use std::sync::Arc;
 
-use unwrapd::jobs::access::{Owner, Reach};
+use unwrapd::jobs::access::{Owner, Visibility};
 use unwrapd::jobs::{Job, JobId, JobStore, Listing, Metadata, Order, State, Timestamp};
 use unwrapd::store::RecordStore;
 use unwrapd_api::Kind;
 
 use crate::contract::{claim, enqueued, job};
 
-async fn listed(store: &RecordStore, reach: &Reach, listing: Listing) -> Vec<JobId> {
-    let list = store.list(reach, &listing).await.expect("an answer");
+async fn listed(store: &RecordStore, visibility: &Visibility, listing: Listing) -> Vec<JobId> {
+    let list = store.list(visibility, &listing).await.expect("an answer");
     list.iter().map(|job| job.id).collect()
 }
 
@@ -39,7 +39,7 @@ pub async fn the_list_has_pages_and_no_guests(store: Arc<RecordStore>) {
                 limit,
                 ..Listing::default()
             };
-            listed(&store, &Reach::All, listing).await
+            listed(&store, &Visibility::All, listing).await
         };
         assert_eq!(page(None, 2).await, expected[..2]);
         assert_eq!(page(Some(expected[1]), 2).await, expected[2..]);
@@ -59,7 +59,7 @@ pub async fn the_list_has_what_is_asked_for(store: Arc<RecordStore>) {
     tokio::time::sleep(std::time::Duration::from_millis(20)).await;
     let second = enqueued(&store, &second).await;
     let started = claim(&store).await.expect("it waits").id;
-    let list = async |listing| listed(&store, &Reach::All, listing).await;
+    let list = async |listing| listed(&store, &Visibility::All, listing).await;
     let of_state = |state| Listing {
         state: Some(state),
         ..all()
@@ -80,7 +80,12 @@ pub async fn the_list_has_what_is_asked_for(store: Arc<RecordStore>) {
     assert_eq!(list(of_owner(&alice)).await, [second.id]);
     assert_eq!(list(of_owner(&Owner::anonymous())).await, [first.id]);
     // Nobody sees more by asking for it.
-    let others = listed(&store, &Reach::Own(Owner::anonymous()), of_owner(&alice)).await;
+    let others = listed(
+        &store,
+        &Visibility::Own(Owner::anonymous()),
+        of_owner(&alice),
+    )
+    .await;
     assert!(others.is_empty());
     let within = |since, until| Listing {
         since,
@@ -111,7 +116,7 @@ pub async fn jobs_are_found_by_their_metadata(store: Arc<RecordStore>) {
             metadata: metadata(text),
             ..all()
         };
-        listed(&store, &Reach::All, listing).await
+        listed(&store, &Visibility::All, listing).await
     };
     assert_eq!(list(r#"{"project": "atlas"}"#).await, [second, first.id]);
     assert_eq!(list(r#"{"frame": 7}"#).await, [first.id]);

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use unwrapd::jobs::access::Reach;
+use unwrapd::jobs::access::Visibility;
 use unwrapd::jobs::{Job, JobId, JobStore, State, Timestamp};
 use unwrapd::store::RecordStore;
 
 use super::{get, succeed};
-use crate::contract::{claim, claimed, enqueued, job, saying};
+use crate::contract::{claim, claimed, enqueued, job, report};
 
 pub async fn what_is_stored_is_found(store: Arc<RecordStore>) {
     let new = enqueued(&store, &job()).await;
@@ -16,7 +16,7 @@ pub async fn what_is_stored_is_found(store: Arc<RecordStore>) {
     assert_eq!(format!("{found:?}"), format!("{new:?}"));
     assert!(
         store
-            .get(&Reach::All, JobId::fresh())
+            .get(&Visibility::All, JobId::fresh())
             .await
             .expect("an answer")
             .is_none()
@@ -33,8 +33,8 @@ pub async fn events_are_those_of_the_records(store: Arc<RecordStore>) {
         ids.push(enqueued(&store, &job()).await.id);
     }
     let running = claim(&store).await.expect("it waits");
-    let beat = (running.id, running.token, saying(running.seq + 3, 0.75));
-    store.beat(&[beat]).await.expect("an answer");
+    let heartbeat = (running.id, running.token, report(running.seq + 3, 0.75));
+    store.heartbeat(&[heartbeat]).await.expect("an answer");
     ids.push(JobId::fresh());
     let mut events = store.events(&ids).await.expect("an answer");
     events.sort_by_key(|(id, _)| *id);

@@ -14,14 +14,14 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use futures_util::future::{BoxFuture, FutureExt};
-use unwrapd::jobs::access::Reach;
+use unwrapd::jobs::access::Visibility;
 use unwrapd::jobs::{
-    Ending, Happening, IdempotencyKey, Job, JobId, JobStore, Listing, Reason, Sweep,
+    Ending, IdempotencyKey, Job, JobId, JobStore, Listing, Reason, Sweep, Transition,
 };
 use unwrapd::store::RecordStore;
 use unwrapd_api::{OutputFile, Verdict};
 
-use super::{ROOM, RULES, change, claim, claim_soon, enqueued, job, saying, yes};
+use super::{ROOM, RULES, change, claim, claim_soon, enqueued, job, report, yes};
 use crate::harness::postgres::Postgres;
 
 type Promise = fn(Arc<RecordStore>) -> BoxFuture<'static, ()>;
@@ -121,21 +121,26 @@ async fn postgres_serves_who_has_used_an_older_schema() {
             enqueued(&store, &job()).await;
         }
         let claimed = claim(&store).await.expect("it waits");
-        let beat = (claimed.id, claimed.token, saying(claimed.seq, 0.5));
-        store.beat(&[beat]).await.expect("an answer");
+        let heartbeat = (claimed.id, claimed.token, report(claimed.seq, 0.5));
+        store.heartbeat(&[heartbeat]).await.expect("an answer");
         succeed(&store, &claimed).await;
         get(&store, claimed.id).await;
         let listing = Listing {
             limit: 9,
             ..Listing::default()
         };
-        store.list(&Reach::All, &listing).await.expect("an answer");
+        store
+            .list(&Visibility::All, &listing)
+            .await
+            .expect("an answer");
         store.equal(&job()).await.expect("an answer");
         store.events(&[claimed.id]).await.expect("an answer");
         claim(&store).await.expect("it waits");
         store.sweep(Sweep::Abandoned).await.expect("an answer");
         claim_soon(&store).await;
-        let deleted = store.delete(&Reach::All, claimed.id, Reason::Expired).await;
+        let deleted = store
+            .delete(&Visibility::All, claimed.id, Reason::Expired)
+            .await;
         assert!(deleted.expect("an answer"));
     };
     use_all("a key").await;
@@ -148,7 +153,7 @@ async fn postgres_serves_who_has_used_an_older_schema() {
 
 async fn get(store: &RecordStore, id: JobId) -> Job {
     store
-        .get(&Reach::All, id)
+        .get(&Visibility::All, id)
         .await
         .expect("an answer")
         .expect("a job")
@@ -165,8 +170,8 @@ fn success() -> Ending {
 }
 
 async fn succeed(store: &RecordStore, job: &Job) -> Job {
-    let happening = Happening::Ended(job.token, saying(job.seq, 0.5), success());
-    yes(change(store, job.id, happening).await)
+    let transition = Transition::Ended(job.token, report(job.seq, 0.5), success());
+    yes(change(store, job.id, transition).await)
 }
 
 /// Sweeps until something is found: leases end by the clock of the store.

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use unwrapd::jobs::access::Reach;
-use unwrapd::jobs::{Ending, Happening, Job, JobStore, Notice, Outbox, State, Wish};
+use unwrapd::jobs::access::Visibility;
+use unwrapd::jobs::{Command, Ending, Job, JobStore, Notice, Outbox, State, Transition};
 use unwrapd::store::RecordStore;
 use unwrapd_api::Failure;
 
 use super::succeed;
-use crate::contract::{change, claim, enqueued, job, saying};
+use crate::contract::{change, claim, enqueued, job, report};
 
 const LONG: Duration = Duration::from_mins(1);
 
@@ -65,15 +65,15 @@ pub async fn every_end_is_told_and_nothing_else(store: Arc<RecordStore>) {
     };
     enqueued(&store, &ended).await;
     let cancelled = enqueued(&store, &told()).await;
-    let wish = Happening::Wished(Wish::Cancel);
+    let command = Transition::Commanded(Command::Cancel);
     store
-        .change(&Reach::All, cancelled.id, &wish)
+        .change(&Visibility::All, cancelled.id, &command)
         .await
         .expect("an answer");
     enqueued(&store, &told()).await;
     let failing = claim(&store).await.expect("it waits");
     let failed = Ending::Failed(Failure::new("no_uvs", "there are none"));
-    let failed = Happening::Ended(failing.token, saying(failing.seq, 0.5), failed);
+    let failed = Transition::Ended(failing.token, report(failing.seq, 0.5), failed);
     change(&store, failing.id, failed).await;
     // Nobody wants to know of this one.
     enqueued(&store, &job()).await;

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use unwrapd::jobs::access::{Owner, Reach};
+use unwrapd::jobs::access::{Owner, Visibility};
 use unwrapd::jobs::{
-    Changed, Enqueued, Happening, IdempotencyKey, Job, JobId, JobStore, Listing, Reason, Wish,
+    Changed, Command, Enqueued, IdempotencyKey, Job, JobId, JobStore, Listing, Reason, Transition,
 };
 use unwrapd::store::RecordStore;
 
@@ -23,56 +23,58 @@ fn job_of(owner: &Owner) -> Job {
 }
 
 /// Three owners, each with a job: two with names, and the anonymous one.
-async fn owners(store: &RecordStore) -> [(Reach, JobId); 3] {
+async fn owners(store: &RecordStore) -> [(Visibility, JobId); 3] {
     let mut all = Vec::new();
     for owner in [owner("alice"), owner("bob"), Owner::anonymous()] {
         let id = enqueued(store, &job_of(&owner)).await.id;
-        all.push((Reach::Own(owner), id));
+        all.push((Visibility::Own(owner), id));
     }
     all.try_into().expect("three")
 }
 
 pub async fn each_owner_finds_their_own(store: Arc<RecordStore>) {
     let owners = owners(&store).await;
-    let list = async |reach| {
+    let list = async |visibility| {
         let listing = Listing {
             limit: 9,
             ..Listing::default()
         };
-        let list = store.list(reach, &listing).await.expect("an answer");
+        let list = store.list(visibility, &listing).await.expect("an answer");
         list.iter().map(|job| job.id).collect::<Vec<_>>()
     };
-    for (reach, own) in &owners {
+    for (visibility, own) in &owners {
         for (_, id) in &owners {
-            let found = store.get(reach, *id).await.expect("an answer");
+            let found = store.get(visibility, *id).await.expect("an answer");
             assert_eq!(found.is_some(), id == own);
         }
-        assert_eq!(list(reach).await, [*own]);
+        assert_eq!(list(visibility).await, [*own]);
     }
     let newest_first: Vec<JobId> = owners.iter().rev().map(|(_, id)| *id).collect();
-    assert_eq!(list(&Reach::All).await, newest_first);
+    assert_eq!(list(&Visibility::All).await, newest_first);
 }
 
 pub async fn nobody_changes_what_is_anothers(store: Arc<RecordStore>) {
     let [(alice, id), (bob, _), (anonymous, _)] = owners(&store).await;
-    for wish in [Wish::FinishEarly, Wish::Cancel, Wish::Retry] {
-        for reach in [&bob, &anonymous] {
-            let changed = store.change(reach, id, &Happening::Wished(wish)).await;
+    for command in [Command::FinishEarly, Command::Cancel, Command::Retry] {
+        for visibility in [&bob, &anonymous] {
+            let changed = store
+                .change(visibility, id, &Transition::Commanded(command))
+                .await;
             assert!(matches!(changed, Ok(Changed::Missing)), "{changed:?}");
         }
     }
-    let cancel = Happening::Wished(Wish::Cancel);
+    let cancel = Transition::Commanded(Command::Cancel);
     let changed = store.change(&alice, id, &cancel).await;
     assert!(matches!(changed, Ok(Changed::Yes(_))), "{changed:?}");
-    let delete = async |reach, reason| {
-        let deleted = store.delete(reach, id, reason).await;
+    let delete = async |visibility, reason| {
+        let deleted = store.delete(visibility, id, reason).await;
         deleted.expect("an answer")
     };
     assert!(!delete(&bob, Reason::Deleted).await);
     assert!(!delete(&anonymous, Reason::Deleted).await);
     assert!(delete(&alice, Reason::Expired).await);
-    let expired = async |reach| store.has_expired(reach, id).await.expect("an answer");
-    assert!(expired(&alice).await && expired(&Reach::All).await);
+    let expired = async |visibility| store.has_expired(visibility, id).await.expect("an answer");
+    assert!(expired(&alice).await && expired(&Visibility::All).await);
     assert!(!expired(&bob).await && !expired(&anonymous).await);
 }
 

@@ -6,14 +6,14 @@ use std::time::Duration;
 
 use futures_util::future::join_all;
 use unwrapd::jobs::{
-    Capacity, Ending, Enqueued, Happening, IdempotencyKey, Job, JobId, JobStore, OwnerQuota,
-    OwnerQuotas, Saying, State, Timestamp,
+    Capacity, Ending, Enqueued, IdempotencyKey, Job, JobId, JobStore, OwnerQuota, OwnerQuotas,
+    ProgressReport, State, Timestamp, Transition,
 };
 use unwrapd::store::RecordStore;
 use unwrapd_api::Verdict;
 
 use super::get;
-use crate::contract::{ROOM, change, claim, job, saying, yes};
+use crate::contract::{ROOM, change, claim, job, report, yes};
 
 pub async fn the_depth_holds_under_contention(store: Arc<RecordStore>) {
     let few = Capacity { depth: 5, ..ROOM };
@@ -89,12 +89,12 @@ pub async fn an_owner_uses_no_more_processor_time_than_allowed(store: Arc<Record
         let Some(job) = claim(&store).await else {
             continue;
         };
-        let said = Saying {
+        let said = ProgressReport {
             cpu_ms: 2000,
-            ..saying(job.seq, 1.0)
+            ..report(job.seq, 1.0)
         };
         let ending = Ending::Succeeded(Vec::new(), Verdict::default());
-        let ended = Happening::Ended(job.token, said, ending);
+        let ended = Transition::Ended(job.token, said, ending);
         // What is said twice is counted once.
         for _ in 0..2 {
             yes(change(&store, job.id, ended.clone()).await);

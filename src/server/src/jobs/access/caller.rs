@@ -6,14 +6,14 @@ use super::scope::{Scope, Scopes};
 
 /// Visibility of jobs and sessions. Anything outside it is reported as missing.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Reach {
+pub enum Visibility {
     /// Only jobs and sessions of this owner.
     Own(Owner),
     /// Everything.
     All,
 }
 
-impl Reach {
+impl Visibility {
     /// Returns whether something of this owner is visible.
     pub fn covers(&self, owner: &Owner) -> bool {
         match self {
@@ -62,11 +62,11 @@ impl Caller {
     }
 
     /// Returns the visibility of the caller: everything with the `admin` scope, otherwise its own.
-    pub fn reach(&self) -> Reach {
+    pub fn visibility(&self) -> Visibility {
         if self.scopes.have(Scope::Admin) {
-            Reach::All
+            Visibility::All
         } else {
-            Reach::Own(self.owner.clone())
+            Visibility::Own(self.owner.clone())
         }
     }
 

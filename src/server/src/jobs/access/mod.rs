@@ -1,7 +1,7 @@
 //! Access control: owners, keys with scopes, and callers.
 //!
-//! Every job and every live session has an [`Owner`]. Each lookup takes a [`Reach`], and anything outside it is
-//! reported as missing. A request gets its reach from its [`Caller`], and the caller from the key in the request, so
+//! Every job and every live session has an [`Owner`]. Each lookup takes a [`Visibility`], and anything outside it is
+//! reported as missing. A request gets its visibility from its [`Caller`], and the caller from the key in the request, so
 //! no lookup can skip the check.
 //!
 //! The store keeps only the digest of a [`Key`]'s secret. Secrets are 32 random bytes that nobody can guess, so
@@ -19,7 +19,7 @@ mod owner;
 mod ring;
 mod scope;
 
-pub use caller::{Caller, Reach};
+pub use caller::{Caller, Visibility};
 pub use key::{Key, KeyStore, NewKey};
 pub use key_id::KeyId;
 pub use key_text::KeyText;

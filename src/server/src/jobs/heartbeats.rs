@@ -10,20 +10,20 @@ use super::queue::Jobs;
 impl Jobs {
     /// Sends heartbeats for all attempts of this process every `interval`, and passes the answers on to them. Never
     /// returns.
-    pub(super) async fn beat(&self, interval: Duration) {
+    pub(super) async fn send_heartbeats(&self, interval: Duration) {
         let mut interval = tokio::time::interval(interval);
         interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
         loop {
             interval.tick().await;
-            let beats = self.running.beats();
-            if beats.is_empty() {
+            let heartbeats = self.running.heartbeats();
+            if heartbeats.is_empty() {
                 continue;
             }
             let lease_end = Instant::now() + self.settings.rules.lease;
-            match self.store.beat(&beats).await {
+            match self.store.heartbeat(&heartbeats).await {
                 Ok(answers) => {
-                    for (beat, changed) in beats.iter().zip(&answers) {
-                        self.running.answered(beat, changed, lease_end);
+                    for (heartbeat, changed) in heartbeats.iter().zip(&answers) {
+                        self.running.answered(heartbeat, changed, lease_end);
                     }
                 }
                 Err(error) => {

@@ -1,13 +1,13 @@
 //! Continuation of handles through stations; it may pause and resume.
 
 use super::handles::{Handles, HandlesError};
+use super::least_progress::LeastProgress;
+use super::load_steps::{LoadSteps, SOFT};
 use super::newton::minimize_with;
 use super::objective::Objective;
-use super::pace::Pace;
 use super::path::Rotation;
 use super::relaxation::Relaxation;
 use super::settings::{Settings, Status, Summary};
-use super::travel::{SOFT, Travel};
 use super::watch::{Continued, Control, Taken, Watch};
 use crate::numerics::square::{Matrix, Square};
 
@@ -33,17 +33,17 @@ const SETTLED: f64 = 1e-6;
 const MOST_SETTLING: usize = 100;
 
 /// State of a [`follow()`](super::follow()) that may pause.
-pub struct Journey<const D: usize> {
+pub struct Continuation<const D: usize> {
     stations: Vec<Handles>,
     /// Index of the station ahead.
     station: usize,
-    travel: Travel<D>,
+    load_steps: LoadSteps<D>,
     /// Totals of the stations passed.
     before: Summary,
     is_paused: bool,
 }
 
-impl<const D: usize> Journey<D>
+impl<const D: usize> Continuation<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
@@ -70,11 +70,11 @@ where
         }
         let relaxation = Relaxation::new(settings.projection);
         let first = stations.first().cloned().unwrap_or_default();
-        let travel = Travel::new(objective, x, &first, relaxation)?;
+        let load_steps = LoadSteps::new(objective, x, &first, relaxation)?;
         Ok(Self {
             before: Summary::at_start(objective.value(x)),
             station: 0,
-            travel,
+            load_steps,
             stations,
             is_paused: false,
         })
@@ -88,12 +88,12 @@ where
 
     /// Returns the share of the path that is done, from 0 to 1; all stations count equally.
     pub fn share(&self) -> f64 {
-        (self.station as f64 + self.travel.s) / self.stations.len().max(1) as f64
+        (self.station as f64 + self.load_steps.s) / self.stations.len().max(1) as f64
     }
 
     /// Returns the totals so far and the status.
     pub fn summary(&self) -> Summary {
-        self.before.followed_by(&self.travel.summary)
+        self.before.followed_by(&self.load_steps.summary)
     }
 
     /// Continues from the map that the journey left in `x`, as long as it keeps the pace.
@@ -105,7 +105,7 @@ where
         objective: &mut Objective,
         x: &mut [f64],
         settings: &Settings,
-        pace: Pace,
+        least_progress: LeastProgress,
         watch: &dyn Watch,
     ) -> Result<(), HandlesError> {
         self.is_paused = false;
@@ -119,9 +119,10 @@ where
                 watch,
                 before: self.before.iterations,
             };
-            self.is_paused = (self.travel).arrive(objective, x, settings, pace, &counted);
+            self.is_paused =
+                (self.load_steps).arrive(objective, x, settings, least_progress, &counted);
             // Stop at the last station, or where the handles are stuck, slow or stopped.
-            let status = self.travel.summary.status;
+            let status = self.load_steps.summary.status;
             let is_last = self.station + 1 >= self.stations.len();
             if is_last || matches!(status, Status::TargetsUnreachable | Status::Stopped) {
                 return Ok(());
@@ -129,14 +130,15 @@ where
             // Continue to the next station; the relaxation found here carries over.
             self.station += 1;
             self.before = self.summary();
-            let relaxation = self.travel.relaxation;
+            let relaxation = self.load_steps.relaxation;
             objective.fix(&self.stations[self.station].vertices);
-            self.travel = Travel::new(objective, x, &self.stations[self.station], relaxation)?;
+            self.load_steps =
+                LoadSteps::new(objective, x, &self.stations[self.station], relaxation)?;
         }
     }
 }
 
-impl<const D: usize> Travel<D>
+impl<const D: usize> LoadSteps<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
@@ -147,7 +149,7 @@ where
         objective: &mut Objective,
         x: &mut [f64],
         settings: &Settings,
-        pace: Pace,
+        least_progress: LeastProgress,
         watch: &dyn Watch,
     ) -> bool {
         // Refuse a start outside the domain; show a valid one.
@@ -161,7 +163,7 @@ where
         // Advance and settle in rounds, as long as each brings the handles farther.
         loop {
             let (before, begun) = (self.s, self.summary.iterations);
-            if self.advance(objective, x, settings, pace, watch) == Control::Finish
+            if self.advance(objective, x, settings, least_progress, watch) == Control::Finish
                 || self.settle(objective, x, settings, watch) == Control::Finish
             {
                 return false;
@@ -174,7 +176,8 @@ where
             // Give up where a round brought hardly any progress; pause where it was only slow.
             let is_spent = self.summary.iterations >= settings.max_iterations;
             let is_stuck = is_spent || self.s < before + LEAST_PROGRESS;
-            let is_slow = pace.is_missed(self.s - before, self.summary.iterations - begun);
+            let is_slow =
+                least_progress.is_missed(self.s - before, self.summary.iterations - begun);
             if is_stuck || is_slow {
                 self.summary.status = Status::TargetsUnreachable;
                 return !is_stuck;

@@ -1,10 +1,10 @@
 //! Continuation of handles: advances along their path, each together with a Newton step of the free vertices.
 
 use super::handles::{Handles, HandlesError};
+use super::least_progress::LeastProgress;
 use super::line_search::{Search, line_search};
 use super::newton_direction::newton_direction;
 use super::objective::Objective;
-use super::pace::Pace;
 use super::path::{Path, Rotation, aside};
 use super::relaxation::Relaxation;
 use super::settings::{Settings, Status, Summary};
@@ -39,7 +39,7 @@ pub(super) const PATIENCE: usize = 20;
 pub(super) const SOFT: f64 = 1e3;
 
 /// State of the handles along their path.
-pub(super) struct Travel<const D: usize> {
+pub(super) struct LoadSteps<const D: usize> {
     vertices: Vec<u32>,
     path: Path<D>,
     pub points: Points,
@@ -55,7 +55,7 @@ pub(super) struct Travel<const D: usize> {
     trial: Vec<f64>,
 }
 
-impl<const D: usize> Travel<D>
+impl<const D: usize> LoadSteps<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
@@ -123,7 +123,7 @@ where
         objective: &mut Objective,
         x: &mut [f64],
         settings: &Settings,
-        pace: Pace,
+        least_progress: LeastProgress,
         watch: &dyn Watch,
     ) -> Control {
         self.points.pull::<D>(objective, x, SOFT, self.s);
@@ -133,10 +133,10 @@ where
         while self.s < 1.0 && stuck < PATIENCE && self.summary.iterations < settings.max_iterations
         {
             let since = self.summary.iterations - looked;
-            if pace.is_missed(self.s - passed, since) {
+            if least_progress.is_missed(self.s - passed, since) {
                 break;
             }
-            if since >= pace.window {
+            if since >= least_progress.window {
                 (passed, looked) = (self.s, self.summary.iterations);
             }
             // Advance together with a Newton step, and show the iterate.

@@ -9,7 +9,9 @@ use super::solve::Solution;
 use unwrapd_method::energy::{Positional, Row};
 use unwrapd_method::numerics::rotation::Rotation;
 use unwrapd_method::numerics::square::{Matrix, Square};
-use unwrapd_method::solver::{Continued, Flow, Handles, Pace, Settings, Summary, Watch, flow};
+use unwrapd_method::solver::{
+    Continued, Handles, LeastProgress, Settings, SoftTargets, Summary, Watch, follow_softly,
+};
 
 /// Bends, each all to one side, that are tried before the flow: they bring handles that change places past each other.
 const FIRST: usize = 2;
@@ -56,7 +58,7 @@ where
     // Straight paths.
     let search = trial.problem.search;
     let mut best = Attempt::<D>::bent(&mut trial, start, &[])?;
-    best.go_on(&mut trial, Pace::BRISK)?;
+    best.go_on(&mut trial, LeastProgress::BRISK)?;
     if best.is_enough(search) {
         return Ok(best.into_solution(&trial));
     }
@@ -80,7 +82,7 @@ where
     best = bent(&mut trial, start, others, best)?;
     let has_flowed = flowed.as_ref().is_some_and(Missing::is_none);
     if best.is_paused() && !has_flowed {
-        best.go_on(&mut trial, Pace::PATIENT)?;
+        best.go_on(&mut trial, LeastProgress::PATIENT)?;
     }
     // Choose between the flow and the best attempt.
     match flowed {
@@ -114,7 +116,7 @@ where
             break;
         }
         let mut attempt = Attempt::bent(trial, start, bends)?;
-        attempt.go_on(trial, Pace::BRISK)?;
+        attempt.go_on(trial, LeastProgress::BRISK)?;
         if attempt.is_enough(trial.problem.search) {
             return Ok(attempt);
         }
@@ -173,7 +175,7 @@ fn flow_to(trial: &mut Trial, targets: &Handles, x: &mut [f64]) {
     // Let them flow.
     trial.objective.fix(&held);
     trial.objective.pull_at(constraints(rows, ends.clone()));
-    let course = Flow {
+    let goal = SoftTargets {
         targets: &ends,
         edge: Frame::of(&trial.problem.body).squared(1.0).sqrt(),
     };
@@ -185,7 +187,7 @@ fn flow_to(trial: &mut Trial, targets: &Handles, x: &mut [f64]) {
         watch: trial.watch,
         before: trial.total.iterations,
     };
-    let done = flow(&mut trial.objective, x, &course, &settings, &watch);
+    let done = follow_softly(&mut trial.objective, x, &goal, &settings, &watch);
     // Restore the points of the handles, which the next attempt expects in the objective.
     trial.objective.pull_at(constraints(
         targets.points.clone(),

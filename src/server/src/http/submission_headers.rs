@@ -9,7 +9,7 @@ use super::problem::{Code, Problem};
 const MAX_KEY: usize = 255;
 
 /// Settings of a submission from its headers.
-pub(super) struct Wishes {
+pub(super) struct SubmissionHeaders {
     /// Idempotency key.
     pub key: Option<String>,
     /// Set unless the client refuses the result of an equal job.
@@ -18,7 +18,7 @@ pub(super) struct Wishes {
     pub trace: Option<String>,
 }
 
-impl Wishes {
+impl SubmissionHeaders {
     /// Parses `Idempotency-Key`, `Cache-Control` and `traceparent`.
     pub fn read(headers: &HeaderMap) -> Result<Self, Problem> {
         let directives = headers.get_all(header::CACHE_CONTROL).iter();

@@ -4,7 +4,7 @@ use crate::numerics::block::{BlockPattern, Entry};
 
 /// The fixed unknowns, and the entries of their rows and columns before these were replaced by rows of the identity.
 #[derive(Default)]
-pub(super) struct Held {
+pub(super) struct FixedUnknowns {
     unknowns: Vec<usize>,
     entries: Vec<Entry>,
     values: Vec<f64>,
@@ -17,11 +17,11 @@ pub(super) struct Held {
 struct Coupling {
     entry: u32,
     /// Index among the fixed unknowns.
-    held: u32,
+    fixed: u32,
     free: usize,
 }
 
-impl Held {
+impl FixedUnknowns {
     /// Fixes these vertices and no others.
     pub fn new(pattern: &BlockPattern, vertices: &[u32]) -> Self {
         let dim = pattern.dim();
@@ -84,7 +84,7 @@ impl Held {
         direction.fill(0.0);
         for coupling in &self.couplings {
             let value = self.values[coupling.entry as usize];
-            direction[coupling.free] -= value * self.moves[coupling.held as usize];
+            direction[coupling.free] -= value * self.moves[coupling.fixed as usize];
         }
     }
 
@@ -116,12 +116,12 @@ fn couplings(entries: &[Entry], unknowns: &[usize], n: usize) -> Vec<Coupling> {
         place[i] = Some(k as u32);
     }
     let coupling = |(entry, e): (u32, &Entry)| {
-        let (held, free) = match (place[e.row], place[e.column]) {
-            (Some(held), None) => (held, e.column),
-            (None, Some(held)) => (held, e.row),
+        let (fixed, free) = match (place[e.row], place[e.column]) {
+            (Some(fixed), None) => (fixed, e.column),
+            (None, Some(fixed)) => (fixed, e.row),
             _ => return None,
         };
-        Some(Coupling { entry, held, free })
+        Some(Coupling { entry, fixed, free })
     };
     (0..).zip(entries).filter_map(coupling).collect()
 }

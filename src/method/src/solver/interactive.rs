@@ -1,12 +1,12 @@
 //! Interactive handles: [`follow()`](super::follow()) one iteration at a time.
 
+use super::continuation::{HARD, HARDENED, LEAST_PROGRESS, ROUNDING};
 use super::handles::{Handles, HandlesError};
-use super::journey::{HARD, HARDENED, LEAST_PROGRESS, ROUNDING};
+use super::load_steps::{LoadSteps, PATIENCE, SOFT};
 use super::objective::Objective;
 use super::path::Rotation;
 use super::relaxation::Relaxation;
 use super::settings::{Projection, Summary};
-use super::travel::{PATIENCE, SOFT, Travel};
 use crate::energy::Positional;
 use crate::numerics::square::{Matrix, Square};
 
@@ -34,12 +34,12 @@ pub enum Stage {
 /// Each iteration is one of [`follow()`](super::follow())'s and leaves the map in the domain; without new targets the
 /// drag ends where `follow` does. The objective's analysis is kept: vertices are held by clearing rows and columns of
 /// one pattern, and points lie within elements, whose vertices meet in that pattern already.
-pub struct Drag<const D: usize> {
-    travel: Travel<D>,
+pub struct InteractiveContinuation<const D: usize> {
+    load_steps: LoadSteps<D>,
     vertices: Vec<u32>,
     phase: Phase,
     /// The last factorization, if it is worth keeping.
-    kept: Option<FactorUse>,
+    reused: Option<FactorUse>,
 }
 
 /// Next phase of a drag.
@@ -56,7 +56,7 @@ enum Phase {
     Done(Stage),
 }
 
-impl<const D: usize> Drag<D>
+impl<const D: usize> InteractiveContinuation<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
@@ -66,13 +66,13 @@ where
     /// If `x` is no map of the plane or of space.
     pub fn new(objective: &mut Objective, x: &[f64]) -> Result<Self, HandlesError> {
         let relaxation = Relaxation::new(Projection::Relaxed);
-        let mut travel = Travel::new(objective, x, &Handles::default(), relaxation)?;
-        travel.s = 1.0;
+        let mut load_steps = LoadSteps::new(objective, x, &Handles::default(), relaxation)?;
+        load_steps.s = 1.0;
         Ok(Self {
-            travel,
+            load_steps,
             vertices: Vec::new(),
             phase: Phase::Settle { from: 1.0 },
-            kept: None,
+            reused: None,
         })
     }
 
@@ -104,10 +104,10 @@ where
             });
         }
         // Start a new path from the present map; the relaxation and the totals carry over.
-        let (relaxation, summary) = (self.travel.relaxation, self.travel.summary);
-        self.travel = Travel::continued(objective, x, handles, relaxation, summary)?;
+        let (relaxation, summary) = (self.load_steps.relaxation, self.load_steps.summary);
+        self.load_steps = LoadSteps::continued(objective, x, handles, relaxation, summary)?;
         self.phase = if is_there(x, handles) {
-            self.travel.s = 1.0;
+            self.load_steps.s = 1.0;
             Phase::Settle { from: 1.0 }
         } else {
             Phase::Advance {
@@ -115,11 +115,11 @@ where
                 from: 0.0,
             }
         };
-        self.travel
+        self.load_steps
             .points
-            .pull::<D>(objective, x, SOFT, self.travel.s);
+            .pull::<D>(objective, x, SOFT, self.load_steps.s);
         // The pull has changed, so the last energy no longer holds.
-        self.travel.summary.energy_last = f64::NAN;
+        self.load_steps.summary.energy_last = f64::NAN;
         Ok(())
     }
 
@@ -129,16 +129,16 @@ where
     /// longer than everything else, most advances take one gradient and one solve with an earlier factorization.
     pub fn step(&mut self, objective: &mut Objective, x: &mut [f64]) -> Stage {
         if let Phase::Advance { from, .. } = self.phase
-            && let Some(kept) = self.kept.take()
+            && let Some(reused) = self.reused.take()
         {
-            self.kept = kept.advance(&mut self.travel, objective, x);
-            if self.kept.is_some() {
+            self.reused = reused.advance(&mut self.load_steps, objective, x);
+            if self.reused.is_some() {
                 self.phase = Phase::Settle { from };
                 return self.stage();
             }
         }
-        if self.travel.summary.energy_last.is_nan() {
-            self.travel.summary.energy_last = objective.value(x);
+        if self.load_steps.summary.energy_last.is_nan() {
+            self.load_steps.summary.energy_last = objective.value(x);
         }
         let phase = self.phase;
         self.phase = match phase {
@@ -151,7 +151,7 @@ where
             }
             unchanged => unchanged,
         };
-        self.travel.summary.factorizations = objective.factorizations();
+        self.load_steps.summary.factorizations = objective.factorizations();
         self.stage()
     }
 
@@ -165,7 +165,7 @@ where
 
     /// Returns the totals since the beginning.
     pub fn summary(&self) -> &Summary {
-        &self.travel.summary
+        &self.load_steps.summary
     }
 
     fn advance(
@@ -175,11 +175,15 @@ where
         stuck: usize,
         from: f64,
     ) -> Phase {
-        let before = self.travel.s;
-        let found = self.travel.iterate(objective, x);
-        self.kept = FactorUse::of(objective);
-        let stuck = if self.travel.s > before { 0 } else { stuck + 1 };
-        if found.is_none() || self.travel.s >= 1.0 || stuck >= PATIENCE {
+        let before = self.load_steps.s;
+        let found = self.load_steps.iterate(objective, x);
+        self.reused = FactorUse::of(objective);
+        let stuck = if self.load_steps.s > before {
+            0
+        } else {
+            stuck + 1
+        };
+        if found.is_none() || self.load_steps.s >= 1.0 || stuck >= PATIENCE {
             Phase::Settle { from }
         } else {
             Phase::Advance { stuck, from }
@@ -188,40 +192,42 @@ where
 
     /// Takes a Newton step with the handles fixed; returns whether the map is settled.
     fn settle(&mut self, objective: &mut Objective, x: &mut [f64]) -> bool {
-        let travel = &mut self.travel;
-        let energy = travel.summary.energy_last;
-        let Some(decrement) = travel.find_newton_step(objective, x) else {
+        let load_steps = &mut self.load_steps;
+        let energy = load_steps.summary.energy_last;
+        let Some(decrement) = load_steps.find_newton_step(objective, x) else {
             return true;
         };
-        self.kept = FactorUse::of(objective);
-        let length = travel.relax(objective, x, decrement);
-        travel.summary.iterations += 1;
+        self.reused = FactorUse::of(objective);
+        let length = load_steps.relax(objective, x, decrement);
+        load_steps.summary.iterations += 1;
         let unit = objective.reference(energy);
         let is_small = decrement <= TOLERANCE * unit;
         if length > 0.0 {
-            let decrease = energy - travel.summary.energy_last;
-            travel.relaxation.after_step(length, decrease / unit);
+            let decrease = energy - load_steps.summary.energy_last;
+            load_steps.relaxation.after_step(length, decrease / unit);
             is_small && length >= CONFIRMING
         } else {
-            is_small || !travel.relaxation.after_useless_direction()
+            is_small || !load_steps.relaxation.after_useless_direction()
         }
     }
 
     /// Chooses the next phase once the map has settled: another round if the last one brought the handles nearer.
     fn after_round(&mut self, objective: &mut Objective, x: &[f64], from: f64) -> Phase {
-        let travel = &mut self.travel;
-        if travel.s >= 1.0 {
-            let before = travel.points.farthest(objective, x);
+        let load_steps = &mut self.load_steps;
+        if load_steps.s >= 1.0 {
+            let before = load_steps.points.farthest(objective, x);
             return self.harden(objective, x, SOFT, before);
         }
-        if travel.s < from + LEAST_PROGRESS {
+        if load_steps.s < from + LEAST_PROGRESS {
             return Phase::Done(Stage::Unreachable);
         }
-        travel.start_over();
-        travel.points.pull::<D>(objective, x, SOFT, travel.s);
+        load_steps.start_over();
+        load_steps
+            .points
+            .pull::<D>(objective, x, SOFT, load_steps.s);
         Phase::Advance {
             stuck: 0,
-            from: travel.s,
+            from: load_steps.s,
         }
     }
 
@@ -233,11 +239,11 @@ where
         strength: f64,
         before: f64,
     ) -> Phase {
-        let points = &mut self.travel.points;
+        let points = &mut self.load_steps.points;
         if !points.is_empty() && strength < HARD {
             let strength = 10.0 * strength;
             points.pull::<D>(objective, x, strength, 1.0);
-            self.travel.summary.energy_last = objective.value(x);
+            self.load_steps.summary.energy_last = objective.value(x);
             return Phase::Harden { strength, before };
         }
         let rounding = ROUNDING * x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -293,7 +299,7 @@ impl FactorUse {
     /// approximation, which is checked before the next step. Cost: one gradient, one solve, one largest step.
     pub fn advance<const D: usize>(
         self,
-        travel: &mut Travel<D>,
+        load_steps: &mut LoadSteps<D>,
         objective: &mut Objective,
         x: &mut [f64],
     ) -> Option<Self>
@@ -301,7 +307,7 @@ impl FactorUse {
         Matrix<D>: Square<D> + Rotation<D>,
     {
         // The strength of points is measured by assembling a Hessian, which the factorization then does not belong to.
-        let may_serve = self.advances < MOST_ADVANCES && travel.points.is_empty();
+        let may_serve = self.advances < MOST_ADVANCES && load_steps.points.is_empty();
         if !may_serve || !objective.renew_gradient(x) {
             return None;
         }
@@ -315,7 +321,7 @@ impl FactorUse {
             return None;
         }
         Some(Self {
-            norm: travel.step_with_kept(objective, x)?,
+            norm: load_steps.step_with_kept(objective, x)?,
             advances: self.advances + 1,
         })
     }

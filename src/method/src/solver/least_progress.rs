@@ -2,14 +2,14 @@
 
 /// Least progress of handles along their path; slower ones pause.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pace {
+pub struct LeastProgress {
     /// Iterations between two checks.
     pub window: usize,
     /// Least progress between two checks, as a share of the path.
     pub gain: f64,
 }
 
-impl Pace {
+impl LeastProgress {
     /// No least progress.
     pub const ANY: Self = Self {
         window: usize::MAX,

@@ -9,12 +9,12 @@ pub(super) const BEND: f64 = 0.5;
 
 /// Path of a group's centroid or of a point; in the plane the third coordinates are 0.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Way {
+pub(super) struct HandlePath {
     pub from: [f64; 3],
     pub to: [f64; 3],
 }
 
-impl Way {
+impl HandlePath {
     pub fn length(&self) -> f64 {
         vec3::distance(self.from, self.to)
     }
@@ -27,32 +27,38 @@ impl Way {
 
 /// Returns the paths of the groups and then of the points from their positions in `x`; a number without a group has a
 /// path of length zero.
-pub(super) fn ways(dim: usize, handles: &Handles, x: &[f64]) -> Vec<Way> {
+pub(super) fn paths(dim: usize, handles: &Handles, x: &[f64]) -> Vec<HandlePath> {
     let place = |numbers: &[f64]| -> [f64; 3] {
         std::array::from_fn(|k| numbers.get(k).copied().unwrap_or(0.0))
     };
     let at = |v: u32| place(&x[dim * v as usize..dim * (v as usize + 1)]);
-    let mut ways = vec![Way::default(); handles.n_groups()];
-    let mut members = vec![0.0; ways.len()];
+    let mut paths = vec![HandlePath::default(); handles.n_groups()];
+    let mut members = vec![0.0; paths.len()];
     let targets = handles.targets.chunks_exact(dim.max(1));
     for ((&v, &group), target) in (handles.vertices.iter().zip(&*handles.groups())).zip(targets) {
-        let way = &mut ways[group as usize];
-        way.from = vec3::add_scaled(way.from, 1.0, at(v));
-        way.to = vec3::add_scaled(way.to, 1.0, place(target));
+        let path = &mut paths[group as usize];
+        path.from = vec3::add_scaled(path.from, 1.0, at(v));
+        path.to = vec3::add_scaled(path.to, 1.0, place(target));
         members[group as usize] += 1.0;
     }
-    for (way, members) in ways.iter_mut().zip(members) {
+    for (path, members) in paths.iter_mut().zip(members) {
         if members > 0.0 {
-            way.from = way.from.map(|x| x / members);
-            way.to = way.to.map(|x| x / members);
+            path.from = path.from.map(|x| x / members);
+            path.to = path.to.map(|x| x / members);
         }
     }
     let targets = handles.point_targets.chunks_exact(dim.max(1));
-    ways.extend(handles.points.iter().zip(targets).map(|(row, target)| Way {
-        from: (row.iter()).fold([0.0; 3], |sum, &(v, weight)| {
-            vec3::add_scaled(sum, weight, at(v))
-        }),
-        to: place(target),
-    }));
-    ways
+    paths.extend(
+        handles
+            .points
+            .iter()
+            .zip(targets)
+            .map(|(row, target)| HandlePath {
+                from: (row.iter()).fold([0.0; 3], |sum, &(v, weight)| {
+                    vec3::add_scaled(sum, weight, at(v))
+                }),
+                to: place(target),
+            }),
+    );
+    paths
 }

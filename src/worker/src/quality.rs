@@ -1,13 +1,13 @@
 //! Quality figures of an atlas.
 
-use unwrapd_api::Worth;
+use unwrapd_api::Quality;
 use unwrapd_pipeline::Report;
 
 /// Returns the quality figures of an atlas from its report.
-pub fn worth_of(report: &Report) -> Worth {
+pub fn quality_of(report: &Report) -> Quality {
     let measures = || report.groups.iter().map(|group| &group.measures);
     let worst = |figures: Vec<Option<f64>>| figures.into_iter().flatten().reduce(f64::max);
-    Worth {
+    Quality {
         certified: Some(report.certified),
         charts: Some(measures().map(|of| of.seams.charts as u64).sum()),
         distortion: worst(

@@ -29,7 +29,7 @@ const LEAST_GAIN: f64 = 0.02;
 
 /// Targets of a flow.
 #[derive(Clone, Copy, Debug)]
-pub struct Flow<'a> {
+pub struct SoftTargets<'a> {
     /// A target for each of the objective's constraints, coordinates one after another.
     pub targets: &'a [f64],
     /// The edge of a mean element.
@@ -44,40 +44,40 @@ pub struct Flow<'a> {
 /// their targets, not on them.
 ///
 /// Cost of an iteration: one factorization, one solve, one or two evaluations.
-pub fn flow(
+pub fn follow_softly(
     objective: &mut Objective,
     x: &mut [f64],
-    flow: &Flow,
+    goal: &SoftTargets,
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Summary {
-    let mut stream = Stream::new(objective, x, settings);
-    if !stream.summary.energy_first.is_finite() {
-        return stream.summary;
+    let mut pulled = Pulled::new(objective, x, settings);
+    if !pulled.summary.energy_first.is_finite() {
+        return pulled.summary;
     }
-    let mut looked = distance(objective, x, flow.targets);
-    while stream.summary.iterations < settings.max_iterations {
-        let Some(taken) = stream.step(objective, x, flow) else {
+    let mut looked = distance(objective, x, goal.targets);
+    while pulled.summary.iterations < settings.max_iterations {
+        let Some(taken) = pulled.step(objective, x, goal) else {
             break;
         };
-        if objective.show(x, &stream.summary, taken, watch) == Control::Finish {
-            return stream.summary.ended(Status::Stopped);
+        if objective.show(x, &pulled.summary, taken, watch) == Control::Finish {
+            return pulled.summary.ended(Status::Stopped);
         }
         // Stop once a whole window of iterations brings the points hardly nearer.
-        if stream.summary.iterations.is_multiple_of(WINDOW) {
-            let now = distance(objective, x, flow.targets);
+        if pulled.summary.iterations.is_multiple_of(WINDOW) {
+            let now = distance(objective, x, goal.targets);
             if now > (1.0 - LEAST_GAIN) * looked {
                 break;
             }
             looked = now;
         }
     }
-    stream.summary.energy_last = objective.energy(x);
-    stream.summary.ended(Status::TargetsUnreachable)
+    pulled.summary.energy_last = objective.energy(x);
+    pulled.summary.ended(Status::TargetsUnreachable)
 }
 
 /// State between iterations.
-struct Stream {
+struct Pulled {
     alpha: f64,
     /// Distance at which points are pulled ahead of themselves, in edges.
     pull: f64,
@@ -87,7 +87,7 @@ struct Stream {
     trial: Vec<f64>,
 }
 
-impl Stream {
+impl Pulled {
     fn new(objective: &mut Objective, x: &[f64], settings: &Settings) -> Self {
         objective.linearize(x, 0.0);
         Self {
@@ -101,9 +101,14 @@ impl Stream {
     }
 
     /// Runs one iteration; returns `None` if no direction and no shorter pull lowers the energy.
-    fn step(&mut self, objective: &mut Objective, x: &mut [f64], flow: &Flow) -> Option<Taken> {
+    fn step(
+        &mut self,
+        objective: &mut Objective,
+        x: &mut [f64],
+        goal: &SoftTargets,
+    ) -> Option<Taken> {
         // Pull each point toward a place a little ahead of it, and find Newton's direction there.
-        let ahead = ahead(objective, x, flow.targets, self.pull * flow.edge);
+        let ahead = ahead(objective, x, goal.targets, self.pull * goal.edge);
         objective.set_constraints(self.alpha, &ahead);
         let energy = objective.value(x);
         let decrement = newton_direction(

@@ -12,7 +12,8 @@ use unwrapd_method::solver::Handles;
 /// Quality of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct Worth {
+#[cfg_attr(feature = "schema", schema(as = Worth))]
+pub struct MapQuality {
     /// The deformation energy, without the barrier, in the `units` of the problem.
     pub energy: f64,
     /// The barrier's share, β included.
@@ -25,7 +26,7 @@ pub struct Worth {
     pub smallest: f64,
 }
 
-impl Worth {
+impl MapQuality {
     /// Converts the worth of a normalized map: distances in the caller's unit.
     pub(super) fn restored(self, frame: &Frame) -> Self {
         Self {
@@ -37,17 +38,17 @@ impl Worth {
 
 impl Problem {
     /// Measures a map, whatever its origin.
-    pub fn worth(&self, x: &[f64]) -> Worth {
+    pub fn quality(&self, x: &[f64]) -> MapQuality {
         match self.units {
-            Units::Given => self.worth_as_given(x),
+            Units::Given => self.quality_as_given(x),
             Units::Normalized => {
                 let (inner, frame) = self.normalized();
-                inner.worth_as_given(&frame.inward(x)).restored(&frame)
+                inner.quality_as_given(&frame.inward(x)).restored(&frame)
             }
         }
     }
 
-    pub(super) fn worth_as_given(&self, x: &[f64]) -> Worth {
+    pub(super) fn quality_as_given(&self, x: &[f64]) -> MapQuality {
         let terms = |barrier| self.body.terms(&self.energy, barrier, None);
         let unmodified = terms(Barrier::NONE).unwrap_or_default();
         let guarded = terms(self.barrier).unwrap_or_default();
@@ -56,7 +57,7 @@ impl Problem {
             .iter()
             .zip(self.body.determinants())
             .map(|(now, rest)| now / rest);
-        Worth {
+        MapQuality {
             energy: unmodified.iter().map(|term| term.value(x)).sum(),
             barrier: (guarded.iter().map(|term| term.barrier(x)))
                 .chain(self.boundary_term().map(|term| term.value(x)))
