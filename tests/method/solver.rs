@@ -315,6 +315,17 @@ fn the_best_scale_is_found_from_far_off() {
             .collect();
         assert!((factor * best_scale(&|x: &[f64]| objective.value(x), &x) - 1.0).abs() < 0.01);
     }
+    // A domain that ends above or below the start.
+    for (domain, best) in [(0.0..0.3, 0.25), (5.0..9.0, 8.0)] {
+        let value = |x: &[f64]| {
+            if domain.contains(&x[0]) {
+                -x[0]
+            } else {
+                f64::INFINITY
+            }
+        };
+        assert!((best_scale(&value, &[1.0]) / best - 1.0).abs() < 0.3);
+    }
     let flipped: Vec<f64> = grid.positions.iter().flat_map(|[x, y]| [*y, *x]).collect();
     assert_eq!(best_scale(&|x: &[f64]| objective.value(x), &flipped), 1.0);
 }

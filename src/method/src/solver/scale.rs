@@ -19,15 +19,16 @@ pub fn best_scale(value: &dyn Fn(&[f64]) -> f64, x: &[f64]) -> f64 {
         }
         value(&scaled)
     };
-    // Double, then halve, as long as that helps. Doubling also passes sizes at which the energy is infinite.
+    // Double, then halve, as long as that helps, or until a size is in the domain.
     let mut best = (energy(0.0), 0.0_f64);
     for direction in [1.0, -1.0] {
-        while best.1.abs() < 30.0 {
-            let exponent = best.1 + direction;
+        let mut exponent = best.1;
+        while exponent.abs() < 30.0 {
+            exponent += direction;
             let next = energy(exponent);
-            if next < best.0 || next == f64::INFINITY && direction > 0.0 {
+            if next < best.0 {
                 best = (next, exponent);
-            } else {
+            } else if best.0.is_finite() {
                 break;
             }
         }
