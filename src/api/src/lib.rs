@@ -9,6 +9,7 @@
 //! The other items are the tasks of a child ([`Task`], [`Drawing`]), its answers ([`Message`], [`Outcome`],
 //! [`Failure`]), the files and formats that both sides name ([`Upload`], [`Format`]), and the server's view of the
 //! computations that it does not contain ([`Catalog`]).
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod catalog;
 mod failure;

@@ -1,12 +1,13 @@
 //! Bodies deformed by handles without inverting elements, and objects embedded in them that follow.
 //!
 //! A [`Body`] is a planar or tetrahedral mesh with rest shapes; a [`Problem`] is a body with handles, their targets, a
-//! [energy](unwrapd_method::energy::EnergyKind) and a barrier. [`Problem::solve`] moves the handles to their targets over maps that are all
-//! valid; a [`Session`] does so an iteration at a time while handles are added, moved and removed. The objective is
-//! available as a function of positions, with gradient and Hessian ([`Problem::potential`]). Bodies come from mesh
-//! files, from pictures and drawings (`outline`) and from surfaces in a [`cage`], which carries them along. Maps of the
-//! plane are pulled too: pictures by a grid over them ([`warp`]), UVs by anchors ([`uv`]).
+//! [energy](unwrapd_method::energy::EnergyKind) and a barrier. [`Problem::solve`] moves the handles to their targets
+//! over maps that are all valid; a [`Session`] does so an iteration at a time while handles are added, moved and
+//! removed. The objective is available as a function of positions, with gradient and Hessian ([`Problem::potential`]).
+//! Bodies come from mesh files, from pictures and drawings (`outline`) and from surfaces in a [`cage`], which carries
+//! them along. Maps of the plane are pulled too: pictures by a grid over them ([`warp`]), UVs by anchors ([`uv`]).
 #![doc = include_str!("guide.md")]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod aims;
 mod attempt;

@@ -16,8 +16,8 @@ use unwrapd_method::solver::{Handles, Stage, Summary};
 /// A session in which a body is deformed: its mesh and energy are built once, handles are added, moved and removed, and
 /// the map follows an iteration at a time, every iterate valid.
 ///
-/// Positions, handles and radii are in the unit of the body, as for [`Problem`]; internally its mean element has
-/// size 1. Without further changes a session settles where [`Problem::solve`] ends. A surface in a [`cage`](super::cage) is
+/// Positions, handles and radii are in the unit of the body, as for [`Problem`]; internally its mean element has size
+/// 1. Without further changes a session settles where [`Problem::solve`] ends. A surface in a [`cage`](super::cage) is
 /// carried along by [`Cage::interpolate`](super::cage::Cage::interpolate). Paths are not bent: the user who drags
 /// chooses the path.
 ///

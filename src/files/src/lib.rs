@@ -7,6 +7,7 @@
 //! | [`document`] | glTF, OBJ and others, with everything else in the file preserved |
 //! | [`picture`] | UV layouts and distortion as PNG, pictures with transparency |
 //! | [`bake`] | textures resampled from one UV map of a surface to another |
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub mod bake;
 pub mod document;

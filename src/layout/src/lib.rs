@@ -15,6 +15,7 @@
 //!
 //! Opened in the best of several ways, the seams of four meshes in several orders, scales and rotations differ by 4 % at the median;
 //! opened at the first vertex, they differed by 11 % (`tests/bench/invariance.py`).
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub mod atlas;
 pub mod charts;

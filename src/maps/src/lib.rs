@@ -11,6 +11,7 @@
 //!
 //! The judge, [`certificate`], shares only exact predicates and mesh types with the code that it judges: the other
 //! modules find overlaps with [`plane`], and only [`measure`] imports the certificate.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub mod certificate;
 pub mod cut;

@@ -12,6 +12,7 @@
 //! import each other in the order of the table only.
 //!
 //! Reference: Schüller, Kavan, Panozzo, Sorkine-Hornung 2013, *Locally Injective Mappings*.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub mod barrier;
 pub mod energy;

@@ -18,6 +18,7 @@
 //!
 //! **Certified** means that everything requested is proven on the written bytes ([`Report::certified`] has the list).
 //! The warnings list what is not proven; only flips where none are allowed are an error, and leave no file.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod arrays;
 mod error;

@@ -1,7 +1,7 @@
 //! Energies by name or formula.
 //!
-//! This is the one list of energies: commands, HTTP, Python and Node take theirs from it. To add a density, add a variant
-//! to [`DensityKind`], and a line to [`DensityKind::planar`] and to [`DensityKind::spatial`].
+//! This is the one list of energies: commands, HTTP, Python and Node take theirs from it. To add a density, add a
+//! variant to [`DensityKind`], and a line to [`DensityKind::planar`] and to [`DensityKind::spatial`].
 
 use std::str::FromStr;
 use std::sync::Arc;

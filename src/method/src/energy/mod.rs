@@ -9,9 +9,10 @@
 //! Hessian to positive semidefinite. The projection has a closed form because in the frame of the singular vectors the
 //! Hessian is one number for each twist and flip and one D×D block ([`Modes`]).
 //!
-//! Users choose an energy by name or formula ([`EnergyKind`]). [`Triangles`] and [`Tetrahedra`] sum over a mesh. Quadratic forms of the displacement ([`Quadratic`]) complement
-//! them, as can anything else that gives value, gradient and Hessian block of a stencil: the solver sees a [`Term`] and
-//! knows no energy by name. This module does not know where a map comes from or how it is improved.
+//! Users choose an energy by name or formula ([`EnergyKind`]). [`Triangles`] and [`Tetrahedra`] sum over a mesh.
+//! Quadratic forms of the displacement ([`Quadratic`]) complement them, as can anything else that gives value, gradient
+//! and Hessian block of a stencil: the solver sees a [`Term`] and knows no energy by name. This module does not know
+//! where a map comes from or how it is improved.
 
 mod arap;
 mod density;

@@ -9,9 +9,10 @@
 //!
 //! [`follow()`] pulls handles to targets by Newton's method while the other vertices follow each advance. It restores
 //! the removed curvature gradually, as there are few steps between advances. A [`Continuation`] is a `follow` that may
-//! pause, [`InteractiveContinuation`] one that runs an iteration at a time while the handles are being moved. [`follow_softly()`] lets each point
-//! go as fast as the others allow. [`levenberg()`] is the iteration of the paper itself, kept for comparison: it shifts
-//! the Hessian until it factors instead of projecting it, and holds handles by soft constraints.
+//! pause, [`InteractiveContinuation`] one that runs an iteration at a time while the handles are being moved.
+//! [`follow_softly()`] lets each point go as fast as the others allow. [`levenberg()`] is the iteration of the paper
+//! itself, kept for comparison: it shifts the Hessian until it factors instead of projecting it, and holds handles by
+//! soft constraints.
 //!
 //! Invariant: with an energy that forbids flips every iterate, and so every result however the solver ended, has
 //! det J > 0 in every element, and while no handle moves the energy falls from iterate to iterate. The solver knows no energy

@@ -1,8 +1,8 @@
 //! Access control: owners, keys with scopes, and callers.
 //!
 //! Every job and every live session has an [`Owner`]. Each lookup takes a [`Visibility`], and anything outside it is
-//! reported as missing. A request gets its visibility from its [`Caller`], and the caller from the key in the request, so
-//! no lookup can skip the check.
+//! reported as missing. A request gets its visibility from its [`Caller`], and the caller from the key in the request,
+//! so no lookup can skip the check.
 //!
 //! The store keeps only the digest of a [`Key`]'s secret. Secrets are 32 random bytes that nobody can guess, so
 //! SHA-256 is enough: slow hashes protect passwords that people choose. Once a key exists, the service requires one,
