@@ -1,7 +1,7 @@
 import type { Transform } from '@gltf-transform/core';
 import type { AtlasOptions, UnwrapDocumentOptions, UnwrapFileOptions } from './options.js';
 
-export type { AtlasOptions, UnwrapDocumentOptions, UnwrapFileOptions } from './options.js';
+export type { AtlasOptions, Progress, UnwrapDocumentOptions, UnwrapFileOptions } from './options.js';
 
 /** What was done, quality and proofs, as `unwrapd unwrap --json` prints it. */
 export interface Report {
@@ -37,7 +37,7 @@ export interface WrittenFile {
 
 /**
  * Unwraps a glTF, OBJ, OFF, PLY or STL file in memory, on threads of its own. All else in it is preserved.
- * `signal` ends the work; the promise is then rejected with its reason.
+ * `signal` ends the work; the promise is then rejected with its reason. `onProgress` is called ten times a second.
  */
 export function unwrapBytes(
   bytes: ArrayBufferView | ArrayBufferLike,

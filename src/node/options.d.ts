@@ -11,6 +11,14 @@ interface Layout {
   threads?: number;
 }
 
+/** Progress of a call: the stage under way, the share of the work done, and charts mapped and known so far. */
+export interface Progress {
+  stage: string;
+  fraction: number;
+  chart: number;
+  charts: number;
+}
+
 /** Where to cut, how to map and how to pack. */
 export interface AtlasOptions extends Layout {
   preset?: 'material' | 'lightmap';
@@ -44,6 +52,8 @@ interface CalledOptions extends AtlasOptions {
   heatmapMeasure?: 'conformal' | 'area' | 'symmetric-dirichlet';
   /** Ends the work. */
   signal?: AbortSignal;
+  /** Is called ten times a second while the work goes on. */
+  onProgress?: (progress: Progress) => void;
 }
 
 /** Options of the transform. */

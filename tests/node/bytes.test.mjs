@@ -27,6 +27,15 @@ test('the main thread is free meanwhile', async () => {
   assert.ok(turns > 3, `${turns}`);
 });
 
+test('progress is told', async () => {
+  const told = [];
+  await unwrapBytes(await io.writeBinary(sheet(120)), { onProgress: (progress) => told.push(progress) });
+  assert.ok(told.length > 0);
+  const fractions = told.map(({ fraction }) => fraction);
+  assert.deepEqual(fractions, fractions.toSorted((a, b) => a - b));
+  assert.ok(told.every(({ stage, chart, charts }) => typeof stage === 'string' && 0 <= chart && 0 <= charts));
+});
+
 test('a signal ends the work', async () => {
   const bytes = await io.writeBinary(sheet(200));
   const controller = new AbortController();

@@ -25,7 +25,7 @@ test('they name what is exported', async () => {
 test('they name the options that there are', async () => {
   const text = await readFile(new URL('options.d.ts', folder), 'utf8');
   const named = new Set([...text.matchAll(/^ {2}(\w+)\?:/gm)].map((match) => match[1]));
-  for (const own of ['signal', 'onReport', 'name', 'resources']) assert.ok(named.delete(own), own);
+  for (const own of ['signal', 'onProgress', 'onReport', 'name', 'resources']) assert.ok(named.delete(own), own);
   const loaded = { exports: {} };
   process.dlopen(loaded, new URL('unwrapd.node', folder).pathname);
   const camel = (name) => name.replace(/_(\w)/g, (_, letter) => letter.toUpperCase());

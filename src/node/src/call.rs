@@ -1,7 +1,7 @@
-//! Calls of the library from JavaScript: cancellation and errors.
+//! Calls of the library from JavaScript: cancellation, progress and errors.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::panicking;
 use std::time::{Duration, Instant};
@@ -42,11 +42,25 @@ impl Failure {
     }
 }
 
-/// Token that cancels the calls it is passed to.
+/// Progress of a call.
+#[napi(object, object_from_js = false)]
+pub struct CallProgress {
+    /// Stage under way, as in the events of the HTTP service.
+    pub stage: String,
+    /// Share of the whole work done, 0 to 1; never falls.
+    pub fraction: f64,
+    /// Charts mapped so far.
+    pub chart: u32,
+    /// Charts known so far.
+    pub charts: u32,
+}
+
+/// Token that cancels the calls it is passed to, and tells their progress.
 #[napi]
 #[derive(Clone, Default)]
 pub struct Cancellation {
     is_cancelled: Arc<AtomicBool>,
+    progress: Arc<Mutex<Option<Progress>>>,
 }
 
 #[napi]
@@ -62,6 +76,19 @@ impl Cancellation {
     pub fn cancel(&self) {
         self.is_cancelled.store(true, Ordering::Relaxed);
     }
+
+    /// Returns the last report of progress; `null` before the first.
+    #[napi]
+    pub fn progress(&self) -> Option<CallProgress> {
+        let last = self.progress.lock();
+        let progress = last.unwrap_or_else(PoisonError::into_inner).clone()?;
+        Some(CallProgress {
+            stage: progress.stage.word().to_owned(),
+            fraction: progress.fraction,
+            chart: progress.chart as u32,
+            charts: progress.charts as u32,
+        })
+    }
 }
 
 /// Observer of a call, with its start time and its token.
@@ -72,7 +99,9 @@ struct Link {
 
 impl Observer for Link {
     /// Unwinds out of the library once the call is cancelled: an early end would still pack and judge a result.
-    fn progress(&self, _: &Progress) -> Control {
+    fn progress(&self, progress: &Progress) -> Control {
+        let last = self.cancellation.progress.lock();
+        *last.unwrap_or_else(PoisonError::into_inner) = Some(progress.clone());
         if !self.cancellation.is_cancelled.load(Ordering::Relaxed) {
             return Control::Continue;
         }
