@@ -14,23 +14,12 @@
 //!
 //! Texel (x, y) of a texture of n × n is centered at ((x + ½)/n, (y + ½)/n) in UVs with v down, as in glTF. Equal input
 //! gives equal pictures, for any number of threads.
-mod attribute;
-mod color;
 mod coverage;
-mod fill;
-mod frames;
-mod plane;
 mod resample;
-mod size;
 mod texture;
-mod triangle;
 
-pub use attribute::baked_attribute;
 pub use coverage::Coverage;
-pub use frames::Frames;
-pub use plane::{Plane, Sampled};
-pub use resample::baked;
-pub use size::{MOST_TEXELS, side_for};
+pub use resample::{Frames, MOST_TEXELS, Plane, Sampled, baked, baked_attribute, side_for};
 pub use texture::Texture;
 
 /// Corners of a face in the plane.

@@ -1,12 +1,9 @@
 //! A texture for a new UV map from textures on the old one.
 
-use super::Texture;
-use super::color::{decoded, encoded};
-use super::coverage::Coverage;
-use super::fill::filled;
-use super::plane::Plane;
-use super::size::Areas;
-use super::triangle::{Triangle, blended};
+use super::coverage::{Areas, Barycentric, Coverage, Triangle, blended};
+use super::texture::{decoded, encoded};
+use super::{Corners, Texture};
+use crate::document::Encoding;
 use crate::picture::Image;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -177,4 +174,213 @@ fn halved(image: &Image, texture: Texture) -> Image {
             .map(|k| mean(k % width, k / width))
             .collect(),
     }
+}
+
+// Textures of attributes of the corners of faces.
+
+/// Bakes a number of the corners of each face, such as an attribute of their vertices, for every texel, row by row:
+/// interpolated at the texel's center in its face, at the nearest point if the center lies beside the face, and filled
+/// from the neighbors between charts.
+pub fn baked_attribute(coverage: &Coverage, corners: &[[f32; 3]]) -> Vec<f32> {
+    let side = coverage.side();
+    let texel = |x: usize, y: usize| {
+        let face = coverage.at(x, y)?;
+        let triangle = Triangle::new(*coverage.corners(face))?;
+        let (weights, _) = triangle.nearest([x as f64 + 0.5, y as f64 + 0.5]);
+        let values = corners[face as usize];
+        let value: f64 = (weights.iter().zip(values))
+            .map(|(weight, value)| weight * f64::from(value))
+            .sum();
+        Some(value as f32)
+    };
+    let mut texels = vec![None; side * side];
+    (texels.par_chunks_mut(side).enumerate()).for_each(|(y, row)| {
+        for (x, value) in row.iter_mut().enumerate() {
+            *value = texel(x, y);
+        }
+    });
+    filled(texels, side, 0.0)
+}
+
+// Texels between charts.
+
+/// Values that can be averaged to fill texels between charts.
+pub(super) trait Mean: Copy {
+    /// Returns the mean; `None` without values.
+    fn mean(values: impl Iterator<Item = Self>) -> Option<Self>;
+}
+
+impl Mean for [u8; 4] {
+    fn mean(values: impl Iterator<Item = Self>) -> Option<Self> {
+        let (mut sum, mut n) = ([0_u32; 4], 0);
+        for value in values {
+            for (sum, channel) in sum.iter_mut().zip(value) {
+                *sum += u32::from(channel);
+            }
+            n += 1;
+        }
+        (n > 0).then(|| sum.map(|s| ((s + n / 2) / n) as u8))
+    }
+}
+
+impl Mean for f32 {
+    fn mean(values: impl Iterator<Item = Self>) -> Option<Self> {
+        let (sum, n) = values.fold((0.0, 0.0), |(sum, n), value| (sum + value, n + 1.0));
+        (n > 0.0).then(|| sum / n)
+    }
+}
+
+/// Fills the texels without a value from those with one, ring by ring: each gets the mean of its neighbors of earlier
+/// rings. A texture without any value becomes `blank`.
+pub(super) fn filled<T: Mean>(texels: Vec<Option<T>>, side: usize, blank: T) -> Vec<T> {
+    let mut texels = texels;
+    let mut ring: Vec<usize> = (0..texels.len())
+        .filter(|&texel| texels[texel].is_none() && mean(&texels, side, texel).is_some())
+        .collect();
+    while !ring.is_empty() {
+        let values: Vec<Option<T>> = ring.iter().map(|&t| mean(&texels, side, t)).collect();
+        for (&texel, value) in ring.iter().zip(values) {
+            texels[texel] = value;
+        }
+        let mut next: Vec<usize> = ring
+            .iter()
+            .flat_map(|&texel| around(side, texel))
+            .filter(|&texel| texels[texel].is_none())
+            .collect();
+        next.sort_unstable();
+        next.dedup();
+        ring = next;
+    }
+    texels.into_iter().map(|t| t.unwrap_or(blank)).collect()
+}
+
+/// Returns the mean of the neighbors that have a value.
+fn mean<T: Mean>(texels: &[Option<T>], side: usize, texel: usize) -> Option<T> {
+    T::mean(around(side, texel).filter_map(|neighbor| texels[neighbor]))
+}
+
+/// Iterates over the up to eight neighbors of a texel.
+fn around(side: usize, texel: usize) -> impl Iterator<Item = usize> {
+    let (x, y) = (texel % side, texel / side);
+    let near = move |c: usize| c.saturating_sub(1)..=(c + 1).min(side - 1);
+    near(y)
+        .flat_map(move |y| near(x).map(move |x| y * side + x))
+        .filter(move |&neighbor| neighbor != texel)
+}
+
+// Directions converted from one tangent frame to another.
+
+/// Normals, and tangents with the sign of the bitangent, at the corners of faces.
+pub struct Frames {
+    /// Normals of the surface.
+    pub normals: Vec<[[f32; 3]; 3]>,
+    /// Tangents of the old map, to which directions are relative.
+    pub from: Vec<[[f32; 4]; 3]>,
+    /// Tangents of the new map.
+    pub to: Vec<[[f32; 4]; 3]>,
+}
+
+impl Frames {
+    /// Appends faces without directions.
+    pub fn skip(&mut self, n_faces: usize) {
+        let n = self.normals.len() + n_faces;
+        self.normals.resize(n, [[0.0; 3]; 3]);
+        self.from.resize(n, [[0.0; 4]; 3]);
+        self.to.resize(n, [[0.0; 4]; 3]);
+    }
+
+    /// Converts a direction at a place of a face from the old frame to the new one, with unit length; returns it
+    /// unchanged if a frame is degenerate.
+    pub(super) fn carried(
+        &self,
+        face: usize,
+        weights: Barycentric,
+        direction: [f32; 3],
+    ) -> [f32; 3] {
+        let normal = unit(interpolated(weights, &self.normals[face]));
+        let from = basis(normal, interpolated(weights, &self.from[face]));
+        let to = basis(normal, interpolated(weights, &self.to[face]));
+        let [x, y, z] = direction;
+        let world = [0, 1, 2].map(|k| x * from[0][k] + y * from[1][k] + z * from[2][k]);
+        // Cramer's rule, the columns of the matrix being the axes of the new frame.
+        let volume = dot(to[0], cross(to[1], to[2]));
+        let carried =
+            [(1, 2), (2, 0), (0, 1)].map(|(a, b)| dot(world, cross(to[a], to[b])) / volume);
+        let carried = unit(carried);
+        if carried.iter().all(|x| x.is_finite()) {
+            carried
+        } else {
+            direction
+        }
+    }
+}
+
+/// Returns tangent, bitangent and normal as glTF defines them.
+fn basis(normal: [f32; 3], [x, y, z, sign]: [f32; 4]) -> [[f32; 3]; 3] {
+    let tangent = unit([x, y, z]);
+    let bitangent = unit(cross(normal, tangent)).map(|x| x * sign.signum());
+    [tangent, bitangent, normal]
+}
+
+fn interpolated<const N: usize>(weights: Barycentric, corners: &[[f32; N]; 3]) -> [f32; N] {
+    std::array::from_fn(|k| (0..3).map(|c| weights[c] as f32 * corners[c][k]).sum())
+}
+
+fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn unit(a: [f32; 3]) -> [f32; 3] {
+    let length = dot(a, a).sqrt();
+    a.map(|x| x / length)
+}
+
+// Sources of a texture for a new UV map.
+
+/// Texture of a face and, for each of its corners, the place in it, in texels.
+#[derive(Clone, Copy)]
+pub struct Sampled {
+    /// Index of the texture.
+    pub texture: u32,
+    /// Places of the corners.
+    pub corners: Corners,
+}
+
+/// Textures on the old map that are merged into one on the new map.
+pub struct Plane<'a> {
+    /// Encoding of the texels.
+    pub encoding: Encoding,
+    /// Old textures.
+    pub textures: Vec<Texture<'a>>,
+    /// Source of each face; `None` for faces without a texture.
+    pub faces: Vec<Option<Sampled>>,
+    /// Frames to which directions are relative; only for normal maps.
+    pub frames: Option<Frames>,
+}
+
+// Choice of the texture size.
+
+/// Most texels of all new textures of a document: eight of 8192 × 8192, 2 GiB.
+pub const MOST_TEXELS: u64 = 1 << 29;
+/// Smallest and largest side that are chosen automatically.
+const SIDES: [f64; 2] = [16.0, 4096.0];
+/// Texels by which a side may be too small without a visible loss.
+const SIDE_SLACK: f64 = 1.0;
+
+/// Returns the side, a power of two from 16 to 4096, of a texture on which the faces have the same number of texels as
+/// in the old ones. `faces` are corners in the unit square.
+pub fn side_for(plane: &Plane, faces: &[Corners]) -> u32 {
+    let all = plane.faces.iter().zip(faces);
+    let areas =
+        Areas::of(all.filter_map(|(sampled, face)| Some((&sampled.as_ref()?.corners, face))));
+    let [least, most] = SIDES;
+    ((areas.length() - SIDE_SLACK).ceil().clamp(least, most) as u32).next_power_of_two()
 }

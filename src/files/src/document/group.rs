@@ -162,3 +162,82 @@ fn group_label(primitive: &Primitive, by: GroupBy, names: &impl Names) -> String
         (GroupBy::Mesh | GroupBy::Material, _) => mesh(),
     }
 }
+
+/// Triangles of a primitive cut into pieces.
+#[derive(Debug, Clone, Default)]
+pub struct Subdivision {
+    /// Vertices added after the primitive's own.
+    pub added: Vec<AddedVertex>,
+    /// All resulting triangles, over own and added vertices.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// A vertex inside a triangle or on an edge of it.
+#[derive(Debug, Clone, Copy)]
+pub struct AddedVertex {
+    /// Its position.
+    pub position: [f32; 3],
+    /// Vertices of the triangle.
+    pub corners: [u32; 3],
+    /// Barycentric weights in the triangle, by which everything except the position is interpolated.
+    pub weights: [f64; 3],
+}
+
+impl Subdivision {
+    /// Cuts a primitive that has only positions and triangles.
+    pub(super) fn apply(&self, primitive: &mut Primitive) {
+        let added = self.added.iter().map(|vertex| vertex.position);
+        primitive.positions.extend(added);
+        primitive.triangles.clone_from(&self.triangles);
+    }
+
+    /// Appends the values of the added vertices to those of a primitive's own.
+    pub(super) fn interpolate<const N: usize>(&self, values: &mut Vec<[f32; N]>) {
+        for AddedVertex {
+            corners, weights, ..
+        } in &self.added
+        {
+            let corners = corners.map(|vertex| values[vertex as usize]);
+            values.push(std::array::from_fn(|k| {
+                let terms = corners.iter().zip(weights);
+                terms.map(|(value, w)| f64::from(value[k]) * w).sum::<f64>() as f32
+            }));
+        }
+    }
+
+    /// Refuses subdivisions that do not fit the primitives.
+    pub(super) fn check(all: &[Self], primitives: &[Primitive]) -> Result<(), DocumentError> {
+        if all.len() == primitives.len()
+            && (all.iter().zip(primitives)).all(|(cut, primitive)| cut.fits(primitive))
+        {
+            Ok(())
+        } else {
+            let text = "pieces that are not those of the primitives".to_owned();
+            Err(DocumentError::IndexOutOfRange(text))
+        }
+    }
+
+    /// Returns whether all corners are vertices of the subdivided primitive, those of added vertices its own.
+    fn fits(&self, primitive: &Primitive) -> bool {
+        let own = primitive.positions.len();
+        let n_vertices = own + self.added.len();
+        let mut corners = self.added.iter().flat_map(|vertex| &vertex.corners);
+        corners.all(|v| (*v as usize) < own)
+            && (self.triangles.iter().flatten()).all(|v| (*v as usize) < n_vertices)
+    }
+}
+
+/// A map of space that carries the surfaces of a document along.
+///
+/// Places are vertex positions as in the file. Each method returns an answer for every place, independent of the other
+/// places, as surfaces may be passed in several portions.
+pub trait SpaceMap {
+    /// Returns the images of the places.
+    fn positions(&self, places: &[[f32; 3]]) -> Vec<[f32; 3]>;
+
+    /// Returns the unit normals after the map of surfaces with `normals` at the places.
+    fn normals(&self, places: &[[f32; 3]], normals: &[[f32; 3]]) -> Vec<[f32; 3]>;
+
+    /// Returns the unit tangents after the map of curves with `tangents` at the places.
+    fn tangents(&self, places: &[[f32; 3]], tangents: &[[f32; 3]]) -> Vec<[f32; 3]>;
+}

@@ -2,7 +2,7 @@
 //!
 //! Anybody can write such a record, so it may only add to a judgment. Nothing here removes a face, a pair of faces or a
 //! group from a judgment.
-use super::{Document, DocumentError, GroupBy};
+use super::{DocumentError, GroupBy};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest as _, Sha256};
@@ -185,9 +185,12 @@ impl Mark {
         (mark.version == VERSION).then_some(mark)
     }
 
-    /// Returns whether the UVs of the document are those that were marked.
-    fn fits(&self, document: &Document) -> Result<bool, DocumentError> {
-        let n_primitives = document.primitives().len();
+    /// Returns whether the UVs of a document are those that were marked; `corner_uvs` reads a set of a primitive.
+    pub(super) fn fits(
+        &self,
+        n_primitives: usize,
+        corner_uvs: impl Fn(usize, u32) -> Result<Option<Vec<CornerUvs>>, DocumentError>,
+    ) -> Result<bool, DocumentError> {
         if matches!(&self.sets, Sets::Each(sets) if sets.len() != n_primitives) {
             return Ok(false);
         }
@@ -196,41 +199,12 @@ impl Mark {
             let Some(set) = self.sets.of(primitive) else {
                 continue;
             };
-            match document.corner_uvs(primitive, set)? {
+            match corner_uvs(primitive, set)? {
                 Some(uvs) => digest.add(set, &uvs),
                 None => return Ok(false),
             }
         }
         Ok(digest.text() == self.digest)
-    }
-}
-
-impl Document {
-    /// Reads the mark of the document and compares it with its UVs.
-    pub fn marked(&self) -> Result<Marked, DocumentError> {
-        Ok(match self.mark().as_ref().map(Mark::parse) {
-            None => Marked::Not,
-            Some(Some(mark)) if mark.fits(self)? => Marked::Fits(Box::new(mark)),
-            Some(_) => Marked::Stale,
-        })
-    }
-
-    /// Returns the texture for which a UV set was made, according to the document. Later changes of the UVs do not
-    /// change the shape of the texture.
-    pub fn texture_of(&self, set: u32) -> Option<Resolution> {
-        let mark = Mark::parse(&self.mark()?)?;
-        let is_marked = |primitive: usize| mark.sets.of(primitive) == Some(set);
-        let is_known = (0..self.primitives().len()).any(is_marked);
-        (is_known && mark.terms.resolution.is_regular()).then_some(mark.terms.resolution)
-    }
-
-    /// Returns the value in the place of a mark.
-    fn mark(&self) -> Option<Value> {
-        match self {
-            Self::Gltf(document) => document.mark(),
-            Self::Obj(document) => document.mark(),
-            Self::Soup(_) => None,
-        }
     }
 }
 

@@ -3,9 +3,9 @@
 //! Only the document without new UVs is created here; they are then written as into any other glTF document, so
 //! vertices are split and the set is chosen in one place.
 
-use super::colors::{Color, WHITE};
 use super::gltf::GltfDocument;
 use super::material::GltfMaterials;
+use super::new_obj::{Color, WHITE};
 use super::{DocumentError, Upload};
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -114,14 +114,17 @@ fn vertices_of(shape: &Shape, primitive: &NewPrimitive, of_file: &[u32]) -> Vert
 }
 
 fn upload(parts: GltfParts, meshes: &[Value], materials: &GltfMaterials) -> Upload {
-    let node = |(index, mesh): (usize, &Value)| {
-        let mut node = json!({"mesh": index});
-        if let Some(name) = mesh.get("name") {
-            node["name"] = name.clone();
-        }
-        node
-    };
-    let nodes: Vec<Value> = meshes.iter().enumerate().map(node).collect();
+    let nodes: Vec<Value> = meshes
+        .iter()
+        .enumerate()
+        .map(|(index, mesh): (usize, &Value)| {
+            let mut node = json!({"mesh": index});
+            if let Some(name) = mesh.get("name") {
+                node["name"] = name.clone();
+            }
+            node
+        })
+        .collect();
     let mut json = json!({
         "asset": {"generator": "unwrapd", "version": "2.0"},
         "scene": 0,
@@ -294,12 +297,23 @@ impl Vertices {
         };
         let triangles = corners.map(|face| face.map(&mut place)).collect();
         // A vertex of no face has neither; any unit vector will do.
-        let normal =
-            |corner: &Option<GltfCorner>| corner.and_then(|c| c.normal).unwrap_or([0.0, 0.0, 1.0]);
-        let uv = |corner: &Option<GltfCorner>| corner.and_then(|c| c.uv).unwrap_or_default();
         Self {
-            normals: has_normals.then(|| given.iter().map(normal).collect()),
-            uvs: has_uvs.then(|| given.iter().map(uv).collect()),
+            normals: has_normals.then(|| {
+                given
+                    .iter()
+                    .map(|corner: &Option<GltfCorner>| {
+                        corner.and_then(|c| c.normal).unwrap_or([0.0, 0.0, 1.0])
+                    })
+                    .collect()
+            }),
+            uvs: has_uvs.then(|| {
+                given
+                    .iter()
+                    .map(|corner: &Option<GltfCorner>| {
+                        corner.and_then(|c| c.uv).unwrap_or_default()
+                    })
+                    .collect()
+            }),
             origins,
             triangles,
         }

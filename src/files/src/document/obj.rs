@@ -5,18 +5,20 @@
 //! an old one is always replaced. A polygon whose triangles lie apart in UV space is split along diagonals between
 //! them, as a corner of a polygon has one UV.
 
-use super::obj_materials::ObjMaterials;
-use super::obj_text::{line_end, push_comment, push_face, push_statement, rewrite};
-use super::texcoord_lines::decimal;
-use super::warning::unused_not_finite;
+use super::error::unused_not_finite;
+use super::mark::Mark;
+use super::material::{MaterialFiles, Pictures};
+use super::obj_text::{decimal, line_end, push_comment, push_face, push_statement, rewrite};
 use super::{
-    DocumentError, Layout, NewUvs, Primitive, SpaceMap, Upload, Warning, WriteNotes, WriteOptions,
-    Written, fanned, new_obj, obj_mark,
+    DocumentError, Layout, NewUvs, Primitive, SpaceMap, Terms, Upload, Warning, WriteNotes,
+    WriteOptions, Written, error, new_obj, soup,
 };
 use crate::io;
-use crate::io::obj::{Corner, Obj, statements};
-use std::collections::{BTreeMap, HashMap};
-use std::io::Write as _;
+use crate::io::obj::{Corner, Obj, Statement, statements};
+use serde_json::Value;
+use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write;
 use unwrapd_maps::mesh::{CornerUvs, VAxis};
 
 /// Content of a file.
@@ -37,7 +39,7 @@ impl ObjDocument {
 
     fn parse(bytes: Vec<u8>, resources: BTreeMap<String, Vec<u8>>) -> Result<Self, DocumentError> {
         let mut obj = io::obj::read(&bytes)?;
-        let fanned = fanned::warning(&obj.mesh.fanned, "line");
+        let fanned = soup::warning(&obj.mesh.fanned, "line");
         let mut primitive = Primitive::of_file(std::mem::take(&mut obj.mesh))?;
         let unused = unused_not_finite(primitive.place_unused());
         let warnings = fanned.into_iter().chain(unused).collect();
@@ -58,8 +60,8 @@ impl ObjDocument {
     }
 
     /// Returns the value in the place of a mark.
-    pub(super) fn mark(&self) -> Option<serde_json::Value> {
-        obj_mark::find(&self.bytes)
+    pub(super) fn mark(&self) -> Option<Value> {
+        find(&self.bytes)
     }
 
     /// Returns the warnings of reading.
@@ -239,10 +241,13 @@ impl Normals {
         map: &dyn SpaceMap,
         line_end: &str,
     ) -> Vec<u8> {
-        let at = |&(vertex, normal): &(u32, u32)| {
-            (positions[vertex as usize], obj.normals[normal as usize])
-        };
-        let (places, normals): (Vec<_>, Vec<_>) = self.pairs.iter().map(at).unzip();
+        let (places, normals): (Vec<_>, Vec<_>) = self
+            .pairs
+            .iter()
+            .map(|&(vertex, normal): &(u32, u32)| {
+                (positions[vertex as usize], obj.normals[normal as usize])
+            })
+            .unzip();
         let mut text = Vec::new();
         for normal in map.normals(&places, &normals) {
             let [x, y, z] = normal.map(decimal);
@@ -253,10 +258,192 @@ impl Normals {
     }
 
     fn renumbered(&self, polygon: &[Corner]) -> Vec<Corner> {
-        let renumbered = |corner: &Corner| Corner {
-            normal: corner.normal.map(|n| self.numbers[&(corner.vertex, n)]),
-            ..*corner
-        };
-        polygon.iter().map(renumbered).collect()
+        polygon
+            .iter()
+            .map(|corner: &Corner| Corner {
+                normal: corner.normal.map(|n| self.numbers[&(corner.vertex, n)]),
+                ..*corner
+            })
+            .collect()
     }
+}
+
+// The mark of an OBJ file: a comment in its first line.
+
+/// Beginning of the line.
+const BEGIN: &[u8] = b"# unwrapd {";
+
+/// Returns the value in the place of a mark.
+pub(super) fn find(text: &[u8]) -> Option<Value> {
+    let line = &text[..length(text)];
+    serde_json::from_slice(line.get(BEGIN.len() - 1..)?).ok()
+}
+
+/// Replaces the mark of the main file by one with the purpose of its UVs, if that is known. The marked UVs are those
+/// that are read from the file, because its polygons determine the triangles.
+pub(super) fn renew(written: &mut Written, terms: Option<&Terms>) -> Result<(), DocumentError> {
+    let again = written.read_again()?;
+    let Some((_, text)) = written.files.first_mut() else {
+        return Ok(());
+    };
+    text.drain(..length(text));
+    if let (Some(terms), Some(uvs)) = (terms, again.corner_uvs(0, 0)?) {
+        let mark = Mark::new(terms, std::iter::once(Some((0, uvs))));
+        let line = format!("# unwrapd {}\n", mark.value());
+        text.splice(..0, line.into_bytes());
+    }
+    Ok(())
+}
+
+/// Returns the length in bytes of the line with the mark; 0 if there is none.
+fn length(text: &[u8]) -> usize {
+    if !text.starts_with(BEGIN) {
+        return 0;
+    }
+    let end = text.iter().position(|&byte| byte == b'\n');
+    end.map_or(text.len(), |end| end + 1)
+}
+
+// Material files of an OBJ text, and their pictures.
+
+/// References of an OBJ text.
+#[derive(Default)]
+pub(super) struct ObjMaterials {
+    /// Materials that are described.
+    pub files: MaterialFiles,
+    /// Names of the material files that were supplied.
+    supplied: BTreeSet<String>,
+    /// Names of the material files that were not supplied.
+    missing: BTreeSet<String>,
+    /// Names of the materials in use.
+    used: BTreeSet<String>,
+}
+
+impl ObjMaterials {
+    /// Collects the materials of a text, with the supplied files.
+    pub fn of(text: &[u8], resources: &BTreeMap<String, Vec<u8>>) -> Self {
+        let mut materials = Self::default();
+        for statement in named(text) {
+            match statement.keyword {
+                b"usemtl" => drop(materials.used.insert(name_of(&statement))),
+                b"mtllib" => {
+                    let words = statement.words.iter();
+                    let words = words.map(|word| String::from_utf8_lossy(word).into_owned());
+                    materials.add(&name_of(&statement), words.collect(), resources);
+                }
+                _ => {}
+            }
+        }
+        materials
+    }
+
+    /// Adds one file whose name has blanks, or several files.
+    fn add(&mut self, line: &str, words: Vec<String>, resources: &BTreeMap<String, Vec<u8>>) {
+        let find = |path: &str| {
+            let found = Pictures::candidates("", path).find(|name| resources.contains_key(name));
+            found.map(|name| (resources[&name].as_slice(), name))
+        };
+        let paths = match find(line) {
+            Some(_) => vec![line.to_owned()],
+            None => words,
+        };
+        for path in paths {
+            match find(&path) {
+                Some((bytes, name)) => {
+                    if self.supplied.insert(name.clone()) {
+                        self.files.add(&name, bytes);
+                    }
+                }
+                None => drop(self.missing.insert(path)),
+            }
+        }
+    }
+
+    /// Returns the supplied files with their pictures.
+    pub fn beside(&self, resources: &BTreeMap<String, Vec<u8>>) -> Vec<(String, Vec<u8>)> {
+        let mut names: Vec<&str> = self.supplied.iter().map(String::as_str).collect();
+        let mut pictures = Pictures::among(resources);
+        for (folder, path) in self.files.pictures() {
+            names.extend(pictures.find(folder, &path).map(|(name, _)| name));
+        }
+        let mut known = BTreeSet::new();
+        names.retain(|name| known.insert(*name));
+        names
+            .into_iter()
+            .map(|name: &str| (name.to_owned(), resources[name].clone()))
+            .collect()
+    }
+
+    /// Returns a warning if a material file is missing.
+    pub fn warnings(&self) -> Vec<Warning> {
+        if self.missing.is_empty() {
+            return Vec::new();
+        }
+        let names = error::listed(self.missing.iter().map(String::as_str));
+        let message =
+            format!("material files were not supplied, so only material names are known: {names}");
+        vec![Warning::new("material_files_missing", message)]
+    }
+
+    /// Returns a warning that textures no longer fit because their UVs are replaced.
+    pub fn warnings_of_new_uvs(&self) -> Option<Warning> {
+        let textured: Vec<&str> = (self.used.iter().map(String::as_str))
+            .filter(|name: &&str| self.files.maps_of(name).next().is_some())
+            .collect();
+        if !textured.is_empty() {
+            let names = error::listed(textured.into_iter());
+            let message = format!(
+                "textures no longer fit because the UVs were replaced: materials {names}; to resample them, write \
+                 glTF with --rebake"
+            );
+            return Some(Warning::new("textures_misplaced", message));
+        }
+        let is_unknown = self.supplied.is_empty() && !self.missing.is_empty();
+        let message = "the UVs of the file were replaced, so textures made for them no longer fit";
+        is_unknown.then(|| Warning::new("uvs_replaced", message))
+    }
+}
+
+/// Iterates over the statements about materials and their files; others are not parsed.
+fn named(text: &[u8]) -> impl Iterator<Item = Statement<'_>> {
+    let lines = text.split(|byte| matches!(byte, b'\n' | b'\r'));
+    lines
+        .filter(|line: &&[u8]| {
+            let line = line.trim_ascii_start();
+            line.starts_with(b"usemtl") || line.starts_with(b"mtllib")
+        })
+        .flat_map(statements)
+}
+
+/// Returns the possible paths of the material files of a text, relative to it.
+pub(super) fn material_paths(text: &[u8]) -> BTreeSet<String> {
+    let libraries = named(text).filter(|statement| statement.keyword == b"mtllib");
+    let names = libraries.flat_map(|statement| {
+        let words = statement.words.iter();
+        let words = words.map(|word| String::from_utf8_lossy(word).into_owned());
+        words.chain([name_of(&statement)]).collect::<Vec<_>>()
+    });
+    names
+        .flat_map(|name| Pictures::candidates("", &name).collect::<Vec<_>>())
+        .collect()
+}
+
+/// Returns the possible paths of the pictures of the material file at `path`, relative to the main file.
+pub(super) fn picture_paths(path: &str, bytes: &[u8]) -> BTreeSet<String> {
+    let mut files = MaterialFiles::default();
+    files.add(path, bytes);
+    let pictures = files.pictures();
+    pictures
+        .flat_map(|(folder, path)| Pictures::candidates(folder, &path).collect::<Vec<_>>())
+        .collect()
+}
+
+/// Returns the names after a statement, joined by single blanks.
+pub(super) fn name_of(statement: &Statement) -> String {
+    let words: Vec<_> = statement
+        .words
+        .iter()
+        .map(|word| String::from_utf8_lossy(word))
+        .collect();
+    words.join(" ")
 }

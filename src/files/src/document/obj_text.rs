@@ -1,6 +1,5 @@
 //! An OBJ text with new texture coordinates.
 
-use super::texcoord_lines::{TexcoordLines, decimal};
 use super::uvs::Corners;
 use crate::io::obj::{Corner, Obj, Statement, statements};
 use crate::polygon::{smallest_first, triangulate};
@@ -187,20 +186,18 @@ impl<'a> ObjFaces<'a> {
         // Split the polygon where its triangles disagree.
         let triangles = self.n_triangles..self.n_triangles + polygon.len() - 2;
         self.n_triangles = triangles.end;
-        let local = |triangle: &[u32; 3]| triangle.map(|corner| corner - start as u32);
         let numbered = NumberedPolygon {
             n_corners: polygon.len(),
             triangles: self.obj.corner_triangles[triangles.clone()]
                 .iter()
-                .map(local)
+                .map(|triangle: &[u32; 3]| triangle.map(|corner| corner - start as u32))
                 .collect(),
             numbers: &self.numbers[triangles],
         };
-        let position = |corner: u32| {
+        let pieces = numbered.pieces(|corner: u32| {
             let vertex = polygon[corner as usize].vertex;
             self.positions[vertex as usize].map(f64::from)
-        };
-        let pieces = numbered.pieces(position);
+        });
         self.split_polygons += usize::from(pieces.len() > 1);
         for piece in pieces {
             let corners = piece.into_iter();
@@ -331,4 +328,35 @@ impl NumberedPolygon<'_> {
         }
         None
     }
+}
+
+// The `vt` lines of an OBJ file, one for each pair of vertex and UV.
+
+/// `vt` lines in the order of their first use.
+#[derive(Default)]
+pub(super) struct TexcoordLines {
+    numbers: HashMap<(u32, [u32; 2]), u32>,
+    /// Text of the lines so far.
+    pub text: Vec<u8>,
+}
+
+impl TexcoordLines {
+    /// Returns the number, from 1, of the line for a corner. Writes the shortest decimals that give the UV again,
+    /// exactly, whether they are read as f32 or f64.
+    pub fn number(&mut self, vertex: u32, uv: [f32; 2], line_end: &str) -> u32 {
+        let next = self.numbers.len() as u32 + 1;
+        let key = (vertex, uv.map(f32::to_bits));
+        let number = *self.numbers.entry(key).or_insert(next);
+        if number == next {
+            let [u, v] = uv.map(f64::from);
+            // Writing to memory does not fail.
+            let _ = write!(self.text, "vt {u} {v}{line_end}");
+        }
+        number
+    }
+}
+
+/// Returns the decimal for a coordinate in a text file: read as f32 it is `x`, and equal coordinates have equal texts.
+pub(super) fn decimal(x: f32) -> String {
+    x.to_string()
 }

@@ -1,18 +1,18 @@
 //! OFF, PLY and STL: triangles without a document around them. They are written as new glTF or OBJ files.
-use super::colors::{Color, from_srgb};
-use super::conversion::{Conversion, of_triangles};
-use super::warning::{listed, unused_not_finite};
-use super::{DocumentError, Primitive, SpaceMap, Subdivision, Upload, Warning, fanned, format_of};
-use crate::io::{self, Format};
+
+use super::error::{listed, unused_not_finite};
+use super::new_obj::{Color, from_srgb};
+use super::{DocumentError, Primitive, SpaceMap, Subdivision, Upload, Warning, format_of};
+use crate::io::{self, Fanned, Format};
 use unwrapd_maps::mesh::CornerUvs;
 
 /// Content of a file.
 #[derive(Clone)]
 pub struct SoupDocument {
-    primitives: Vec<Primitive>,
+    pub(super) primitives: Vec<Primitive>,
     /// Colors of the vertices, if the file has any.
-    colors: Option<Vec<Color>>,
-    warnings: Vec<Warning>,
+    pub(super) colors: Option<Vec<Color>>,
+    pub(super) warnings: Vec<Warning>,
 }
 
 impl SoupDocument {
@@ -25,7 +25,7 @@ impl SoupDocument {
             Some(Format::Stl) => (io::stl::read(&upload.bytes)?, "line"),
             _ => return Err(DocumentError::UnknownFormat),
         };
-        let fanned = fanned::warning(&mesh.fanned, place);
+        let fanned = warning(&mesh.fanned, place);
         let mut primitive = Primitive::of_file(mesh)?;
         let unused = unused_not_finite(primitive.place_unused());
         let mut document = Self {
@@ -42,11 +42,6 @@ impl SoupDocument {
     /// Returns the warnings of reading.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
-    }
-
-    /// Converts the triangles and colors to glTF.
-    pub(super) fn to_gltf(&self) -> Result<Conversion, DocumentError> {
-        of_triangles(&self.primitives[0], self.colors.as_deref(), &self.warnings)
     }
 
     /// Returns the colors of the vertices.
@@ -87,8 +82,10 @@ impl SoupDocument {
     pub fn moved(mut self, map: &dyn SpaceMap) -> Result<Self, DocumentError> {
         let positions = &mut self.primitives[0].positions;
         *positions = map.positions(positions);
-        let is_lost = |p: &[f32; 3]| !p.iter().all(|x| x.is_finite());
-        match positions.iter().position(is_lost) {
+        match positions
+            .iter()
+            .position(|p: &[f32; 3]| !p.iter().all(|x| x.is_finite()))
+        {
             Some(vertex) => Err(DocumentError::NonFinitePosition(format!("vertex {vertex}"))),
             None => Ok(self),
         }
@@ -102,4 +99,26 @@ impl SoupDocument {
     ) -> Result<Option<Vec<CornerUvs>>, DocumentError> {
         Ok(None)
     }
+}
+
+/// Returns a warning about polygons without an inside, if there are any; `place` names the unit of their places.
+pub(super) fn warning(fanned: &Fanned, place: &str) -> Option<Warning> {
+    let n = fanned.n_polygons;
+    let mut places: Vec<String> = fanned.first.iter().map(usize::to_string).collect();
+    if n > places.len() {
+        places.push("…".to_owned());
+    }
+    let places = places.join(", ");
+    let message = match n {
+        0 => return None,
+        1 => format!(
+            "1 polygon crosses itself or has no area ({place} {places}). It became a triangle fan, which may \
+             overlap. Repair it and unwrap again."
+        ),
+        _ => format!(
+            "{n} polygons cross themselves or have no area ({place}s {places}). They became triangle fans, \
+             which may overlap. Repair them and unwrap again."
+        ),
+    };
+    Some(Warning::new("polygon_fanned", message))
 }

@@ -1,6 +1,6 @@
 //! Sequential reading of values, from words of text or from bytes.
 
-use super::ReadError;
+use super::faces::ReadError;
 
 /// Encoding of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,7 +74,7 @@ impl<'a> Cursor<'a> {
 
     /// Reads a number written as text, whatever the encoding of the file.
     pub fn parse<T: std::str::FromStr>(&mut self, cause: &'static str) -> Result<T, ReadError> {
-        let parsed = self.word().and_then(super::number);
+        let parsed = self.word().and_then(number);
         parsed.ok_or_else(|| self.malformed(cause))
     }
 
@@ -116,4 +116,45 @@ impl<'a> Cursor<'a> {
         self.at += N;
         Ok(bytes)
     }
+}
+
+/// Iterates over the lines of a text, numbered from 1; `\n`, `\r\n` and `\r` all end a line.
+pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    let mut rest = bytes;
+    let mut number = 0;
+    std::iter::from_fn(move || {
+        if rest.is_empty() {
+            return None;
+        }
+        let end = rest.iter().position(|&b| b == b'\n' || b == b'\r');
+        let line = &rest[..end.unwrap_or(rest.len())];
+        let ending = match end {
+            None => 0,
+            Some(e) if rest[e..].starts_with(b"\r\n") => 2,
+            Some(_) => 1,
+        };
+        rest = &rest[line.len() + ending..];
+        number += 1;
+        Some((number, line))
+    })
+}
+
+/// Iterates over the words of a line, separated by blanks.
+pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+    line.split(u8::is_ascii_whitespace)
+        .filter(|word| !word.is_empty())
+}
+
+/// Parses a number in a text; `nan` and `inf` count as numbers here, [`position`] refuses them.
+pub(super) fn number<T: std::str::FromStr>(word: &[u8]) -> Option<T> {
+    std::str::from_utf8(word).ok()?.parse().ok()
+}
+
+/// Parses three numbers from the next three words.
+pub(super) fn three_numbers<'a>(words: &mut impl Iterator<Item = &'a [u8]>) -> Option<[f64; 3]> {
+    Some([
+        number(words.next()?)?,
+        number(words.next()?)?,
+        number(words.next()?)?,
+    ])
 }

@@ -1,7 +1,110 @@
 //! Faces of a file, and the triangles into which polygons are split.
 
-use super::{Coordinate, ReadError};
 use crate::polygon::{Filling, triangulate};
+
+/// Positions and triangles of one file, in the file's order.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct IndexedTriangles<T = f32> {
+    /// Vertex positions.
+    pub positions: Vec<[T; 3]>,
+    /// Three vertex indices for each triangle.
+    pub triangles: Vec<[u32; 3]>,
+    /// Polygons without an inside.
+    pub fanned: Fanned,
+}
+
+/// Reason why a file cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ReadError {
+    /// The file does not follow its format.
+    #[error("{format}, {place} {at}: {cause}")]
+    Malformed {
+        /// Name of the format.
+        format: &'static str,
+        /// Unit of `at`: `line` or `byte`.
+        place: &'static str,
+        /// Position of the error; lines count from 1.
+        at: usize,
+        /// Description of the error.
+        cause: &'static str,
+    },
+    /// A coordinate is NaN, infinite or, if stored as `f32`, beyond its range.
+    #[error("vertex {vertex} has a coordinate that is not a finite number")]
+    NonFinitePosition {
+        /// Index of the vertex, from 0.
+        vertex: usize,
+    },
+    /// A face names a vertex that does not exist.
+    #[error("a face names vertex {index}, but there are only {n_vertices}")]
+    IndexOutOfRange {
+        /// Index of the vertex, from 0.
+        index: i64,
+        /// Number of vertices in the file.
+        n_vertices: usize,
+    },
+}
+
+impl ReadError {
+    /// Returns the stable code of the error, for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Malformed { .. } => "invalid_mesh",
+            Self::NonFinitePosition { .. } => "non_finite_position",
+            Self::IndexOutOfRange { .. } => "index_out_of_range",
+        }
+    }
+}
+
+/// Number types of coordinates.
+pub(super) trait Coordinate: Copy + Default {
+    const NAN: Self;
+
+    /// Returns the nearest such number, without a negative zero; `None` if that is not finite.
+    fn nearest(x: f64) -> Option<Self>;
+
+    fn to_f64(self) -> f64;
+}
+
+impl Coordinate for f32 {
+    const NAN: Self = Self::NAN;
+
+    fn nearest(x: f64) -> Option<Self> {
+        Some(x as f32 + 0.0).filter(|x| x.is_finite())
+    }
+
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+impl Coordinate for f64 {
+    const NAN: Self = Self::NAN;
+
+    fn nearest(x: f64) -> Option<Self> {
+        Some(x + 0.0).filter(|x| x.is_finite())
+    }
+
+    fn to_f64(self) -> f64 {
+        self
+    }
+}
+
+/// Converts a position of a file, without negative zeros; coordinates that are not finite become NaN. [`Faces::filled`]
+/// refuses faces with such a corner: a vertex that no face uses may hold anything.
+pub(super) fn any_position<T: Coordinate>(coordinates: [f64; 3]) -> [T; 3] {
+    coordinates.map(|x| T::nearest(x).unwrap_or(T::NAN))
+}
+
+/// Converts a position of a file, which must be finite, without negative zeros.
+pub(super) fn position<T: Coordinate>(
+    coordinates: [f64; 3],
+    vertex: usize,
+) -> Result<[T; 3], ReadError> {
+    match coordinates.map(T::nearest) {
+        [Some(x), Some(y), Some(z)] => Ok([x, y, z]),
+        _ => Err(ReadError::NonFinitePosition { vertex }),
+    }
+}
 
 /// Number of polygons whose places are kept.
 const PLACES: usize = 5;

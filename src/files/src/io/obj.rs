@@ -123,14 +123,13 @@ fn statement_text(bytes: &[u8]) -> (&[u8], usize) {
 
 /// Returns whether the text has a line that defines a vertex.
 pub(super) fn has_vertex(text: &[u8]) -> bool {
-    let is_vertex = |line: &[u8]| {
-        let line = line.trim_ascii_start();
-        line.starts_with(b"v ") || line.starts_with(b"v\t")
-    };
     !text.contains(&0)
         && text
             .split(|byte| matches!(byte, b'\n' | b'\r'))
-            .any(is_vertex)
+            .any(|line: &[u8]| {
+                let line = line.trim_ascii_start();
+                line.starts_with(b"v ") || line.starts_with(b"v\t")
+            })
 }
 
 /// A corner as in the text: indices from 1, negative ones already resolved, 0 if not given.
@@ -184,11 +183,10 @@ pub(super) fn read_as<T: Coordinate>(bytes: &[u8]) -> Result<Obj<T>, ReadError> 
     // Resolve corners and fill polygons.
     resolve(&mut obj, &raw_corners)?;
     let vertex_of = |corner: u32| obj.corners[corner as usize].vertex;
-    let position = |corner: u32| {
+    (obj.corner_triangles, obj.mesh.fanned) = faces.filled(|corner: u32| {
         let vertex = vertex_of(corner);
         (vertex, obj.mesh.positions[vertex as usize])
-    };
-    (obj.corner_triangles, obj.mesh.fanned) = faces.filled(position)?;
+    })?;
     obj.mesh.triangles = obj
         .corner_triangles
         .iter()

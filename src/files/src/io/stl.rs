@@ -29,8 +29,7 @@ fn claimed_facets(bytes: &[u8]) -> Option<usize> {
 /// Returns whether the file has room for the binary facets that it claims, at least one. Bytes after the last facet are
 /// ignored: some exporters append their own data. A text would claim hundreds of millions.
 pub(super) fn is_binary(head: &[u8], size: u64) -> bool {
-    let has_room = |n: usize| n > 0 && (HEADER + n * FACET) as u64 <= size;
-    claimed_facets(head).is_some_and(has_room)
+    claimed_facets(head).is_some_and(|n: usize| n > 0 && (HEADER + n * FACET) as u64 <= size)
 }
 
 /// Returns whether a text file begins like this: with its first word, and facets after it.
@@ -79,8 +78,9 @@ impl Builder {
     }
 
     fn mesh(self) -> Result<IndexedTriangles, ReadError> {
-        let position = |v: u32| (v, self.positions[v as usize]);
-        let (triangles, fanned) = self.faces.filled(position)?;
+        let (triangles, fanned) = self
+            .faces
+            .filled(|v: u32| (v, self.positions[v as usize]))?;
         Ok(IndexedTriangles {
             positions: self.positions,
             triangles,

@@ -1,11 +1,10 @@
 //! The heat map of each face's distortion.
 
-use super::canvas::{Canvas, Lines};
-use super::color::{self, FLIPPED, INK, NO_VALUE, Rgb};
+use super::canvas::{self, Canvas, FLIPPED, INK, Lines, NO_VALUE, Rgb};
 use super::panel::{Panel, Style, sheet};
 use super::raster::Mode;
-use super::scale::{HeatmapMeasure, Scale};
-use super::text;
+use serde::{Deserialize, Serialize};
+use unwrapd_maps::measure::FaceDistortion;
 use unwrapd_maps::mesh::VAxis;
 
 /// Draws a PNG of the faces in the colors of their distortion, with a legend below; flipped faces are yellow.
@@ -55,19 +54,19 @@ fn below(drawn: &Canvas, title: &str, scale: &Scale, exceptions: &Exceptions) ->
     let margin = letters.round();
     let top = drawn.height as f64 + margin;
     let mut ink = Lines::new(&canvas);
-    text::write(&mut ink, title, margin, top, letters);
+    canvas::write(&mut ink, title, margin, top, letters);
     let right = swatches(&mut canvas, &mut ink, exceptions, [margin, top], letters);
     let bar = if narrow {
         [2.0 * margin, canvas.width as f64 - 3.0 * margin]
     } else {
-        let left = margin + text::width(title, letters) + 2.0 * margin;
+        let left = margin + canvas::width(title, letters) + 2.0 * margin;
         [left, (right - 2.0 * margin).max(left + 1.0)]
     };
     let top = top + line;
     for column in bar[0] as usize..bar[1] as usize {
         let t = (column as f64 - bar[0]) / (bar[1] - bar[0]);
         let rows = top as usize..(top + letters) as usize;
-        canvas.fill(column..column + 1, rows, color::heat(t));
+        canvas.fill(column..column + 1, rows, canvas::heat(t));
     }
     ticks(&mut ink, scale, bar, top + letters, letters);
     canvas.ink(&ink, INK, 1.0);
@@ -98,7 +97,7 @@ fn ticks(ink: &mut Lines, scale: &Scale, bar: [f64; 2], y: f64, letters: f64) {
             number
         };
         // Leave out a number that would touch the one to its right or the one at the left end.
-        let half = 0.5 * text::width(&number, letters);
+        let half = 0.5 * canvas::width(&number, letters);
         if x + half + letters > free
             || (tick > scale.ideal && x - half - letters < bar[0] + letters)
         {
@@ -106,7 +105,7 @@ fn ticks(ink: &mut Lines, scale: &Scale, bar: [f64; 2], y: f64, letters: f64) {
         }
         free = x - half;
         ink.segment([x, y + 1.0], [x, y + 0.4 * letters], 1.0);
-        text::write(ink, &number, x - half, y + 0.8 * letters, letters);
+        canvas::write(ink, &number, x - half, y + 0.8 * letters, letters);
     }
 }
 
@@ -124,12 +123,108 @@ fn swatches(
         (exceptions.flipped, "flipped", FLIPPED),
     ];
     for (_, label, color) in kinds.into_iter().filter(|kind| kind.0) {
-        let left = right - text::width(label, letters);
-        text::write(ink, label, left, top, letters);
+        let left = right - canvas::width(label, letters);
+        canvas::write(ink, label, left, top, letters);
         let square = left - 1.6 * letters;
         let rows = top as usize..(top + letters) as usize;
         canvas.fill(square as usize..(square + letters) as usize, rows, color);
         right = square - 1.5 * margin;
     }
     right
+}
+
+// Color scale of a heat map.
+
+/// Distortion shown in a heat map.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
+#[serde(rename_all = "kebab-case")]
+pub enum HeatmapMeasure {
+    /// σ₁/σ₂, ideal 1.
+    #[default]
+    Conformal,
+    /// max(σ₁σ₂, 1/σ₁σ₂), ideal 1.
+    Area,
+    /// σ₁² + σ₂² + σ₁⁻² + σ₂⁻², ideal 4.
+    SymmetricDirichlet,
+}
+
+impl HeatmapMeasure {
+    /// Returns the value of a face; infinite for one without area.
+    pub(super) fn value(self, face: &FaceDistortion) -> f64 {
+        match self {
+            Self::Conformal => face.conformal,
+            Self::Area => face.area,
+            Self::SymmetricDirichlet => face.symmetric_dirichlet,
+        }
+    }
+
+    /// Returns the value of an isometry.
+    fn ideal(self) -> f64 {
+        match self {
+            Self::Conformal | Self::Area => 1.0,
+            Self::SymmetricDirichlet => 4.0,
+        }
+    }
+
+    pub(super) fn title(self) -> &'static str {
+        match self {
+            Self::Conformal => "conformal distortion",
+            Self::Area => "area distortion",
+            Self::SymmetricDirichlet => "symmetric dirichlet",
+        }
+    }
+}
+
+/// Color scale: logarithmic from the ideal value to `greatest`.
+#[derive(Debug, Clone, Copy)]
+struct Scale {
+    pub ideal: f64,
+    pub greatest: f64,
+}
+
+/// Possible ends of scales, as multiples of the ideal value.
+const ENDS: [f64; 12] = [
+    1.2, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 1e3, 1e4, 1e6,
+];
+
+impl Scale {
+    /// Chooses the shortest scale that contains 99 % of the drawn area.
+    pub fn new(panels: &[Panel], measure: HeatmapMeasure) -> Self {
+        let mut values: Vec<(f64, f64)> = panels
+            .iter()
+            .flat_map(|panel| panel.distortion.iter().zip(panel.uvs))
+            .map(|(face, uvs)| (measure.value(face), uv_area(uvs)))
+            .filter(|(value, area)| value.is_finite() && area.is_finite())
+            .collect();
+        values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let total: f64 = values.iter().map(|v| v.1).sum();
+        let mut below = 0.0;
+        let most = values.iter().find(|(_, area)| {
+            below += area;
+            below >= 0.99 * total
+        });
+        let ideal = measure.ideal();
+        let most = most.map_or(1.0, |v| v.0 / ideal);
+        let end = ENDS.iter().find(|&&end| end >= most);
+        let greatest = ideal * end.copied().unwrap_or(ENDS[ENDS.len() - 1]);
+        Self { ideal, greatest }
+    }
+
+    /// Returns the position of a value on the scale, in [0, 1].
+    pub fn position(&self, value: f64) -> f64 {
+        ((value / self.ideal).ln() / (self.greatest / self.ideal).ln()).clamp(0.0, 1.0)
+    }
+
+    pub fn color(&self, value: f64) -> Rgb {
+        if value.is_finite() {
+            canvas::heat(self.position(value))
+        } else {
+            NO_VALUE
+        }
+    }
+}
+
+fn uv_area([a, b, c]: &[[f64; 2]; 3]) -> f64 {
+    0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
 }

@@ -1,7 +1,11 @@
 //! Pictures with transparency, from and to files.
 
-use super::png::png;
-use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageReader, Limits};
+use image::codecs::jpeg::JpegEncoder;
+use image::codecs::png::PngEncoder;
+use image::{
+    DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageReader, Limits, RgbaImage,
+    imageops,
+};
 use std::io::Cursor;
 
 /// Largest file, in bytes: photographs take a tenth of it.
@@ -107,4 +111,66 @@ fn unreadable(error: image::ImageError) -> ImageError {
         image::ImageError::Unsupported(_) => ImageError::UnknownFormat,
         error => ImageError::Invalid(error.to_string()),
     }
+}
+
+// Encoding of PNG files.
+
+/// Returns the file of `width` × `height` pixels, row by row from the top, with `bytes` in the format `color`.
+pub(super) fn png(bytes: &[u8], width: usize, height: usize, color: ExtendedColorType) -> Vec<u8> {
+    let mut file = Vec::new();
+    let written = PngEncoder::new(&mut file).write_image(bytes, width as u32, height as u32, color);
+    // Writing to memory fails for wrong dimensions only.
+    debug_assert!(written.is_ok());
+    file
+}
+
+// Encoding of JPEG files.
+
+/// Quality, of 100: textures are mostly seen larger than a pixel per texel, and are resampled from compressed ones.
+const QUALITY: u8 = 92;
+
+impl Image {
+    /// Returns the picture as a JPEG file, with colors at full resolution; `None` if some pixel is transparent, which
+    /// JPEG cannot store.
+    pub fn jpeg(&self) -> Option<Vec<u8>> {
+        let opaque = self
+            .pixels
+            .iter()
+            .map(|&[r, g, b, a]| (a == u8::MAX).then_some([r, g, b]));
+        let rgb: Vec<[u8; 3]> = opaque.collect::<Option<_>>()?;
+        let (width, height) = (self.width as u32, self.height as u32);
+        let mut file = Vec::new();
+        let encoder = JpegEncoder::new_with_quality(&mut file, QUALITY);
+        // Only a picture with a side of more than 65,535 pixels has no JPEG file.
+        let written =
+            encoder.write_image(rgb.as_flattened(), width, height, ExtendedColorType::Rgb8);
+        written.is_ok().then_some(file)
+    }
+}
+
+// Small copies of pictures, for lists.
+
+/// Length of the shorter side in pixels: on a sheet of several squares, each remains visible.
+const SIDE: u32 = 72;
+
+/// Returns a small PNG of a picture; one that is already small keeps its size.
+pub fn thumbnail_png(picture: &[u8]) -> Result<Vec<u8>, ImageError> {
+    let image = Image::decode(picture)?;
+    let [width, height] = [image.width as u32, image.height as u32];
+    let least = width.min(height).max(1);
+    let reduced = |side: u32| (u64::from(side) * u64::from(SIDE) / u64::from(least)) as u32;
+    let pixels = image.pixels.into_flattened();
+    let small = match RgbaImage::from_raw(width, height, pixels) {
+        Some(picture) if SIDE < least => {
+            imageops::thumbnail(&picture, reduced(width), reduced(height))
+        }
+        Some(picture) => picture,
+        None => RgbaImage::default(),
+    };
+    let small = Image {
+        width: small.width() as usize,
+        height: small.height() as usize,
+        pixels: small.as_raw().as_chunks().0.to_vec(),
+    };
+    Ok(small.png())
 }

@@ -6,24 +6,14 @@
 //! faces are drawn where faces are large enough to show them, the borders of charts always. Equal input gives equal
 //! bytes.
 mod canvas;
-mod color;
 mod heat;
 mod image;
-mod jpeg;
-mod layout;
 mod panel;
-mod png;
 mod raster;
-mod scale;
-mod text;
-mod thumbnail;
 mod warp;
 
-pub use heat::heatmap_png;
-pub use image::{Image, ImageError};
-pub use layout::layout_png;
-pub use panel::Panel;
+pub use heat::{HeatmapMeasure, heatmap_png};
+pub use image::{Image, ImageError, thumbnail_png};
+pub use panel::{Panel, layout_png};
 pub(crate) use raster::{spans, steps};
-pub use scale::HeatmapMeasure;
-pub use thumbnail::thumbnail_png;
 pub use warp::{Deformation, Extent, Warped, warped};

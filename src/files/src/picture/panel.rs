@@ -1,8 +1,7 @@
 //! One group of faces drawn in its square, and several of them on a sheet.
-use super::canvas::{Canvas, Lines};
-use super::color::{FLIPPED, INK, Rgb};
+
+use super::canvas::{self, Canvas, FLIPPED, INK, Lines, Rgb};
 use super::raster::{Mode, Raster};
-use super::text;
 use unwrapd_maps::measure::FaceDistortion;
 use unwrapd_maps::mesh::{CornerUvs, VAxis};
 
@@ -215,13 +214,26 @@ pub(super) fn sheet(panels: &[Panel], size: u32, v_axis: VAxis, style: &Style) -
     for (k, panel) in panels.iter().take(shown).enumerate() {
         let (column, row) = (margin + k % columns * cell[0], k / columns * cell[1]);
         let y = row as f64 + 0.5 * (title as f64 - letters);
-        text::write(&mut titles, panel.name, column as f64, y, letters);
+        canvas::write(&mut titles, panel.name, column as f64, y, letters);
     }
     if note > 0 {
         let left_out = format!("+ {} more", panels.len() - shown);
         let y = (rows * cell[1]) as f64 + 0.5 * letters;
-        text::write(&mut titles, &left_out, margin as f64, y, letters);
+        canvas::write(&mut titles, &left_out, margin as f64, y, letters);
     }
     canvas.ink(&titles, INK, 1.0);
     canvas
+}
+
+// The layout: places of the charts.
+
+/// Draws a PNG of the charts, each in its own color; overlaps are red and flipped faces yellow.
+///
+/// `size` is the side in pixels, at least 64 and at most 4096; several panels make a sheet of up to twice that width.
+pub fn layout_png(panels: &[Panel], size: u32, v_axis: VAxis) -> Vec<u8> {
+    let style = Style {
+        color: &|panel, face| canvas::chart(panel.charts.get(face).copied().unwrap_or(0)),
+        mode: Mode::Counted,
+    };
+    sheet(panels, size, v_axis, &style).png()
 }

@@ -1,9 +1,7 @@
 //! Filling of triangles on a grid of samples, one or several per pixel.
 
+use super::canvas::{BACKGROUND, Canvas, INK, OVERLAP, Rgb, mix};
 use std::ops::Range;
-
-use super::canvas::Canvas;
-use super::color::{BACKGROUND, INK, OVERLAP, Rgb, mix};
 
 /// Steps of a corner's coordinates per sample: 8 bits, the subpixel precision of graphics hardware.
 const STEPS: i64 = 256;

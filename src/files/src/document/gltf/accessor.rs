@@ -1,9 +1,9 @@
 //! Accessors: typed arrays over the binary data, checked against the bytes that really exist.
+
 use super::body::Body;
-use super::component::Component;
 use super::json::{invalid, item, required, unsigned};
 use crate::document::DocumentError;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// Largest count that is accepted without bytes behind it. Such accessors carry the sparse morph targets of large
 /// meshes, so it is as large as a mesh.
@@ -239,4 +239,129 @@ fn parse_sparse<'a>(
         indices: strided(body, part("indices")?, n_entries, index_type.size())?,
         values: strided(body, part("values")?, n_entries, size)?,
     })
+}
+
+// The component types of accessors.
+
+/// Type of one component of an accessor element.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Component {
+    I8,
+    U8,
+    I16,
+    U16,
+    U32,
+    F32,
+}
+
+impl Component {
+    /// Returns the type for a `componentType`.
+    pub fn from_code(code: usize) -> Option<Self> {
+        Some(match code {
+            5120 => Self::I8,
+            5121 => Self::U8,
+            5122 => Self::I16,
+            5123 => Self::U16,
+            5125 => Self::U32,
+            5126 => Self::F32,
+            _ => return None,
+        })
+    }
+
+    /// Returns the `componentType`.
+    pub fn code(self) -> usize {
+        match self {
+            Self::I8 => 5120,
+            Self::U8 => 5121,
+            Self::I16 => 5122,
+            Self::U16 => 5123,
+            Self::U32 => 5125,
+            Self::F32 => 5126,
+        }
+    }
+
+    /// Returns the size in bytes.
+    pub fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::U32 | Self::F32 => 4,
+        }
+    }
+
+    /// Returns the smallest unsigned type whose restart value is not a vertex index.
+    pub fn for_indices(n_vertices: usize) -> Self {
+        match n_vertices {
+            ..=255 => Self::U8,
+            256..=65_535 => Self::U16,
+            _ => Self::U32,
+        }
+    }
+
+    /// Returns the number in the first bytes of `bytes`; 0 if they are too few.
+    pub fn read(self, bytes: &[u8]) -> f64 {
+        match (self, bytes) {
+            (Self::I8, &[a, ..]) => f64::from(a.cast_signed()),
+            (Self::U8, &[a, ..]) => f64::from(a),
+            (Self::I16, &[a, b, ..]) => f64::from(i16::from_le_bytes([a, b])),
+            (Self::U16, &[a, b, ..]) => f64::from(u16::from_le_bytes([a, b])),
+            (Self::U32, &[a, b, c, d, ..]) => f64::from(u32::from_le_bytes([a, b, c, d])),
+            (Self::F32, &[a, b, c, d, ..]) => f64::from(f32::from_le_bytes([a, b, c, d])),
+            _ => 0.0,
+        }
+    }
+
+    /// Appends `value`, saturated if the type is narrower.
+    pub fn push(self, value: f64, bytes: &mut Vec<u8>) {
+        match self {
+            Self::I8 => bytes.extend_from_slice(&(value as i8).to_le_bytes()),
+            Self::U8 => bytes.push(value as u8),
+            Self::I16 => bytes.extend_from_slice(&(value as i16).to_le_bytes()),
+            Self::U16 => bytes.extend_from_slice(&(value as u16).to_le_bytes()),
+            Self::U32 => bytes.extend_from_slice(&(value as u32).to_le_bytes()),
+            Self::F32 => bytes.extend_from_slice(&(value as f32).to_le_bytes()),
+        }
+    }
+
+    /// Returns the number that stands for 1 in a normalized accessor.
+    pub fn one(self) -> f64 {
+        match self {
+            Self::I8 => f64::from(i8::MAX),
+            Self::U8 => f64::from(u8::MAX),
+            Self::I16 => f64::from(i16::MAX),
+            Self::U16 => f64::from(u16::MAX),
+            Self::U32 => f64::from(u32::MAX),
+            Self::F32 => 1.0,
+        }
+    }
+}
+
+// `min` and `max` of accessors.
+
+/// Writes the smallest and largest value of each component, in the stored encoding.
+pub(super) fn set(accessor: &mut Value, packed: &[u8], component: Component, width: usize) {
+    let mut low = vec![f64::INFINITY; width];
+    let mut high = vec![f64::NEG_INFINITY; width];
+    for element in packed.chunks_exact(component.size() * width) {
+        for (axis, bytes) in element.chunks_exact(component.size()).enumerate() {
+            let value = component.read(bytes);
+            low[axis] = low[axis].min(value);
+            high[axis] = high[axis].max(value);
+        }
+    }
+    let numbers = |values: Vec<f64>| -> Value {
+        let is_integer = component != Component::F32;
+        values
+            .into_iter()
+            .map(|value: f64| {
+                if is_integer {
+                    json!(value as i64)
+                } else {
+                    json!(value)
+                }
+            })
+            .collect()
+    };
+    accessor["min"] = numbers(low);
+    accessor["max"] = numbers(high);
 }

@@ -2,22 +2,19 @@
 
 use super::accessor::Accessor;
 use super::body::Body;
+use super::document::GltfDocument;
+use super::images;
 use super::json::{extension, item, items, unsigned};
-use super::obj_names::{Taken, material_names, object_names};
-use super::obj_pictures::ObjPictures;
 use super::scene::is_in_place;
-use super::texture_warnings::texture_warnings;
-use super::textures::{MaterialTextures, affected, materials};
-use super::{GltfDocument, baked};
-use crate::document::colors::{Color, from_linear};
-use crate::document::material::{Dropped, Material, mtl_text, of_gltf};
-use crate::document::new_obj::{self, ObjPart};
+use super::textures::{self, MaterialTextures, TRANSFORM, affected, materials, texture_warnings};
+use crate::document::material::{Dropped, Map, Material, mtl_text, of_gltf};
+use crate::document::new_obj::{self, Color, ObjPart, from_linear};
 use crate::document::{
     BakedTextures, DocumentError, Layout, NewUvs, PrimitiveNote, Warning, WriteNotes, WriteOptions,
-    Written, warning,
+    Written, error, uri,
 };
-use serde_json::{Map, Value};
-use std::collections::BTreeSet;
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use unwrapd_maps::mesh::VAxis;
 
 /// Writes `document` as OBJ with `uvs`, and with the textures made for them.
@@ -32,7 +29,7 @@ pub(super) fn write(
     let mut notes = WriteNotes::default();
     // New textures, materials and their pictures.
     let resources = match baked {
-        Some(baked) => baked::insert(document, &mut body, baked, 0, &options.stem, &mut notes)?,
+        Some(baked) => textures::insert(document, &mut body, baked, 0, &options.stem, &mut notes)?,
         None => document.resources.clone(),
     };
     let mut taken = Taken::default();
@@ -91,18 +88,23 @@ fn part<'a>(
     let uvs = match uvs.toward(index, VAxis::Up) {
         Some(uvs) => Some(uvs),
         None => document.corner_uvs(index, 0)?.map(|uvs| {
-            let upward = |face: [[f64; 2]; 3]| face.map(|[u, v]| [u as f32, (1.0 - v) as f32]);
-            uvs.into_iter().map(upward).collect()
+            uvs.into_iter()
+                .map(|face: [[f64; 2]; 3]| face.map(|[u, v]| [u as f32, (1.0 - v) as f32]))
+                .collect()
         }),
     };
     let normals = document.corner_normals(index)?;
-    let single = |face: [[f64; 3]; 3]| face.map(|normal| normal.map(|x| x as f32 + 0.0));
     Ok(ObjPart {
         primitive: &document.primitives[index],
         object: "",
         material: None,
         uvs,
-        normals: normals.map(|normals| normals.into_iter().map(single).collect()),
+        normals: normals.map(|normals| {
+            normals
+                .into_iter()
+                .map(|face: [[f64; 3]; 3]| face.map(|normal| normal.map(|x| x as f32 + 0.0)))
+                .collect()
+        }),
         colors: colors(document, body, index)?,
     })
 }
@@ -158,8 +160,12 @@ fn described(
     let mut described = Vec::new();
     for index in used {
         if let (Some(object), Some(name)) = (objects.get(index), names.get(index)) {
-            let map = |info: &Value| pictures.map(info);
-            described.push(of_gltf(object, name.clone(), map, &mut lost));
+            described.push(of_gltf(
+                object,
+                name.clone(),
+                |info: &Value| pictures.map(info),
+                &mut lost,
+            ));
         }
     }
     // Warn of the parts that MTL cannot hold.
@@ -168,7 +174,7 @@ fn described(
             .iter()
             .map(|(part, n)| format!("{part} ({n})"))
             .collect();
-        let parts = warning::listed(counted.iter().map(String::as_str));
+        let parts = error::listed(counted.iter().map(String::as_str));
         let message =
             format!("MTL cannot hold these material properties, which are left out: {parts}");
         notes
@@ -285,7 +291,7 @@ impl Counts {
             let object = document.object(primitive)?;
             counts.morphed += items(object, "targets")?.len();
             let attributes = object["attributes"].as_object();
-            for name in attributes.into_iter().flat_map(Map::keys) {
+            for name in attributes.into_iter().flat_map(serde_json::Map::keys) {
                 match name.as_str() {
                     // Skins are counted themselves, and tangents follow from UVs.
                     "POSITION" | "NORMAL" | "TANGENT" | "TEXCOORD_0" | "COLOR_0" => {}
@@ -315,4 +321,211 @@ fn n_moved(json: &Value) -> Result<usize, DocumentError> {
         }
     }
     Ok(moved.len())
+}
+
+// Pictures of textures as separate files next to an OBJ file.
+
+/// Pictures to which materials refer.
+struct ObjPictures<'a> {
+    body: &'a Body,
+    resources: &'a BTreeMap<String, Vec<u8>>,
+    stem: &'a str,
+    taken: Taken,
+    /// For each image the name of its file; `None` if there is no file.
+    names: BTreeMap<usize, Option<String>>,
+    files: BTreeMap<String, Vec<u8>>,
+    missing: BTreeSet<String>,
+    n_turned: usize,
+    n_without_image: usize,
+}
+
+impl<'a> ObjPictures<'a> {
+    /// Starts without pictures, for a document with these resources.
+    pub fn new(body: &'a Body, resources: &'a BTreeMap<String, Vec<u8>>, stem: &'a str) -> Self {
+        Self {
+            body,
+            resources,
+            stem,
+            taken: Taken::default(),
+            names: BTreeMap::new(),
+            files: BTreeMap::new(),
+            missing: BTreeSet::new(),
+            n_turned: 0,
+            n_without_image: 0,
+        }
+    }
+
+    /// Returns the map for a texture info.
+    pub fn map(&mut self, info: &Value) -> Option<Map> {
+        let json = &self.body.json;
+        let texture = unsigned(info, "index").ok().flatten();
+        let object = texture.and_then(|texture| item(json, "textures", texture).ok());
+        let image = object.and_then(|object| unsigned(object, "source").ok().flatten());
+        let Some(image) = image else {
+            self.n_without_image += 1;
+            return None;
+        };
+        let mut map = Map::of(self.name(image)?);
+        if let Some(transform) = extension(info, TRANSFORM) {
+            let pair = |key: &str, default: f64| {
+                let at = |k: usize| transform.get(key)?.get(k)?.as_f64();
+                [at(0).unwrap_or(default), at(1).unwrap_or(default)]
+            };
+            map.scale = pair("scale", 1.0);
+            let [u, v] = pair("offset", 0.0);
+            // v points up here.
+            map.offset = [u, 1.0 - map.scale[1] - v];
+            let turn = transform.get("rotation").and_then(Value::as_f64);
+            self.n_turned += usize::from(turn.is_some_and(|turn| turn != 0.0));
+        }
+        Some(map)
+    }
+
+    /// Returns the name of an image's file.
+    fn name(&mut self, image: usize) -> Option<String> {
+        if let Some(name) = self.names.get(&image) {
+            return name.clone();
+        }
+        let name = self.new_name(image);
+        self.names.insert(image, name.clone());
+        name
+    }
+
+    fn new_name(&mut self, image: usize) -> Option<String> {
+        let object = item(&self.body.json, "images", image).ok()?;
+        let path = object
+            .get("uri")
+            .and_then(Value::as_str)
+            .filter(|uri| !uri::is_data(uri));
+        // A supplied file keeps its name; a missing one stays a reference.
+        if let Some(path) = path {
+            let found = uri::member(path, self.resources);
+            let Some((name, bytes)) = found else {
+                self.missing
+                    .insert(path.chars().filter(|c| !c.is_control()).take(120).collect());
+                return Some(path.replace(['\n', '\r'], ""));
+            };
+            // Reserve the name, so that no other file gets it.
+            self.taken
+                .name(name.rsplit_once('.').map_or(name, |(stem, _)| stem));
+            self.files.insert(name.to_owned(), bytes.to_vec());
+            return Some(name.to_owned());
+        }
+        // An image inside the document gets a file, named after the image or the document.
+        let bytes = images::bytes(self.body, image, self.resources).ok()?;
+        let given = object
+            .get("name")
+            .and_then(Value::as_str)
+            .unwrap_or_default();
+        let given = given
+            .rsplit_once('.')
+            .map_or(given, |(stem, _)| stem)
+            .trim();
+        let wanted = if given.is_empty() {
+            format!("{}_{image}", self.stem)
+        } else {
+            given.replace(char::is_whitespace, "_")
+        };
+        let name = format!(
+            "{}.{}",
+            self.taken.name(&wanted),
+            images::file_extension(&bytes)
+        );
+        self.files.insert(name.clone(), bytes.into_owned());
+        Some(name)
+    }
+
+    /// Returns warnings about content that could not be transferred.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let mut warnings = Vec::new();
+        if !self.missing.is_empty() {
+            let names = error::listed(self.missing.iter().map(String::as_str));
+            let message = format!("images were not supplied and remain references: {names}");
+            warnings.push(Warning::new("image_missing", message));
+        }
+        if self.n_turned > 0 {
+            let n = self.n_turned;
+            let message = format!("MTL cannot rotate textures: {n} lose their rotation");
+            warnings.push(Warning::new("turns_dropped", message));
+        }
+        if self.n_without_image > 0 {
+            let n = self.n_without_image;
+            let message = format!("textures without a PNG or JPEG image are left out: {n}");
+            warnings.push(Warning::new("textures_dropped", message));
+        }
+        warnings
+    }
+
+    /// Returns the files by name.
+    pub fn into_files(self) -> impl Iterator<Item = (String, Vec<u8>)> {
+        self.files.into_iter()
+    }
+}
+
+// Names of objects, materials and files in OBJ, where every character up to the end of a line may count.
+
+/// Names in use, regardless of case, as file names may have to differ in more than that; each with the number of
+/// requests for it.
+#[derive(Default)]
+struct Taken(HashMap<String, u32>);
+
+impl Taken {
+    /// Returns the name without characters that would end it or have another meaning, and with a number if it is taken.
+    pub fn name(&mut self, wanted: &str) -> String {
+        let words: String = wanted
+            .trim()
+            .chars()
+            .take(200)
+            .map(|c: char| {
+                if c.is_control() || "#\\/:\"".contains(c) {
+                    '_'
+                } else {
+                    c
+                }
+            })
+            .collect();
+        let mut name = words.clone();
+        let mut times = self.0.get(&words.to_lowercase()).copied().unwrap_or(0);
+        while self.0.contains_key(&name.to_lowercase()) {
+            times += 1;
+            name = format!("{words}_{}", times + 1);
+        }
+        self.0.insert(words.to_lowercase(), times);
+        self.0.entry(name.to_lowercase()).or_default();
+        name
+    }
+}
+
+/// Returns unique names of materials.
+fn material_names(json: &Value) -> Result<Vec<String>, DocumentError> {
+    let mut taken = Taken::default();
+    let materials = items(json, "materials")?.iter().enumerate();
+    let names = materials.map(|(index, material)| {
+        let name = own_name(material).map_or_else(|| format!("material{index}"), str::to_owned);
+        taken.name(&name)
+    });
+    Ok(names.collect())
+}
+
+/// Returns unique names of meshes: that of the mesh, or of the first node that shows it.
+fn object_names(json: &Value) -> Result<Vec<String>, DocumentError> {
+    let meshes = items(json, "meshes")?;
+    let mut names: Vec<Option<&str>> = meshes.iter().map(own_name).collect();
+    for node in items(json, "nodes")? {
+        let mesh = unsigned(node, "mesh")?.and_then(|mesh| names.get_mut(mesh));
+        if let Some(name) = mesh.filter(|name| name.is_none()) {
+            *name = own_name(node);
+        }
+    }
+    let mut taken = Taken::default();
+    let names = names.into_iter().enumerate().map(|(index, name)| {
+        let name = name.map_or_else(|| format!("mesh{index}"), str::to_owned);
+        taken.name(&name)
+    });
+    Ok(names.collect())
+}
+
+fn own_name(object: &Value) -> Option<&str> {
+    let name = object.get("name")?.as_str()?;
+    (!name.trim().is_empty()).then_some(name)
 }

@@ -1,8 +1,9 @@
 //! Choice of the textures to make for new UVs.
 
+use super::document::GltfDocument;
+use super::images;
 use super::json::{extension, item, unsigned};
 use super::textures::{MaterialTextures, TRANSFORM, TextureUse, materials};
-use super::{GltfDocument, images};
 use crate::document::bake::MaterialPlanes;
 use crate::document::{
     BakePlan, BakePlane, DocumentError, Encoding, Group, KeptTexture, TextureSource, Wrap,
@@ -22,8 +23,19 @@ struct Slot {
 /// Indices of primitives by their materials, including those of variants.
 type Users = BTreeMap<usize, BTreeSet<usize>>;
 
+impl GltfDocument {
+    /// Plans the textures to make for new UVs of `groups`; `unreadable` has the reasons why images cannot be read.
+    pub fn bake_plan(
+        &self,
+        groups: &[Group],
+        unreadable: &BTreeMap<usize, String>,
+    ) -> Result<BakePlan, DocumentError> {
+        plan(self, groups, unreadable)
+    }
+}
+
 /// Plans the textures for new UVs of `groups`. `unreadable` has the reasons why images cannot be read.
-pub(super) fn plan(
+fn plan(
     document: &GltfDocument,
     groups: &[Group],
     unreadable: &BTreeMap<usize, String>,
@@ -109,11 +121,13 @@ fn keep_frames_together(users: &Users, slots: &mut BTreeMap<usize, Vec<Slot>>) {
             .collect();
         let mut changed = false;
         for (material, slots) in &mut *slots {
-            let moves = |slot: &&mut Slot| slot.texture.is_normal_map && slot.resampled.is_ok();
             if users[material].is_disjoint(&held) {
                 continue;
             }
-            for slot in slots.iter_mut().filter(moves) {
+            for slot in slots
+                .iter_mut()
+                .filter(|slot: &&mut Slot| slot.texture.is_normal_map && slot.resampled.is_ok())
+            {
                 slot.resampled =
                     Err("another normal map of its surface is not resampled".to_owned());
                 changed = true;
@@ -206,13 +220,12 @@ fn plan_group(
 fn joined(planes: &mut Vec<BakePlane>, first: usize, wanted: BakePlane) -> usize {
     let takes = |plane: &BakePlane| {
         let kind = |plane: &BakePlane| (plane.encoding, plane.filters);
-        let agrees = |(primitive, source)| {
-            let present = plane.sources.get(primitive);
-            present.is_none_or(|present| present == source)
-        };
         let shares_name = plane.name == wanted.name;
         kind(plane) == kind(&wanted)
-            && wanted.sources.iter().all(agrees)
+            && wanted.sources.iter().all(|(primitive, source)| {
+                let present = plane.sources.get(primitive);
+                present.is_none_or(|present| present == source)
+            })
             && (shares_name || wanted.sources.keys().any(|p| plane.sources.contains_key(p)))
     };
     if let Some(found) = planes[first..].iter().position(takes) {

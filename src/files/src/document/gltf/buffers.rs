@@ -1,10 +1,13 @@
 //! Buffers: found, checked, decompressed and joined into one, so that all other code sees a single array of bytes.
+
 use super::body::Body;
+use super::compression;
 use super::json::{
-    array_mut, invalid, items, object_mut, remove, remove_extension, required, unsigned,
+    array_mut, invalid, items, object_mut, parse, remove, remove_extension, required, unsigned,
 };
-use super::{glb, meshopt, uri};
-use crate::document::{DocumentError, Upload};
+use crate::document::gltf::compression::most_decoded;
+use crate::document::{DocumentError, Upload, uri};
+use crate::io::without_mark;
 use serde_json::{Value, json};
 use std::borrow::Cow;
 
@@ -13,15 +16,6 @@ const MAX_UNDEFINED: usize = 1 << 20;
 
 /// Bytes of a buffer; `None` if the document leaves them undefined.
 type Buffer<'a> = Option<Cow<'a, [u8]>>;
-
-/// Returns the limit on the decoded size of this number of compressed bytes: far above real ratios, with a fixed
-/// allowance for small streams, since a kilobyte may validly describe millions of points.
-pub(super) fn most_decoded(compressed: usize) -> usize {
-    const FEW: usize = 256 << 20;
-    const MANY: usize = 1 << 31;
-    const RATIO: usize = 64;
-    compressed.saturating_mul(RATIO).clamp(FEW, MANY)
-}
 
 /// Joins all buffers of the document into `buffers[0]`. The first keeps its place; views move with their bytes; views
 /// compressed with meshopt get their decoded bytes; fallback buffers that nothing else needs are dropped.
@@ -35,9 +29,12 @@ pub(super) fn join(
     let views = items(&json, "bufferViews")?;
     let mut needed: Vec<bool> = items(&json, "buffers")?
         .iter()
-        .map(|buffer| !meshopt::is_fallback(buffer))
+        .map(|buffer| !compression::is_fallback(buffer))
         .collect();
-    for view in views.iter().filter(|view| meshopt::of_view(view).is_none()) {
+    for view in views
+        .iter()
+        .filter(|view| compression::of_view(view).is_none())
+    {
         let buffer = required(view, "buffer")?;
         *needed
             .get_mut(buffer)
@@ -59,7 +56,7 @@ pub(super) fn join(
         .iter_mut()
         .enumerate()
     {
-        let moved = if meshopt::of_view(view).is_some() {
+        let moved = if compression::of_view(view).is_some() {
             decode(view, &buffers, &mut body)
         } else {
             relocate(view, &buffers, &bases)
@@ -77,7 +74,7 @@ pub(super) fn join(
     }
     for buffer in array_or_empty(&mut json, "buffers")? {
         remove(buffer, "uri");
-        for name in meshopt::NAMES {
+        for name in compression::MESHOPT {
             remove_extension(buffer, name);
         }
     }
@@ -106,12 +103,12 @@ fn load<'a>(
         // Take the bytes from the URI or the GLB; undefined ones are zeros, within a limit.
         let bytes = match buffer.get("uri") {
             Some(Value::String(uri)) => match uri::resolve(uri, &upload.resources) {
-                Err(DocumentError::MissingResource(_)) if meshopt::is_fallback(buffer) => None,
+                Err(DocumentError::MissingResource(_)) if compression::is_fallback(buffer) => None,
                 resolved => Some(resolved?),
             },
             Some(_) => return Err(invalid("a buffer's `uri` is not a string")),
-            None if index == 0 && glb::is_glb(&upload.bytes) => bin.map(Cow::Borrowed),
-            None if meshopt::is_fallback(buffer) || length > undefined => None,
+            None if index == 0 && is_glb(&upload.bytes) => bin.map(Cow::Borrowed),
+            None if compression::is_fallback(buffer) || length > undefined => None,
             None => {
                 undefined -= length;
                 Some(Cow::Owned(vec![0; length]))
@@ -168,8 +165,8 @@ fn relocate(
 fn reserve(body: &mut Body, json: &Value, buffers: &[Buffer]) -> Result<(), DocumentError> {
     let (mut claimed, mut aligned) = (0_usize, 0);
     for view in items(json, "bufferViews")? {
-        if let Some((_, extension)) = meshopt::of_view(view) {
-            claimed = claimed.saturating_add(meshopt::claimed_size(extension)?);
+        if let Some((_, extension)) = compression::of_view(view) {
+            claimed = claimed.saturating_add(compression::claimed_size(extension)?);
             aligned += 4;
         }
     }
@@ -184,10 +181,10 @@ fn reserve(body: &mut Body, json: &Value, buffers: &[Buffer]) -> Result<(), Docu
 }
 
 fn decode(view: &mut Value, buffers: &[Buffer], body: &mut Body) -> Result<(), DocumentError> {
-    let Some((name, extension)) = meshopt::of_view(view) else {
+    let Some((name, extension)) = compression::of_view(view) else {
         return Ok(());
     };
-    let decoded = meshopt::decode(extension, slice(extension, buffers)?)?;
+    let decoded = compression::decode_view(extension, slice(extension, buffers)?)?;
     if required(view, "byteLength")? > decoded.len() {
         return Err(invalid("it is longer than what its compressed data holds"));
     }
@@ -196,4 +193,126 @@ fn decode(view: &mut Value, buffers: &[Buffer], body: &mut Body) -> Result<(), D
     view.insert("buffer".to_owned(), json!(0));
     view.insert("byteOffset".to_owned(), json!(body.push_bytes(&decoded)));
     Ok(())
+}
+
+// The GLB container: a header, a JSON chunk, a binary chunk, unknown chunks.
+
+const MAGIC: &[u8; 4] = b"glTF";
+const JSON: u32 = u32::from_le_bytes(*b"JSON");
+const BIN: u32 = u32::from_le_bytes(*b"BIN\0");
+
+/// The parts of a GLB file.
+pub(super) struct Container<'a> {
+    pub json: &'a [u8],
+    pub bin: Option<&'a [u8]>,
+    /// Chunks of other types, which the format tells readers to ignore; they are written back.
+    pub others: Vec<(u32, &'a [u8])>,
+}
+
+/// Returns whether the bytes claim to be GLB.
+pub(super) fn is_glb(bytes: &[u8]) -> bool {
+    bytes.starts_with(MAGIC)
+}
+
+/// Splits a GLB file. Bytes beyond the length in its header are ignored.
+pub(super) fn split(bytes: &[u8]) -> Result<Container<'_>, DocumentError> {
+    let truncated = || invalid("the GLB file is truncated");
+    let version = word(bytes, 4).ok_or_else(truncated)?;
+    if version != 2 {
+        return Err(DocumentError::UnsupportedVersion(version.to_string()));
+    }
+    let length = word(bytes, 8).ok_or_else(truncated)? as usize;
+    let mut rest = bytes.get(12..length).ok_or_else(truncated)?;
+    let mut chunks = Vec::new();
+    while !rest.is_empty() {
+        let length = word(rest, 0).ok_or_else(truncated)? as usize;
+        let kind = word(rest, 4).ok_or_else(truncated)?;
+        let end = length.checked_add(8).ok_or_else(truncated)?;
+        chunks.push((kind, rest.get(8..end).ok_or_else(truncated)?));
+        rest = &rest[end..];
+    }
+    let mut chunks = chunks.into_iter().peekable();
+    let Some((JSON, json)) = chunks.next() else {
+        return Err(invalid("the first GLB chunk is not JSON"));
+    };
+    let bin = chunks.next_if(|chunk| chunk.0 == BIN).map(|chunk| chunk.1);
+    let others = chunks.filter(|chunk| chunk.0 != JSON && chunk.0 != BIN);
+    Ok(Container {
+        json,
+        bin,
+        others: others.collect(),
+    })
+}
+
+/// Joins the parts of a GLB file. An empty binary chunk is left out.
+pub(super) fn glb_of(
+    json: &[u8],
+    bin: &[u8],
+    others: &[(u32, Vec<u8>)],
+) -> Result<Vec<u8>, DocumentError> {
+    let mut bytes = Vec::with_capacity(28 + json.len() + bin.len());
+    bytes.extend_from_slice(MAGIC);
+    bytes.extend_from_slice(&2u32.to_le_bytes());
+    bytes.extend_from_slice(&[0; 4]);
+    push_chunk(&mut bytes, JSON, json, b' ')?;
+    if !bin.is_empty() {
+        push_chunk(&mut bytes, BIN, bin, 0)?;
+    }
+    for (kind, content) in others {
+        push_chunk(&mut bytes, *kind, content, 0)?;
+    }
+    let length = length_word(bytes.len())?;
+    bytes[8..12].copy_from_slice(&length);
+    Ok(bytes)
+}
+
+fn push_chunk(
+    bytes: &mut Vec<u8>,
+    kind: u32,
+    content: &[u8],
+    padding: u8,
+) -> Result<(), DocumentError> {
+    let padded = content.len().next_multiple_of(4);
+    bytes.extend_from_slice(&length_word(padded)?);
+    bytes.extend_from_slice(&kind.to_le_bytes());
+    bytes.extend_from_slice(content);
+    bytes.resize(bytes.len() + padded - content.len(), padding);
+    Ok(())
+}
+
+fn length_word(length: usize) -> Result<[u8; 4], DocumentError> {
+    u32::try_from(length)
+        .map(u32::to_le_bytes)
+        .map_err(|_| DocumentError::LimitExceeded("a GLB file holds at most 4 GiB".to_owned()))
+}
+
+fn word(bytes: &[u8], at: usize) -> Option<u32> {
+    let word = bytes.get(at..at + 4)?;
+    Some(u32::from_le_bytes(word.try_into().ok()?))
+}
+
+// Files to which a glTF refers, for callers that gather them.
+
+/// Returns the relative paths of the buffers and images to which a glTF file refers, as
+/// [`Upload::resources`](crate::document::Upload) names them. Empty for any other content; data URIs, absolute paths,
+/// schemes and paths that leave the folder are left out.
+pub fn references(bytes: &[u8]) -> Vec<String> {
+    let json = if is_glb(bytes) {
+        split(bytes).map_or(&[][..], |container| container.json)
+    } else {
+        without_mark(bytes)
+    };
+    let root = parse(json).unwrap_or_default();
+    let members = ["buffers", "images"].map(|key| root[key].as_array());
+    let mut paths: Vec<String> = members
+        .into_iter()
+        .flatten()
+        .flatten()
+        .filter_map(|member| member["uri"].as_str())
+        .filter(|text| !uri::is_data(text))
+        .flat_map(uri::candidates)
+        .collect();
+    paths.sort();
+    paths.dedup();
+    paths
 }

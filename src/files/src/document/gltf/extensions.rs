@@ -1,15 +1,16 @@
 //! Requirements of a document on its reader.
+
+use super::compression;
 use super::json::{extension, invalid, items, object_mut};
-use super::{draco, meshopt};
 use crate::document::DocumentError;
 use serde_json::Value;
 
 /// Extensions of meshes, primitives, accessors and buffers that are understood, or that do not affect the shape.
 const KNOWN: [&str; 10] = [
     "KHR_mesh_quantization",
-    draco::NAME,
-    meshopt::NAMES[0],
-    meshopt::NAMES[1],
+    compression::DRACO,
+    compression::MESHOPT[0],
+    compression::MESHOPT[1],
     "KHR_materials_variants",
     "EXT_mesh_features",
     "EXT_mesh_manifold",

@@ -1,8 +1,8 @@
 //! Images outside the document.
+
 use super::body::{Body, Target};
 use super::json::{item, item_mut, items, remove, required};
-use super::uri;
-use crate::document::DocumentError;
+use crate::document::{DocumentError, uri};
 use crate::io::{Content, Format, detect, format_of_content};
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -14,12 +14,13 @@ pub(super) fn first_of_equals(
     resources: &BTreeMap<String, Vec<u8>>,
 ) -> Result<Vec<usize>, DocumentError> {
     let mut known: HashMap<Cow<[u8]>, usize> = HashMap::new();
-    let first = |index| match bytes(body, index, resources) {
-        Ok(bytes) => *known.entry(bytes).or_insert(index),
-        Err(_) => index,
-    };
     let n_images = items(&body.json, "images")?.len();
-    Ok((0..n_images).map(first).collect())
+    Ok((0..n_images)
+        .map(|index| match bytes(body, index, resources) {
+            Ok(bytes) => *known.entry(bytes).or_insert(index),
+            Err(_) => index,
+        })
+        .collect())
 }
 
 /// Returns the resources to which images refer.

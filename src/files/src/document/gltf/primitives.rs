@@ -1,13 +1,13 @@
 //! The triangles of a document.
-use super::accessor::Accessor;
+
+use super::accessor::{Accessor, Component};
 use super::body::Body;
-use super::component::Component;
 use super::json::{invalid, items, unsigned};
-use super::mode::{Mode, mode, position_accessor};
-use super::positions::{Positions, check_backed, compact};
 use crate::document::{DocumentError, Primitive};
 use serde_json::Value;
+use std::collections::HashMap;
 use std::rc::Rc;
+use unwrapd_maps::mesh::UsedVertices;
 
 /// Most vertices, and most faces, over all primitives. Primitives may share accessors, so the size of a file does not
 /// bound their sum.
@@ -193,5 +193,105 @@ fn faces(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
         Mode::Fan => windows
             .map(|(i, _)| [indices[i + 1], indices[i + 2], indices[0]])
             .collect(),
+    }
+}
+
+// Positions that several primitives may share.
+
+/// Largest count of positions or indices without bytes behind them.
+const MAX_UNBACKED: usize = 1 << 20;
+
+/// Positions by accessor; those that several primitives share are read once.
+pub(super) struct Positions {
+    n_users: HashMap<usize, usize>,
+    shared: HashMap<usize, Rc<Vec<[f32; 3]>>>,
+}
+
+impl Positions {
+    pub fn new(body: &Body) -> Result<Self, DocumentError> {
+        let mut n_users = HashMap::new();
+        for mesh in items(&body.json, "meshes")? {
+            for primitive in items(mesh, "primitives")? {
+                if let Some(accessor) = position_accessor(primitive)? {
+                    *n_users.entry(accessor).or_insert(0) += 1;
+                }
+            }
+        }
+        let shared = HashMap::new();
+        Ok(Self { n_users, shared })
+    }
+
+    pub fn is_shared(&self, accessor: usize) -> bool {
+        self.n_users.get(&accessor).is_some_and(|n| *n > 1)
+    }
+
+    pub fn read(&mut self, body: &Body, index: usize) -> Result<Rc<Vec<[f32; 3]>>, DocumentError> {
+        if let Some(positions) = self.shared.get(&index) {
+            return Ok(Rc::clone(positions));
+        }
+        let accessor = Accessor::open(body, index)?;
+        if !accessor.is("VEC3") {
+            return Err(invalid("POSITION is not of type VEC3"));
+        }
+        check_backed(&accessor)?;
+        let positions = Rc::new(accessor.vectors()?);
+        if self.is_shared(index) {
+            self.shared.insert(index, Rc::clone(&positions));
+        }
+        Ok(positions)
+    }
+}
+
+/// Renumbers indices by the vertices that they use; returns these, or `None` if all are used.
+fn compact(indices: &mut [u32], positions: &[[f32; 3]]) -> Option<Vec<u32>> {
+    let used = UsedVertices::new(indices.iter().copied());
+    if used.count() == positions.len() {
+        return None;
+    }
+    used.renumber(indices);
+    Some(used.into_vec())
+}
+
+/// Refuses long accessors without data.
+fn check_backed(accessor: &Accessor) -> Result<(), DocumentError> {
+    if accessor.is_backed() || accessor.count <= MAX_UNBACKED {
+        return Ok(());
+    }
+    Err(DocumentError::LimitExceeded(format!(
+        "an accessor without data has {} elements",
+        accessor.count
+    )))
+}
+
+// Modes of primitives.
+
+/// Arrangement of vertices into faces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mode {
+    Triangles,
+    Strip,
+    Fan,
+}
+
+/// Returns the mode of a primitive; `None` for points and lines.
+pub(super) fn mode(primitive: &Value) -> Result<Option<Mode>, DocumentError> {
+    Ok(match unsigned(primitive, "mode")?.unwrap_or(4) {
+        4 => Some(Mode::Triangles),
+        5 => Some(Mode::Strip),
+        6 => Some(Mode::Fan),
+        0..=3 => None,
+        _ => return Err(invalid("unknown primitive `mode`")),
+    })
+}
+
+/// Returns the POSITION accessor of a primitive with faces.
+fn position_accessor(primitive: &Value) -> Result<Option<usize>, DocumentError> {
+    if mode(primitive)?.is_none() {
+        return Ok(None);
+    }
+    match primitive.get("attributes") {
+        None => Ok(None),
+        Some(attributes) if attributes.is_object() => unsigned(attributes, "POSITION"),
+        Some(_) => Err(invalid("`attributes` is not an object")),
     }
 }

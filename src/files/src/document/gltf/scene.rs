@@ -1,6 +1,6 @@
 //! Nodes that show meshes.
-use super::json::{array_mut, as_unsigned, invalid, item, items, unsigned};
-use super::tree::Size;
+
+use super::json::{Size, array_mut, as_unsigned, invalid, item, items, unsigned};
 use crate::document::DocumentError;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,5 +1,5 @@
 //! Tangents of a UV map, as MikkTSpace defines them.
-use super::GltfDocument;
+use super::document::GltfDocument;
 use crate::document::{CornerTangents, DocumentError, Primitive};
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
 

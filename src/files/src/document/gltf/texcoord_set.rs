@@ -1,5 +1,5 @@
 //! Choice of the `TEXCOORD_n` for new UVs.
-use super::GltfDocument;
+use super::document::GltfDocument;
 use super::textures::{MaterialTextures, SetMask, materials};
 use crate::document::{BakePlan, DocumentError, Layout, Mark, NewUvs, WriteOptions};
 use serde_json::{Map, Value};
@@ -81,13 +81,14 @@ pub(super) fn choose(
         for candidate in candidates {
             let had_set = has(candidate.present, set);
             let is_marked = candidate.marked == Some(set);
-            let is_free = |lower: &u32| {
-                !has(candidate.present, *lower)
-                    || is_marked && candidate.is_filled(document, *lower, set)
-            };
             choices[candidate.index] = Some(Choice {
                 set,
-                missing: (0..set).filter(is_free).collect(),
+                missing: (0..set)
+                    .filter(|lower: &u32| {
+                        !has(candidate.present, *lower)
+                            || is_marked && candidate.is_filled(document, *lower, set)
+                    })
+                    .collect(),
                 is_marked,
                 had_set,
                 had_normal_map: had_set && has(candidate.normal_mapped, set),
@@ -132,9 +133,12 @@ fn candidate(
 fn reusable(candidates: &[Candidate], mark: Option<&Mark>, options: &WriteOptions) -> Option<u32> {
     let (terms, present) = (options.terms.as_ref()?, &mark?.terms);
     let set = candidates.first()?.marked?;
-    let is_free = |c: &Candidate| c.marked == Some(set) && !has(c.sampled, set);
     let is_same = terms.separate_nodes == present.separate_nodes;
-    (is_same && candidates.iter().all(is_free)).then_some(set)
+    (is_same
+        && candidates
+            .iter()
+            .all(|c: &Candidate| c.marked == Some(set) && !has(c.sampled, set)))
+    .then_some(set)
 }
 
 fn set_for(

@@ -1,20 +1,17 @@
 //! Output of the document with a new UV set as files.
 
 use super::body::Body;
+use super::document::{self, GltfDocument};
 use super::json::{item_mut, remove_extension};
-use super::links::Collection;
-use super::origin::Places;
+use super::links::{Collection, Places};
 use super::rewrite::rewrite;
 use super::texcoord_set::{self, Choice, Textures};
-use super::texture_warnings::texture_warnings;
-use super::textures::{affected, remove_transform};
-use super::{
-    GltfDocument, as_obj, baked, extensions, glb, images, marking, names, primitives, uri,
-};
-use crate::document::warning::listed;
+use super::textures::{self, affected, remove_transform, texture_warnings};
+use super::{as_obj, buffers, extensions, images, marking, primitives};
+use crate::document::error::listed;
 use crate::document::{
     BakedTextures, DocumentError, Layout, Mark, NewUvs, OutputFormat, Warning, WriteNotes,
-    WriteOptions, Written,
+    WriteOptions, Written, uri,
 };
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -24,8 +21,22 @@ use unwrapd_maps::mesh::VAxis;
 /// An extension of meshes that refers to the indices of the primitives, which a split invalidates.
 const MANIFOLD: &str = "EXT_mesh_manifold";
 
+impl GltfDocument {
+    /// Writes the document with `uvs` as a `TEXCOORD_n`, and with textures made for them; `mark` is its present mark,
+    /// if that fits.
+    pub(in crate::document) fn write(
+        &self,
+        uvs: &NewUvs,
+        options: &WriteOptions,
+        baked: Option<&BakedTextures>,
+        mark: Option<&Mark>,
+    ) -> Result<Written, DocumentError> {
+        write(self, uvs, mark, options, baked)
+    }
+}
+
 /// Writes `document` with `uvs`, and with the textures made for them.
-pub(super) fn write(
+fn write(
     document: &GltfDocument,
     uvs: &NewUvs,
     present: Option<&Mark>,
@@ -62,7 +73,7 @@ pub(super) fn write(
         Some(baked) => {
             let set = choices.iter().flatten().map(|choice| choice.set).next();
             let set = set.unwrap_or(0);
-            Cow::Owned(baked::insert(
+            Cow::Owned(textures::insert(
                 document,
                 &mut body,
                 baked,
@@ -211,7 +222,7 @@ fn files(
         OutputFormat::Glb => {
             let outside = images::embed(&mut body, resources)?;
             body.seal()?;
-            let glb = glb::join(&to_json(&body.json, false), &body.bin, chunks)?;
+            let glb = buffers::glb_of(&to_json(&body.json, false), &body.bin, chunks)?;
             (vec![(format!("{stem}.glb"), glb)], outside)
         }
         OutputFormat::Gltf => {
@@ -280,7 +291,7 @@ fn set_warnings(
     }
     // Say why these UVs are not in set 0, and name the sets that were filled.
     let elsewhere = elsewhere.into_iter().map(|(set, (meshes, samplers))| {
-        let meshes = names::of_meshes(document, &meshes);
+        let meshes = document::listed_meshes(document, &meshes);
         let samplers = listed(samplers.iter().map(String::as_str));
         let text = if is_rebaked {
             format!(
@@ -296,7 +307,7 @@ fn set_warnings(
         Warning::new("uvs_beside_set_0", text)
     });
     let filled = filled.into_iter().map(|(set, meshes)| {
-        let meshes = names::of_meshes(document, &meshes);
+        let meshes = document::listed_meshes(document, &meshes);
         let text = format!(
             "{meshes}: glTF requires the sets below UV set {set}, so the missing ones hold the same UVs"
         );
@@ -318,7 +329,9 @@ fn samplers_of_set_0(document: &GltfDocument, choice: &Choice, textures: &Textur
         .map(|texture| {
             let slot = texture.slot.rsplit('/').next().unwrap_or_default();
             match texture.material {
-                Some(material) => format!("{slot} of {}", names::of_material(document, material)),
+                Some(material) => {
+                    format!("{slot} of {}", document::material_name(document, material))
+                }
                 None => slot.to_owned(),
             }
         })

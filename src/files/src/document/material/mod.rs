@@ -6,19 +6,13 @@
 //!
 //! MTL is read without a library: the available one (`tobj`) knows neither options of maps nor the extension, and stops
 //! at the first number that it cannot read.
+mod gltf;
 mod map;
 mod mtl;
-mod mtl_text;
-mod of_gltf;
-mod pictures;
-mod to_gltf;
 
-pub(super) use map::Map;
-pub(super) use mtl::{Dropped, MaterialFiles};
-pub(super) use mtl_text::mtl_text;
-pub(super) use of_gltf::material as of_gltf;
-pub(super) use pictures::Pictures;
-pub(super) use to_gltf::GltfMaterials;
+pub(super) use gltf::{GltfMaterials, material as of_gltf};
+pub(super) use map::{Map, Pictures};
+pub(super) use mtl::{Dropped, MaterialFiles, mtl_text};
 
 /// A material.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,9 @@
 //! URIs of buffers and images: data, or a member of the upload; nothing else is ever opened.
-use super::json::invalid;
+
+use super::Upload;
 use crate::document::DocumentError;
+use crate::io::detect;
+use crate::io::{Content, Format};
 use base64::Engine as _;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
@@ -91,7 +94,7 @@ pub(in crate::document) fn normalized(path: &str) -> Option<String> {
 fn decode_data(uri: &str) -> Result<Vec<u8>, DocumentError> {
     let (header, payload) = uri[5..]
         .split_once(',')
-        .ok_or_else(|| invalid("a data URI has no comma"))?;
+        .ok_or_else(|| DocumentError::InvalidGltf("a data URI has no comma".to_owned()))?;
     let payload: Cow<[u8]> = percent_decode_str(payload).into();
     let is_base64 = header
         .rsplit(';')
@@ -100,7 +103,7 @@ fn decode_data(uri: &str) -> Result<Vec<u8>, DocumentError> {
     if is_base64 {
         BASE64
             .decode(payload)
-            .map_err(|_| invalid("a data URI is not base64"))
+            .map_err(|_| DocumentError::InvalidGltf("a data URI is not base64".to_owned()))
     } else {
         Ok(payload.into_owned())
     }
@@ -109,4 +112,9 @@ fn decode_data(uri: &str) -> Result<Vec<u8>, DocumentError> {
 /// Returns the beginning of a URI, for messages.
 fn shortened(uri: &str) -> String {
     uri.chars().filter(|c| !c.is_control()).take(120).collect()
+}
+
+/// Returns the format of the main file as a surface: by its content, else by the extension of its name.
+pub fn format_of(upload: &Upload) -> Option<Format> {
+    detect(&upload.name, &upload.bytes, Content::Surface)
 }

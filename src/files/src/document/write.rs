@@ -1,7 +1,13 @@
-use super::colors::Color;
+//! Output of documents, and conversion of other formats to glTF.
+
 use super::material::{GltfMaterials, Material};
 use super::new_gltf::{self, New, NewMesh, NewPrimitive, Shape};
-use super::{Document, DocumentError, NewUvs, OutputFormat, Primitive, Warning};
+use super::new_obj::{self, Color};
+use super::soup::SoupDocument;
+use super::{
+    BakedTextures, Document, DocumentError, Marked, NewUvs, OutputFormat, Primitive, Warning,
+    WriteOptions, Written, obj,
+};
 use std::collections::BTreeMap;
 
 /// A document in the form in which it is written, with the original numbers of its vertices and triangles.
@@ -48,18 +54,71 @@ impl Conversion {
             return NewUvs { corners, ..*uvs };
         };
         let mut rest = faces.iter().map(|&face| corners[face as usize]);
-        let own = |primitive: &Primitive| {
-            let n = primitive.triangles.len();
-            Some(rest.by_ref().take(n).collect())
-        };
         NewUvs {
-            corners: self.document.primitives().iter().map(own).collect(),
+            corners: self
+                .document
+                .primitives()
+                .iter()
+                .map(|primitive: &Primitive| {
+                    let n = primitive.triangles.len();
+                    Some(rest.by_ref().take(n).collect())
+                })
+                .collect(),
             ..*uvs
         }
     }
 }
 
 impl Document {
+    /// Writes the document with `uvs` as a UV set.
+    pub fn write(&self, uvs: &NewUvs, options: &WriteOptions) -> Result<Written, DocumentError> {
+        self.write_baked(uvs, options, None)
+    }
+
+    /// Writes the document with `uvs` as a UV set and with textures made for it; only those of glTF are known.
+    pub fn write_baked(
+        &self,
+        uvs: &NewUvs,
+        options: &WriteOptions,
+        baked: Option<&BakedTextures>,
+    ) -> Result<Written, DocumentError> {
+        uvs.check(self.primitives())?;
+        // Without new UVs, the mark of the present ones stays.
+        let is_new = uvs.corners.iter().any(Option::is_some);
+        let mut written = match (self, options.format) {
+            (Self::Gltf(document), _) => match if is_new { self.marked()? } else { Marked::Not } {
+                Marked::Fits(mark) => document.write(uvs, options, baked, Some(&mark))?,
+                Marked::Not | Marked::Stale => document.write(uvs, options, baked, None)?,
+            },
+            (Self::Obj(document), OutputFormat::Obj) => document.write(uvs, options)?,
+            (Self::Soup(document), OutputFormat::Obj) => {
+                new_obj::write(&document.primitives()[0], document.colors(), uvs, options)?
+            }
+            (Self::Obj(_) | Self::Soup(_), _) => self.write_converted(uvs, options)?,
+        };
+        if is_new && options.format == OutputFormat::Obj {
+            obj::renew(&mut written, options.terms.as_ref())?;
+        }
+        Ok(written)
+    }
+
+    /// Writes triangles of another format as glTF.
+    fn write_converted(
+        &self,
+        uvs: &NewUvs,
+        options: &WriteOptions,
+    ) -> Result<Written, DocumentError> {
+        let conversion = self.clone().for_output(options.format, OldUvs::Sampled)?;
+        let uvs = conversion.uvs(uvs);
+        let mut written = conversion.document.write_baked(&uvs, options, None)?;
+        let known = self.warnings();
+        let noticed = conversion.document.warnings().iter();
+        let new = noticed.filter(|warning| !known.contains(warning));
+        written.notes.warnings.splice(0..0, new.cloned());
+        written.notes.faces = conversion.faces;
+        Ok(written)
+    }
+
     /// Converts the document to the form in which it is written: for glTF output triangles of any file become glTF,
     /// with objects as meshes and with materials, pictures and colors; otherwise it is unchanged.
     pub fn for_output(
@@ -75,8 +134,15 @@ impl Document {
     }
 }
 
+impl SoupDocument {
+    /// Converts the triangles and colors to glTF.
+    fn to_gltf(&self) -> Result<Conversion, DocumentError> {
+        of_triangles(&self.primitives[0], self.colors.as_deref(), &self.warnings)
+    }
+}
+
 /// Creates a document of triangles and colors without names.
-pub(super) fn of_triangles(
+fn of_triangles(
     primitive: &Primitive,
     colors: Option<&[Color]>,
     warnings: &[Warning],

@@ -1,13 +1,90 @@
-//! The sections of a file, in the framings of both versions.
+//! Gmsh `.msh` of versions 2.2 and 4.1, text and binary.
+//!
+//! Nodes, triangles and tetrahedra are read; points and lines, which describe boundaries, and all other sections are
+//! skipped. Elements of other shapes or higher order are refused, as the mesh would have holes or missing corners
+//! without them. Read without a library: of the available crates `mshio` (last release 2020) reads only 4.1, `msh-rw`
+//! and `rutile` (2020, 2021) call themselves unfinished; the two versions share everything except their framing.
 
-use super::super::cursor::{Cursor, Encoding};
-use super::super::elements::{Elements, push_element};
-use super::super::{ReadError, position};
-use super::{TETRAHEDRON, TRIANGLE};
+use super::cursor::{Cursor, Encoding};
+use super::elements::{Elements, push_element};
+use super::{ReadError, position};
 use std::collections::HashMap;
+use std::fmt::Write;
+
+/// Gmsh's numbers of element types.
+const TRIANGLE: i32 = 2;
+const TETRAHEDRON: i32 = 4;
+
+/// The two framings that are read.
+#[derive(Clone, Copy)]
+enum Version {
+    V22,
+    V41,
+}
+
+/// Returns whether the text begins with the format's first section.
+pub(super) fn has_header(text: &[u8]) -> bool {
+    text.starts_with(b"$MeshFormat")
+}
+
+/// Reads a `.msh` file.
+pub fn read(bytes: &[u8]) -> Result<Elements, ReadError> {
+    let mut cursor = Cursor::new(bytes, "Gmsh");
+    if !cursor.skip_past(b"$MeshFormat") {
+        return Err(cursor.malformed("expected $MeshFormat"));
+    }
+    let version = read_header(&mut cursor)?;
+    let mut reader = Reader::new(cursor);
+    while reader.cursor.skip_past(b"$") {
+        let name = reader.cursor.word().unwrap_or_default();
+        match (name, version) {
+            (b"Nodes", Version::V22) => reader.nodes_22()?,
+            (b"Nodes", Version::V41) => reader.nodes_41()?,
+            (b"Elements", Version::V22) => reader.elements_22()?,
+            (b"Elements", Version::V41) => reader.elements_41()?,
+            // A skipped section may contain any byte, even `$`, up to its end mark.
+            _ if name.starts_with(b"End") => {}
+            _ => {
+                let end = [b"$End", name].concat();
+                if !reader.cursor.skip_past(&end) {
+                    return Err(reader.cursor.malformed("a section has no end"));
+                }
+            }
+        }
+    }
+    Ok(reader.elements)
+}
+
+/// Reads version and encoding: `version is-binary size-of-numbers`, and in binary files the number 1.
+fn read_header(cursor: &mut Cursor) -> Result<Version, ReadError> {
+    let version: f64 = cursor.parse("expected a version")?;
+    let binary: u32 = cursor.parse("0 or 1 is expected")?;
+    let size: u32 = cursor.parse("expected the size of a number")?;
+    if size != 8 {
+        return Err(cursor.malformed("only 8-byte numbers are supported"));
+    }
+    if binary == 1 {
+        cursor.end_line();
+        cursor.encoding = Encoding::LittleEndian;
+        cursor.encoding = match cursor.int()? {
+            1 => Encoding::LittleEndian,
+            0x0100_0000 => Encoding::BigEndian,
+            _ => return Err(cursor.malformed("unknown byte order")),
+        };
+    }
+    if version == 2.2 {
+        Ok(Version::V22)
+    } else if version == 4.1 {
+        Ok(Version::V41)
+    } else {
+        Err(cursor.malformed("only versions 2.2 and 4.1 are supported"))
+    }
+}
+
+// The sections of a file, in the framings of both versions.
 
 /// Nodes and elements of a file read so far.
-pub(super) struct Reader<'a> {
+struct Reader<'a> {
     pub cursor: Cursor<'a>,
     pub elements: Elements,
     /// Vertex of each node tag; tags need not be consecutive.
@@ -167,4 +244,32 @@ fn n_nodes(element_type: i32) -> Option<usize> {
         28 => 6,
         _ => return None,
     })
+}
+
+/// Returns the text of the elements in version 2.2, which more programs read than 4.1; triangles before tetrahedra.
+pub fn write(elements: &Elements) -> String {
+    let n_vertices = elements.vertices.len();
+    let mut text = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{n_vertices}\n");
+    for (k, [x, y, z]) in elements.vertices.iter().enumerate() {
+        let _ = writeln!(text, "{} {x:?} {y:?} {z:?}", k + 1); // writing to a string cannot fail
+    }
+    let n_elements = elements.triangles.len() + elements.tets.len();
+    let _ = writeln!(text, "$EndNodes\n$Elements\n{n_elements}");
+    let mut tag = 0;
+    let mut line = |element_type: i32, corners: &[u32]| {
+        tag += 1;
+        let _ = write!(text, "{tag} {element_type} 2 0 1");
+        for &corner in corners {
+            let _ = write!(text, " {}", u64::from(corner) + 1);
+        }
+        text.push('\n');
+    };
+    for triangle in &elements.triangles {
+        line(TRIANGLE, triangle);
+    }
+    for tet in &elements.tets {
+        line(TETRAHEDRON, tet);
+    }
+    text.push_str("$EndElements\n");
+    text
 }
