@@ -21,63 +21,52 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod arrays;
-mod error;
-mod island_error;
-mod observer;
-mod options;
-mod portion;
-mod tracker;
-
 mod deform;
 mod documents;
 mod edit;
+mod error;
+mod island_error;
 mod judge;
 mod limits;
 mod meshes;
+mod observer;
+mod options;
+mod portion;
 mod rebake;
+mod settings;
 mod start;
-mod stop_watch;
+mod tracker;
 
 pub use arrays::placement::Placement;
 pub use arrays::repeated::GridCorners;
 pub use arrays::seams::Seams;
 pub use arrays::settings::Settings;
 pub use arrays::unwrap::{ChartRecord, Unwrapped, in_pool, unwrap, unwrap_along};
-pub use error::PipelineError;
-pub use island_error::IslandError;
-pub use observer::{Observer, Progress, Unobserved};
-pub use options::{Budget, Cutting, KeptMaps, Layout, Mapping, PackingMode, Workers};
-
-pub use deform::cage_report::CageReport;
 pub use deform::caged::{CageOptions, CagedDocument, Surfaces};
-pub use deform::file::deform_file;
-pub use deform::formats::BodyFormat;
 pub use deform::live::{SessionBody, Skin, open_body, open_picture};
-pub use deform::missed::Completion;
-pub use deform::pull_report::PullReport;
-pub use deform::solution::{DeformReport, Deformed};
-pub use deform::solve::{solve_file, solve_problem};
+pub use deform::solution::{CageReport, Completion, DeformReport, Deformed, PullReport};
+pub use deform::solve::{deform_file, solve_file, solve_problem};
 pub use deform::warp::{WarpReport, WarpedPicture, warp_file};
 pub use documents::pictures::{AtlasPicture, Pictures, ReportOfAtlas};
-pub use documents::repack::repack_document;
-pub use documents::texel_weight::TexelWeight;
-pub use documents::unwrap::{Outcome, unwrap_document};
+pub use documents::unwrap::{Outcome, repack_document, unwrap_document};
 pub use documents::uv_arrays::UvArrays;
-pub use edit::report::{ChartEditReport, EditReport};
-pub use edit::uvs::{EditedDocument, edit_document, open_uvs};
+pub use edit::{ChartEditReport, EditReport, EditedDocument, edit_document, open_uvs};
+pub use error::PipelineError;
+pub use island_error::IslandError;
 pub use judge::bound_report::{BoundReport, WorstChart, stretch_percent};
 pub use judge::proven::{Mirrored, Proven, ProvenBits, ProvenPadding, ProvenPages};
 pub use judge::report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
 pub use judge::verify::{Judged, Verified, VerifiedGroup, measure_document, verify_document};
-pub use meshes::arrays::MeshArrays;
-pub use meshes::judged::{measure_meshes, verify_meshes};
-pub use meshes::unwrap::{UnwrappedMeshes, repack_meshes, unwrap_meshes};
-pub use meshes::welded::WeldedUvs;
-pub use options::{
-    Baking, Caller, CommandOptions, Course, DeformOptions, EditOptions, Editing, GivenSeams,
-    Island, MeasureOptions, NamedSeams, Options, Preset, Pulling, RepackOptions, Sets,
-    SolveOptions, VerifyOptions, WarpOptions,
+pub use meshes::{
+    MeshArrays, UnwrappedMeshes, WeldedUvs, measure_meshes, repack_meshes, unwrap_meshes,
+    verify_meshes,
 };
-pub use rebake::ImageFormat;
+pub use observer::{Observer, Progress, Unobserved};
+pub use options::{
+    Baking, BodyFormat, Budget, Caller, CommandOptions, Course, Cutting, DeformOptions,
+    EditOptions, Editing, GivenSeams, ImageFormat, Island, KeptMaps, Layout, Mapping,
+    MeasureOptions, NamedSeams, Options, PackingMode, Preset, Pulling, RepackOptions, Sets,
+    SolveOptions, TexelWeight, VerifyOptions, WarpOptions, Workers,
+};
 pub use start::start_file;
 pub use unwrapd_api::{Limits, START, Stage};

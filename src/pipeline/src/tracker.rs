@@ -1,10 +1,9 @@
 //! Progress of the whole work, and early ending.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
-
 use super::observer::{Observer, Progress};
 use super::options::Budget;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 use unwrapd_api::Stage;
 use unwrapd_files::document::Warning;
 use unwrapd_layout::charts::MapUnderway;
@@ -232,5 +231,27 @@ impl TrackerState {
         self.progress.iteration = iterate.iteration;
         self.progress.energy = iterate.energy;
         self.progress.smallest = iterate.smallest;
+    }
+}
+
+// Timing of the stages.
+
+/// Stopwatch on the observer's clock. Laps are in seconds.
+pub(super) struct StopWatch<'a> {
+    tracker: &'a Tracker<'a>,
+    last: f64,
+}
+
+impl<'a> StopWatch<'a> {
+    pub(super) fn start(tracker: &'a Tracker<'a>) -> Self {
+        Self {
+            tracker,
+            last: tracker.elapsed().as_secs_f64(),
+        }
+    }
+
+    pub(super) fn lap(&mut self) -> f64 {
+        let now = self.tracker.elapsed().as_secs_f64();
+        now - std::mem::replace(&mut self.last, now)
     }
 }

@@ -1,11 +1,9 @@
 //! Documents whose surfaces are deformed in a cage.
 
-use super::cage_report::CageReport;
-use super::formats::BodyFormat;
-use super::frames::Frames;
-use super::moved::{check_format, check_frames, moved, moved_frame};
-use super::solution::{Deformed, solve};
-use crate::documents::merged::Merged;
+use super::solution::{CageReport, Deformed, Frames, solve};
+use super::source::{check_format, check_frames, moved, moved_frame};
+use crate::documents::input::Merged;
+use crate::options::BodyFormat;
 use crate::options::DeformOptions;
 use crate::start::start;
 use crate::tracker::Tracker;
@@ -134,8 +132,10 @@ impl CagedDocument {
         limits::check(&options.limits, &document)?;
         check_format(&document, options.format)?;
         // Refuse handles that name vertices: users do not know those of the cage.
-        let is_vertex = |handle: &Handle| matches!(handle, Handle::Vertex { .. });
-        if let Some(handle) = handles.iter().position(is_vertex) {
+        if let Some(handle) = handles
+            .iter()
+            .position(|handle: &Handle| matches!(handle, Handle::Vertex { .. }))
+        {
             return Err(ProblemError::VertexOfCage { handle }.into());
         }
         // Build the cage, and split the triangles if asked to.

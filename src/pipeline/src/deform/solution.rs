@@ -1,21 +1,17 @@
 //! Problems solved under observation: the map, a report, one line per iteration.
 
+use crate::PipelineError;
+use crate::options::Plan;
+use crate::tracker::Tracker;
+use serde::Serialize;
 use std::cell::RefCell;
 use std::fmt::Write;
-
-use serde::Serialize;
-
-use super::cage_report::CageReport;
-use super::missed::Completion;
-use super::plan::Plan;
-use crate::PipelineError;
-use crate::tracker::Tracker;
 use unwrapd_deform::{
-    BodyElements, MapQuality, Method, Problem, Solution, Turns, Units, Unreached,
+    BodyElements, MapQuality, Method, Problem, PullSummary, Solution, Turns, Units, Unreached,
 };
 use unwrapd_files::document::Warning;
-use unwrapd_maps::certificate::boundary_crossings;
-use unwrapd_method::solver::{Control, Iterate, Summary, Watch};
+use unwrapd_maps::certificate::{Crossings, PlanarCertificate, boundary_crossings};
+use unwrapd_method::solver::{Control, Iterate, Status, Summary, Watch};
 
 /// Result of deforming a body.
 #[derive(Clone, Debug)]
@@ -230,5 +226,158 @@ impl Trace<'_> {
             let _ = writeln!(text, "{},{numbers}", i.iteration);
         }
         text
+    }
+}
+
+// Reports of maps deformed by handles.
+
+/// Report on a map that handles pulled.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct PullReport {
+    /// Outcome and cost of pulling it.
+    #[serde(flatten)]
+    pub summary: PullSummary,
+    /// Pairs of boundary edges that cross or touch, exactly, before the map is rounded for a file.
+    pub crossings: u64,
+    /// `true` if every triangle is positive and no two overlap: the certificate's conclusion.
+    pub bijective: bool,
+    /// Facts about the result, proven by exact predicates.
+    #[serde(flatten)]
+    pub certificate: PlanarCertificate,
+}
+
+impl PullReport {
+    pub(crate) fn new(
+        summary: PullSummary,
+        crossings: u64,
+        certificate: PlanarCertificate,
+    ) -> Self {
+        Self {
+            summary,
+            crossings,
+            bijective: certificate.is_bijective(),
+            certificate,
+        }
+    }
+}
+
+// Warnings about handles that missed their targets.
+
+/// Maximum number of handles named in a warning.
+const NAMED: usize = 8;
+
+/// Degree to which a request was completed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Completion {
+    /// Every handle is at its target, and the energy is minimal.
+    #[default]
+    Complete,
+    /// The work ended before that: at the limit of time or of iterations, or on request.
+    EndedEarly,
+    /// Handles cannot be brought to their targets.
+    TargetsMissed,
+}
+
+impl Completion {
+    /// Returns the completion for the final status of the solver.
+    pub(crate) fn of(status: Status) -> Self {
+        match status {
+            Status::Converged | Status::Stalled => Self::Complete,
+            Status::IterationLimit | Status::Stopped => Self::EndedEarly,
+            Status::TargetsUnreachable => Self::TargetsMissed,
+        }
+    }
+
+    /// Returns a warning about what is missing; `unreached` are the handles that are not at their targets.
+    pub(crate) fn warning(self, status: Status, unreached: &[Unreached]) -> Option<Warning> {
+        let (code, what) = match self {
+            Self::Complete => return None,
+            Self::TargetsMissed => (
+                "targets_unreachable",
+                "no way was found to the targets of these handles, counted from 0",
+            ),
+            Self::EndedEarly if status == Status::IterationLimit => (
+                "iteration_limit",
+                "the energy is not minimal: the limit of iterations was reached",
+            ),
+            // The tracker says why it was stopped.
+            Self::EndedEarly if unreached.is_empty() => return None,
+            Self::EndedEarly => (
+                "targets_missed",
+                "the work ended before these handles, counted from 0, came to their targets",
+            ),
+        };
+        let message = if unreached.is_empty() {
+            what.to_owned()
+        } else if code == "iteration_limit" {
+            format!(
+                "{what}; handles, counted from 0, that are not at their targets: {}",
+                named(unreached)
+            )
+        } else {
+            format!("{what}: {}", named(unreached))
+        };
+        Some(Warning::new(code, message))
+    }
+}
+
+/// Lists the first handles with their distances from their targets.
+fn named(unreached: &[Unreached]) -> String {
+    let first = unreached.iter().take(NAMED);
+    let names = first.map(|one| format!("{} (by {:.3e})", one.handle, one.distance));
+    let names = names.collect::<Vec<_>>().join(", ");
+    match unreached.len().saturating_sub(NAMED) {
+        0 => names,
+        more => format!("{names} and {more} more"),
+    }
+}
+
+// Report of deforming in a cage.
+
+/// A cage, and the effect of deforming it on the surfaces in it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct CageReport {
+    /// Cubes the cage consists of.
+    pub voxels: usize,
+    /// Tetrahedra, six for each.
+    pub tets: usize,
+    /// Connected parts of the cage that have no handle and stay at rest.
+    pub idle_parts: usize,
+    /// Vertices of all surfaces, those of cuts included.
+    pub surface_vertices: usize,
+    /// Triangles of all surfaces, pieces counted.
+    pub surface_triangles: usize,
+    /// Where the surfaces pass through themselves and each other at rest.
+    pub crossings_before: Crossings,
+    /// Where they do in the file written.
+    pub crossings_after: Crossings,
+    /// Warnings about the files; reports list them among their own.
+    #[serde(skip)]
+    pub warnings: Vec<Warning>,
+}
+
+// Iterates as files.
+
+/// Function that writes a map in the format of the result.
+pub type WriteMap<'a> = dyn Fn(&[f64]) -> Vec<u8> + 'a;
+
+/// Passes every iterate as a file to the observer.
+pub struct Frames<'a> {
+    pub tracker: &'a Tracker<'a>,
+    pub file: &'a WriteMap<'a>,
+}
+
+impl Watch for Frames<'_> {
+    fn iterate(&self, _: &Iterate) -> Control {
+        Control::Continue
+    }
+
+    fn positions(&self, iterate: &Iterate, x: &[f64]) {
+        let file = || (self.file)(x);
+        self.tracker.frame(iterate.iteration, &file);
     }
 }

@@ -1,15 +1,15 @@
 //! Solution of problems, from files and in memory.
 
-use super::frames::Frames;
-use super::solution::{DeformReport, Deformed, solve};
-use crate::PipelineError;
+use super::caged;
+use super::solution::{DeformReport, Deformed, Frames, solve};
+use super::source::Source;
 use crate::arrays::unwrap::in_pool;
-use crate::limits;
 use crate::observer::Observer;
-use crate::options::{CommandOptions, SolveOptions};
+use crate::options::{CommandOptions, DeformOptions, SolveOptions};
+use crate::start::start;
 use crate::tracker::Tracker;
-use unwrapd_api::Limits;
-use unwrapd_api::Stage;
+use crate::{PipelineError, limits};
+use unwrapd_api::{Limits, Stage};
 use unwrapd_deform::{Problem, ProblemError, ProblemFile, Solution};
 use unwrapd_files::document::{DocumentError, Upload};
 use unwrapd_files::io::{ElementFormat, Elements};
@@ -78,8 +78,9 @@ fn read(upload: &Upload, limits: &Limits) -> Result<(Problem, Elements), Pipelin
     let elements = format.read(member(upload, &file.mesh)?)?;
     limits::check_count(limits, elements.triangles.len() + elements.tets.len())?;
     let start = file.initial.as_ref().map(|initial| {
-        let not_numbers = || ProblemError::Malformed(format!("{initial} is not a list of numbers"));
-        Ok::<_, PipelineError>(numbers(member(upload, initial)?).ok_or_else(not_numbers)?)
+        Ok::<_, PipelineError>(numbers(member(upload, initial)?).ok_or_else(|| {
+            ProblemError::Malformed(format!("{initial} is not a list of numbers"))
+        })?)
     });
     let problem = file.with(elements.clone(), start.transpose()?)?;
     Ok((problem, elements))
@@ -99,4 +100,64 @@ fn numbers(bytes: &[u8]) -> Option<Vec<f64>> {
     text.split_ascii_whitespace()
         .map(|word| word.parse().ok())
         .collect()
+}
+
+// Deformation of files by handles: meshes, pictures, drawings, and surfaces in a cage.
+
+/// Deforms a planar or tetrahedral mesh, a picture's outline, a drawing, or surfaces in a cage by handles. With a
+/// barrier no element is inverted in any iterate.
+pub fn deform_file(
+    upload: &Upload,
+    options: &DeformOptions,
+    observer: &dyn Observer,
+) -> Result<Deformed, PipelineError> {
+    options.check()?;
+    if options.handles.is_empty() {
+        return Err(ProblemError::NoHandle.into());
+    }
+    let tracker = Tracker::new(observer, options.caller.budget(options.budget));
+    in_pool(options.caller.workers(options.workers), || {
+        match options.cage {
+            Some(n_voxels) => caged::deform(upload, options, n_voxels, &tracker),
+            None => deform_body(upload, options, &tracker),
+        }
+    })?
+}
+
+fn deform_body(
+    upload: &Upload,
+    options: &DeformOptions,
+    tracker: &Tracker,
+) -> Result<Deformed, PipelineError> {
+    // Read the body, bind the handles, and take the given start.
+    tracker.stage(Stage::Read);
+    let source = Source::read(upload, options.triangles, &options.caller.limits)?;
+    let format = options.format.unwrap_or_else(|| source.format(upload));
+    source.check(format, options.frames)?;
+    let mut problem = Problem::new(source.body()?, &options.handles, &options.model)?;
+    problem.search = options.pulling.search;
+    if let Some(start) = start(upload, problem.start.len())? {
+        problem.start = start;
+        problem.untangle_start()?;
+    }
+    // Solve.
+    let file = |x: &[f64]| source.frame(format, &problem, x);
+    let frames = Frames {
+        tracker,
+        file: &file,
+    };
+    let viewer: Option<&dyn Watch> = if options.frames { Some(&frames) } else { None };
+    let solved = solve(&problem, options.plan(), tracker, viewer)?;
+    // Write the deformed body.
+    tracker.stage(Stage::Write);
+    Ok(Deformed {
+        files: source.files(
+            format,
+            &options.caller.stem(upload),
+            &problem,
+            &solved.solution.x,
+        )?,
+        report: solved.report,
+        trace: solved.trace,
+    })
 }

@@ -1,22 +1,21 @@
 //! Input bodies, from files and back.
 
-use super::formats::BodyFormat;
-use super::moved::{check_format, check_frames, moved, moved_frame};
-use crate::documents::merged::Merged;
+use crate::documents::input::Merged;
+use crate::options::{BodyFormat, TRIANGLES};
 use crate::{PipelineError, limits};
 use std::collections::HashMap;
 use unwrapd_api::Limits;
 use unwrapd_deform::outline::{self, ImageSettings, MeshSettings, Resolution, SvgSettings};
 use unwrapd_deform::{Body, Problem};
-use unwrapd_files::document::{Document, GroupBy, OutputFormat, SpaceMap, Upload};
+use unwrapd_files::document::{
+    Document, DocumentError, GroupBy, Layout, NewUvs, OutputFormat, SpaceMap, Upload, WriteOptions,
+    Written,
+};
 use unwrapd_files::io::{Content, ElementFormat, Elements, Format, format_of_content};
 use unwrapd_files::picture::Image;
 use unwrapd_maps::mesh::Surface;
 use unwrapd_method::numerics::square::{Matrix, Square, apply, apply_transposed, times};
 use unwrapd_method::numerics::vec3;
-
-/// Default for the approximate number of triangles of a filled outline.
-pub const TRIANGLES: usize = 5000;
 
 /// The mesh of a file.
 pub struct Source {
@@ -257,4 +256,58 @@ impl SpaceMap for PlanarMap<'_> {
 fn key(place: [f32; 3]) -> [u32; 3] {
     // −0 is 0.
     place.map(|x| (x + 0.0).to_bits())
+}
+
+// Documents with moved surfaces and everything else unchanged.
+
+/// Applies a map to a document. Returns the document, and its files under the name `stem`.
+pub fn moved(
+    document: &Document,
+    map: &dyn SpaceMap,
+    format: OutputFormat,
+    stem: &str,
+) -> Result<(Document, Written), DocumentError> {
+    let moved = document.clone().moved(map)?;
+    let options = WriteOptions {
+        format,
+        stem: stem.to_owned(),
+        texcoord: None,
+        overwrite: false,
+        terms: None,
+    };
+    let no_uvs = NewUvs {
+        layout: Layout::Edited,
+        pages: 1,
+        v_axis: moved.v_axis(),
+        corners: vec![None; moved.primitives().len()],
+    };
+    let written = moved.write(&no_uvs, &options)?;
+    Ok((moved, written))
+}
+
+/// Returns the main file of the moved document; empty if it cannot be written, since its result will be rejected,
+/// too.
+pub fn moved_frame(document: &Document, map: &dyn SpaceMap, format: OutputFormat) -> Vec<u8> {
+    let files = moved(document, map, format, "frame").map(|(_, written)| written.files);
+    let main = files.ok().and_then(|files| files.into_iter().next());
+    main.map_or(Vec::new(), |(_, bytes)| bytes)
+}
+
+/// Rejects frames in a format whose files refer to others.
+pub fn check_frames(format: OutputFormat) -> Result<(), PipelineError> {
+    if format == OutputFormat::Gltf {
+        let text = "`frames` are one file each: glb or obj, not gltf".to_owned();
+        return Err(PipelineError::InvalidOptions(text));
+    }
+    Ok(())
+}
+
+/// Rejects formats that would lose UVs and materials.
+pub fn check_format(document: &Document, format: OutputFormat) -> Result<(), DocumentError> {
+    let lost = match (document, format) {
+        (Document::Gltf(_), OutputFormat::Obj) => "a deformed glTF document as OBJ",
+        (Document::Obj(_), OutputFormat::Glb | OutputFormat::Gltf) => "a deformed OBJ file as glTF",
+        _ => return Ok(()),
+    };
+    Err(DocumentError::UnsupportedOutput(lost.to_owned()))
 }

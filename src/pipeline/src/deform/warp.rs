@@ -1,15 +1,13 @@
 //! Warping of pictures by handles.
 
-use serde::Serialize;
-
-use super::missed::Completion;
-use super::pull_report::PullReport;
+use super::solution::{Completion, PullReport};
 use crate::PipelineError;
 use crate::arrays::unwrap::in_pool;
 use crate::observer::Observer;
 use crate::options::{CommandOptions, WarpOptions};
 use crate::start::start;
 use crate::tracker::Tracker;
+use serde::Serialize;
 use unwrapd_api::Stage;
 use unwrapd_deform::Boundary;
 use unwrapd_deform::warp::{WarpError, picture_grid, warp_picture_from};

@@ -1,17 +1,15 @@
 //! Pictures of a result, drawn on request from the written bytes: immediately, or later from the stored files.
 
-use std::collections::BTreeMap;
-
-use serde::{Deserialize, Serialize};
-
-use super::prepared::Prepared;
-use super::texel_weight::face_weights;
+use super::input::Prepared;
+use super::input::face_weights;
 use crate::PipelineError;
 use crate::arrays::plan::Plan;
 use crate::arrays::unwrap::in_pool;
 use crate::judge::group_uvs::GroupUvs;
 use crate::judge::groups::WrittenUvs;
 use crate::options::{CommandOptions, Options, Workers};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use unwrapd_files::document::{Document, GroupBy, Upload};
 use unwrapd_files::picture::{HeatmapMeasure, Panel, heatmap_png, layout_png};
 use unwrapd_maps::certificate::chart_ids;
@@ -122,8 +120,10 @@ fn weights(input: &Upload, options: &Options) -> Result<Vec<Vec<f64>>, PipelineE
     let document = &prepared.document;
     let primitives = options.nodes().primitives(document)?;
     let groups = document.groups(prepared.group_by);
-    let weighed = |group| face_weights(document, &primitives, group, &options.texel_weight);
-    groups.iter().map(weighed).collect()
+    groups
+        .iter()
+        .map(|group| face_weights(document, &primitives, group, &options.texel_weight))
+        .collect()
 }
 
 /// Data of a panel: faces that share a page.
@@ -138,8 +138,11 @@ impl PictureFaces {
     /// Scales the UVs of a group to the shape of the texture, whose longer side is the unit.
     fn new(group: &GroupUvs, texture: Resolution) -> Self {
         let [u, v] = texture.sides();
-        let scaled = |face: &CornerUvs| face.map(|uv| [uv[0] * u, uv[1] * v]);
-        let uvs: Vec<CornerUvs> = group.uvs.iter().map(scaled).collect();
+        let uvs: Vec<CornerUvs> = group
+            .uvs
+            .iter()
+            .map(|face: &CornerUvs| face.map(|uv| [uv[0] * u, uv[1] * v]))
+            .collect();
         Self {
             name: title(group),
             charts: chart_ids(&group.positions, &group.triangles, &uvs),
@@ -168,14 +171,14 @@ impl PictureFaces {
         if pages.keys().all(|&page| page == 0) {
             return vec![self];
         }
-        let on_page = |(page, faces): (u32, Vec<usize>)| {
-            let shifted = |[u, v]: [f64; 2]| [u - f64::from(page) * width, v];
-            Self {
-                name: format!("{} {}", self.name, 1001 + page),
-                uvs: faces.iter().map(|&f| self.uvs[f].map(shifted)).collect(),
-                charts: faces.iter().map(|&f| self.charts[f]).collect(),
-                distortion: faces.iter().map(|&f| self.distortion[f]).collect(),
-            }
+        let on_page = |(page, faces): (u32, Vec<usize>)| Self {
+            name: format!("{} {}", self.name, 1001 + page),
+            uvs: faces
+                .iter()
+                .map(|&f| self.uvs[f].map(|[u, v]: [f64; 2]| [u - f64::from(page) * width, v]))
+                .collect(),
+            charts: faces.iter().map(|&f| self.charts[f]).collect(),
+            distortion: faces.iter().map(|&f| self.distortion[f]).collect(),
         };
         pages.into_iter().map(on_page).collect()
     }

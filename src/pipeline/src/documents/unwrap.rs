@@ -1,8 +1,7 @@
 //! Unwrapping of documents, from bytes to bytes: read, unwrap, write, read again, judge.
 
-use super::merged::Merged;
+use super::input::{Merged, Prepared};
 use super::pictures::Pictures;
-use super::prepared::Prepared;
 use super::uv_arrays::UvArrays;
 use crate::PipelineError;
 use crate::arrays::placement::Placement;
@@ -12,14 +11,12 @@ use crate::arrays::soup::Soup;
 use crate::arrays::unwrap::{Unwrapped, in_pool, unwrap_all};
 use crate::island_error::IslandError;
 use crate::judge::groups::WrittenUvs;
-use crate::judge::history::{add_history, promise_kept};
 use crate::judge::report::{Report, Seconds};
-use crate::judge::shortfalls::shortfalls;
+use crate::judge::shortfalls::{add_history, promise_kept, shortfalls};
 use crate::observer::Observer;
-use crate::options::{CommandOptions, Island, Options};
+use crate::options::{CommandOptions, Island, Options, RepackOptions};
 use crate::rebake::{self, rebaked};
-use crate::stop_watch::StopWatch;
-use crate::tracker::Tracker;
+use crate::tracker::{StopWatch, Tracker};
 use unwrapd_api::Stage;
 use unwrapd_files::document::{
     BakedTextures, Corners, Document, Group, GroupBy, Layout, NewUvs, OutputFormat, Upload,
@@ -207,8 +204,10 @@ pub fn placements(
         if island.face as usize >= primitive.triangles.len() {
             return Err(unknown());
         }
-        let is_inside = |group: &Group| group.primitives.contains(&index);
-        let group = groups.iter().position(is_inside).ok_or_else(unknown)?;
+        let group = groups
+            .iter()
+            .position(|group: &Group| group.primitives.contains(&index))
+            .ok_or_else(unknown)?;
         let before = (groups[group].primitives.iter()).take_while(|&&own| own != index);
         let first: usize = before.map(|&own| primitives[own].triangles.len()).sum();
         let face = first as u32 + island.face;
@@ -267,4 +266,18 @@ fn from_grid(corners: &GridCorners, v_axis: VAxis) -> Corners {
         VAxis::Up => [unit(u), unit(v)],
         VAxis::Down => [unit(u), unit(side - v)],
     })
+}
+
+// Packing of existing UVs.
+
+/// Packs the islands of all primitives of a group into one atlas. Islands only undergo quarter turns, shifts and a
+/// common scale. Those with a placement in the options stay there, and the others are packed around them. Faces that
+/// are flipped or overlap within an island remain so, and the certificate counts them.
+pub fn repack_document(
+    upload: &Upload,
+    options: &RepackOptions,
+    observer: &dyn Observer,
+) -> Result<Outcome, PipelineError> {
+    options.check()?;
+    unwrap_around(upload, &options.to_unwrap(), &options.islands, observer)
 }

@@ -1,6 +1,6 @@
 //! UVs of a result as plain arrays, for programs that keep the mesh that they sent.
 
-use super::prepared::Origins;
+use super::input::Origins;
 use unwrapd_files::document::{Corners, Document, NewUvs, PrimitiveNote};
 use unwrapd_maps::mesh::VAxis;
 
@@ -37,10 +37,9 @@ impl UvArrays {
         let mut first = [0, 0];
         let mut all = Vec::new();
         for (index, primitive) in document.primitives().iter().enumerate() {
-            let is_own = |note: &&PrimitiveNote| {
+            let note = notes.next_if(|note: &&PrimitiveNote| {
                 (note.mesh, note.primitive) == (primitive.mesh, primitive.primitive)
-            };
-            let note = notes.next_if(is_own);
+            });
             if let (Some(note), Some(uvs)) = (note, uvs.toward(index, v_axis)) {
                 all.push(Arrays {
                     mesh: note.mesh as u32,
@@ -86,8 +85,9 @@ impl UvArrays {
 
 /// Returns the number in the document of each written vertex.
 fn sources(note: &PrimitiveNote) -> Vec<u32> {
-    let same = || (0..note.vertices_after as u32).collect();
-    note.sources.clone().unwrap_or_else(same)
+    note.sources
+        .clone()
+        .unwrap_or_else(|| (0..note.vertices_after as u32).collect())
 }
 
 /// Maps indices within a primitive to those of the input. `all` has the input's indices if the document was
@@ -97,6 +97,8 @@ fn originals(
     first: usize,
     all: Option<&[u32]>,
 ) -> Vec<u32> {
-    let original = |number| all.map_or(number, |all| all[first + number as usize]);
-    numbers.into_iter().map(original).collect()
+    numbers
+        .into_iter()
+        .map(|number| all.map_or(number, |all| all[first + number as usize]))
+        .collect()
 }

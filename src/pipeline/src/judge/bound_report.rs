@@ -1,14 +1,12 @@
 //! Report on the distortion bound of an atlas and on its worst chart.
 
-use serde::Serialize;
-
 use super::group_uvs::GroupUvs;
-use super::mean_energy::MeanEnergy;
-use super::smoothed_distortion::smoothed_distortion;
-use unwrapd_layout::charts::{Bound, Bounded};
+use serde::Serialize;
+use unwrapd_layout::charts::{Bound, Bounded, smoothed_where_rough};
 use unwrapd_maps::certificate::chart_ids;
-use unwrapd_maps::measure::{Distortion, face_distortion};
-use unwrapd_maps::mesh::CornerUvs;
+use unwrapd_maps::measure::{Distortion, FaceDistortion, face_distortion};
+use unwrapd_maps::mesh::{CornerUvs, Surface};
+use unwrapd_method::numerics::vec3::{area_vector, norm};
 
 /// A bound on the distortion of an atlas, and what was reached.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -157,8 +155,11 @@ impl BoundReport {
 impl WorstChart {
     fn of(group: &GroupUvs, aspect: f64) -> Option<Self> {
         let (positions, triangles) = (&group.positions, &group.triangles);
-        let scaled = |face: &CornerUvs| face.map(|[u, v]| [u * aspect, v]);
-        let uvs: Vec<CornerUvs> = group.uvs.iter().map(scaled).collect();
+        let uvs: Vec<CornerUvs> = group
+            .uvs
+            .iter()
+            .map(|face: &CornerUvs| face.map(|[u, v]| [u * aspect, v]))
+            .collect();
         let faces = face_distortion(positions, triangles, &uvs, group.weights.as_deref());
         let mut charts: Vec<MeanEnergy> = Vec::new();
         for ((triangle, face), chart) in triangles
@@ -179,4 +180,77 @@ impl WorstChart {
         let charts = (0..).zip(&charts).filter_map(of_chart);
         charts.max_by(|a, b| a.distortion.total_cmp(&b.distortion))
     }
+}
+
+// Mean energy of a set of faces.
+
+/// Mean of symmetric Dirichlet energies weighted by area. Degenerate faces and negligible needles do not count.
+#[derive(Clone, Copy, Default)]
+struct MeanEnergy {
+    area: f64,
+    sum: f64,
+    pub greatest_stretch: f64,
+}
+
+impl MeanEnergy {
+    pub fn add(&mut self, [a, b, c]: [[f64; 3]; 3], face: &FaceDistortion) {
+        if face.counts && !face.degenerate {
+            let area = norm(area_vector(a, b, c));
+            self.area += area;
+            self.sum += area * face.symmetric_dirichlet;
+            self.greatest_stretch = self.greatest_stretch.max(face.stretch);
+        }
+    }
+
+    pub fn mean(&self) -> Option<f64> {
+        (self.area > 0.0).then(|| self.sum / self.area)
+    }
+}
+
+// Distortion of the map of a rough surface without the noise of both.
+
+/// Returns the mean symmetric Dirichlet energy of the smoothed map of the smoothed surface; `None` if the surface is
+/// not rough. Leaves out faces at chart borders, which have neighbors on one side only.
+fn smoothed_distortion(group: &GroupUvs, aspect: f64) -> Option<f64> {
+    let surface = Surface::new(&group.positions, &group.triangles).ok()?;
+    let smooth = smoothed_where_rough(&surface)?;
+    let charts = charts_in_the_plane(&surface, group, aspect)?;
+    let is_on_border = charts.is_on_border();
+    let places = charts.smoothed(&is_on_border);
+    let uvs: Vec<CornerUvs> = charts
+        .triangles
+        .iter()
+        .map(|t| t.map(|v: u32| [0, 1].map(|k| places[v as usize][k])))
+        .collect();
+    let weights = group.weights.as_ref();
+    let weights = weights.map(|of| surface.faces.iter().map(|&f| of[f as usize]).collect());
+    let weights: Option<Vec<f64>> = weights;
+    let faces = face_distortion(
+        &smooth.positions,
+        &smooth.triangles,
+        &uvs,
+        weights.as_deref(),
+    );
+    let mut sum = MeanEnergy::default();
+    for (t, face) in faces.iter().enumerate() {
+        if !charts.triangles[t]
+            .iter()
+            .any(|&v| is_on_border[v as usize])
+        {
+            sum.add(smooth.corners(t), face);
+        }
+    }
+    sum.mean()
+}
+
+/// Returns the charts of a surface as surfaces in the plane, with the same triangles; `None` if a face is degenerate
+/// there.
+fn charts_in_the_plane(surface: &Surface, group: &GroupUvs, aspect: f64) -> Option<Surface> {
+    let of_faces = surface.faces.iter().flat_map(|&f| group.uvs[f as usize]);
+    let places: Vec<[f64; 3]> = of_faces.map(|[u, v]| [u * aspect, v, 0.0]).collect();
+    let corners: Vec<[u32; 3]> = (0..surface.faces.len() as u32)
+        .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
+        .collect();
+    let charts = Surface::new(&places, &corners).ok()?;
+    (charts.triangles.len() == corners.len()).then_some(charts)
 }

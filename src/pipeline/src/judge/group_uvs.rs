@@ -63,12 +63,17 @@ impl GroupUvs {
 
     /// Returns the area of the surface scaled by its weights; `None` without weights.
     pub fn intended_area(&self) -> Option<f64> {
-        let area = |(t, weight): (&[u32; 3], &f64)| {
-            let [a, b, c] = t.map(|v| self.positions[v as usize]);
-            norm(area_vector(a, b, c)) / 2.0 * weight * weight
-        };
         let weights = self.weights.as_ref()?;
-        Some(self.triangles.iter().zip(weights).map(area).sum())
+        Some(
+            self.triangles
+                .iter()
+                .zip(weights)
+                .map(|(t, weight): (&[u32; 3], &f64)| {
+                    let [a, b, c] = t.map(|v| self.positions[v as usize]);
+                    norm(area_vector(a, b, c)) / 2.0 * weight * weight
+                })
+                .sum(),
+        )
     }
 
     pub fn certify(&self, claims: &Claims) -> Certificate {

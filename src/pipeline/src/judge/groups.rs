@@ -1,17 +1,17 @@
 //! Judgment of a document's UVs as stored in its bytes.
 
-use std::collections::HashMap;
-
-use rayon::prelude::*;
-
 use super::group_uvs::GroupUvs;
-use super::question::Question;
 use super::report::GroupReport;
 use crate::PipelineError;
-use crate::documents::nodes::Nodes;
-use crate::options::MeasureOptions;
-use unwrapd_files::document::{Document, GroupBy, Written};
-use unwrapd_maps::certificate::{Certificate, Claims};
+use crate::options::Nodes;
+use crate::options::{CommandOptions, MeasureOptions};
+use rayon::prelude::*;
+use std::collections::HashMap;
+use std::hash::Hash;
+use unwrapd_files::document::{
+    Document, DocumentError, GroupBy, Mark, Marked, Sets, Warning, Written,
+};
+use unwrapd_maps::certificate::{Certificate, Claims, Overlap};
 use unwrapd_maps::measure::{self, Measures};
 use unwrapd_maps::mesh::{Resolution, VAxis};
 
@@ -73,8 +73,9 @@ impl WrittenUvs {
         nodes: Nodes,
         set: impl Fn(usize) -> Option<u32>,
     ) -> Result<Self, PipelineError> {
-        let is_skipped = |primitive: &usize| set(*primitive).is_none();
-        let n_skipped = (0..document.primitives().len()).filter(is_skipped).count();
+        let n_skipped = (0..document.primitives().len())
+            .filter(|primitive: &usize| set(*primitive).is_none())
+            .count();
         let mut groups = document.groups(group_by);
         for group in &mut groups {
             group.primitives.retain(|&index| set(index).is_some());
@@ -102,12 +103,17 @@ impl WrittenUvs {
             .filter(|&(index, &first)| index == first)
             .count();
         let raster_texels = raster_texels(n_distinct);
-        let measure = |(index, group): (usize, &GroupUvs)| {
-            (first[index] == index).then(|| group.measure(claims.v_axis, texture, raster_texels))
-        };
         let groups = || self.groups.par_iter().with_max_len(1);
         let (measured, certificates): (Vec<Option<Measures>>, Vec<Certificate>) = rayon::join(
-            || groups().enumerate().map(measure).collect(),
+            || {
+                groups()
+                    .enumerate()
+                    .map(|(index, group): (usize, &GroupUvs)| {
+                        (first[index] == index)
+                            .then(|| group.measure(claims.v_axis, texture, raster_texels))
+                    })
+                    .collect()
+            },
             || groups().map(|group| group.certify(&claims)).collect(),
         );
         (self.groups.iter().zip(&first).zip(certificates))
@@ -141,8 +147,10 @@ impl WrittenUvs {
 
     /// Certifies every group.
     pub fn certify(&self, claims: &Claims) -> Vec<Certificate> {
-        let certified = |group: &GroupUvs| group.certify(&self.told(claims));
-        self.groups.par_iter().map(certified).collect()
+        self.groups
+            .par_iter()
+            .map(|group: &GroupUvs| group.certify(&self.told(claims)))
+            .collect()
     }
 
     /// Completes the claims with facts from the file.
@@ -159,4 +167,104 @@ fn raster_texels(n_groups: usize) -> u32 {
     let of_each = MOST_RASTER_TEXELS / n_groups.max(1) as u64;
     let finest = measure::MeasureOptions::default().raster_texels;
     (1 << (of_each.max(1).ilog2() / 2)).clamp(COARSEST_RASTER, finest)
+}
+
+// Selection of the UVs to judge, and the properties to judge.
+
+/// UVs of a document to judge, and the properties to judge.
+pub struct Question {
+    /// Options, with the requirements that the record adds.
+    pub options: MeasureOptions,
+    /// Record of the document, if it matches the UVs and the caller named no set.
+    pub mark: Option<Mark>,
+    /// Warning about the record.
+    pub warning: Option<Warning>,
+}
+
+impl Question {
+    /// Creates the question that `options` ask of a document, with the requirements that its record adds.
+    pub fn new(options: &MeasureOptions, document: &Document) -> Result<Self, PipelineError> {
+        let marked = match options.texcoord {
+            Some(_) => Marked::Not,
+            None => document.marked()?,
+        };
+        let mut question = Self::of_options(options);
+        match marked {
+            Marked::Not => {}
+            Marked::Stale => question.warning = Some(stale()),
+            Marked::Fits(mark) => {
+                let with_terms = options.with_terms(&mark.terms);
+                // A record may hold numbers that options do not allow.
+                if with_terms.check().is_ok() {
+                    question.options = with_terms;
+                    question.mark = Some(*mark);
+                } else {
+                    question.warning = Some(stale());
+                }
+            }
+        }
+        Ok(question)
+    }
+
+    /// Creates the question that `options` ask of UVs without a record.
+    pub fn of_options(options: &MeasureOptions) -> Self {
+        Self {
+            options: options.clone(),
+            mark: None,
+            warning: None,
+        }
+    }
+
+    /// Returns the UV sets to judge, by primitive.
+    pub fn sets(&self) -> Sets {
+        match &self.mark {
+            Some(mark) => mark.sets.clone(),
+            None => Sets::One(self.options.texcoord.unwrap_or(0)),
+        }
+    }
+
+    /// Returns the UV set of every primitive; `None` for one that lacks the set and is left out at the caller's
+    /// request.
+    ///
+    /// A primitive for which the record names no set is judged, too: in the lowest set that the record names.
+    pub fn set_of_each(&self, document: &Document) -> Result<Vec<Option<u32>>, DocumentError> {
+        let sets = self.sets();
+        let lowest = sets.lowest().unwrap_or(0);
+        let set = |primitive: usize| {
+            let set = sets.of(primitive).unwrap_or(lowest);
+            let is_left_out =
+                self.options.skip_missing && document.corner_uvs(primitive, set)?.is_none();
+            Ok((!is_left_out).then_some(set))
+        };
+        (0..document.primitives().len()).map(set).collect()
+    }
+
+    /// Returns whether pairs of faces have to be tested, if `asked` is what the caller requests.
+    pub fn overlap(&self, asked: Overlap) -> Overlap {
+        let options = &self.options;
+        let needs_pairs = options.padding.is_some()
+            || options.bits.is_some()
+            || options.pages.is_some()
+            || options.aligned;
+        if needs_pairs {
+            Overlap::Test
+        } else {
+            self.promised(asked)
+        }
+    }
+
+    /// Returns whether faces may overlap: not if the record promises that they do not, whatever is `asked`.
+    pub fn promised(&self, asked: Overlap) -> Overlap {
+        match &self.mark {
+            Some(mark) if !mark.terms.overlaps => Overlap::Test,
+            _ => asked,
+        }
+    }
+}
+
+fn stale() -> Warning {
+    Warning::new(
+        "mark_stale",
+        "the UVs changed since unwrapd recorded its options, so the record is ignored",
+    )
 }

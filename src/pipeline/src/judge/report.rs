@@ -1,12 +1,11 @@
 //! The report: input, work done, and quality of the written bytes.
 
-use serde::Serialize;
-
 use super::bound_report::BoundReport;
 use super::group_uvs::GroupUvs;
 use super::proven::{Mirrored, Proven};
 use crate::arrays::unwrap::{ChartRecord, Unwrapped};
 use crate::options::Options;
+use serde::Serialize;
 use unwrapd_api::Limits;
 use unwrapd_files::document::{Warning, WriteNotes};
 use unwrapd_maps::certificate::{Certificate, Overlap};

@@ -1,17 +1,13 @@
 //! Measurement and verification of a document's UVs.
 
-use std::fmt;
-
-use serde::Serialize;
-
-use super::groups::WrittenUvs;
+use super::groups::{Question, WrittenUvs};
 use super::proven::{Mirrored, Proven};
-use super::question::Question;
 use super::report::Report;
-use crate::PipelineError;
 use crate::arrays::unwrap::in_pool;
-use crate::limits;
 use crate::options::{CommandOptions, MeasureOptions, VerifyOptions};
+use crate::{PipelineError, limits};
+use serde::Serialize;
+use std::fmt;
 use unwrapd_files::document::{Document, GroupBy, Mark, Sets, Upload, Warning};
 use unwrapd_maps::certificate::{Certificate, Overlap};
 

@@ -1,13 +1,17 @@
 //! Options of deformation.
 
-use super::{Budget, Caller, CommandOptions, Course, Pulling, Workers, idle};
+use super::{Budget, Caller, CommandOptions, Workers, checks};
 use crate::PipelineError;
-use crate::deform::formats::BodyFormat;
-use crate::deform::plan::Plan;
-use crate::deform::source::TRIANGLES;
+use serde::{Deserialize, Serialize};
 use unwrapd_api::options::{OptionSet, options};
-use unwrapd_deform::{Handle, Method, Model};
+use unwrapd_deform::{Handle, Method, Model, Problem};
+use unwrapd_files::document::OutputFormat;
+use unwrapd_files::io::{ElementFormat, Elements, Format, text_positions, vtu};
 use unwrapd_method::barrier::BarrierKind;
+use unwrapd_method::solver::Settings;
+
+/// Default for the approximate number of triangles of a filled outline.
+pub(crate) const TRIANGLES: usize = 5000;
 
 options! {
     /// Options of deformation. They have the command line's long names in snake case. A file of
@@ -58,7 +62,7 @@ options! {
 impl DeformOptions {
     /// Rejects options that would have no effect.
     fn check_idle(&self) -> Result<(), String> {
-        idle::check_model(&self.model)?;
+        checks::check_model(&self.model)?;
         let is_barrier_absent = self.model.barrier == BarrierKind::None;
         let idle = [
             (self.split && self.cage.is_none(), "`split` requires `cage`"),
@@ -101,4 +105,226 @@ impl CommandOptions for DeformOptions {
     fn caller_mut(&mut self) -> &mut Caller {
         &mut self.caller
     }
+}
+
+// Options of problem files.
+
+options! {
+    /// Options of solving a problem file. They have the command line's long names in snake case.
+    pub struct SolveOptions {
+        /// Solver: projected Newton with advancing targets, or the iteration of the paper.
+        pub method: Method = Method::Projected;
+    }
+    files {
+        /// Record the map of every iteration. Over HTTP these become files beside the result, at
+        /// most 256 MiB.
+        pub frames: bool;
+        /// Format of the result. The default is positions as text.
+        pub format: BodyFormat = BodyFormat::Txt;
+    }
+    groups {
+        /// Additional steps and tolerance of the solver.
+        pub course: Course;
+        /// Paths of handles to their targets.
+        pub pulling: Pulling;
+        /// Number of threads.
+        pub workers: Workers;
+        /// Time limit.
+        pub budget: Budget;
+    }
+    untold {
+        /// Settings of the caller.
+        pub caller: Caller;
+    }
+}
+
+impl SolveOptions {
+    pub(crate) fn plan(&self) -> Plan {
+        self.course.plan(self.method)
+    }
+}
+
+impl CommandOptions for SolveOptions {
+    fn check(&self) -> Result<(), PipelineError> {
+        self.check_ranges()
+            .and_then(|()| check_method(&self.course, self.pulling, self.method))
+            .map_err(PipelineError::InvalidOptions)?;
+        self.format.check_for_mesh()
+    }
+
+    fn caller_mut(&mut self) -> &mut Caller {
+        &mut self.caller
+    }
+}
+
+// Options for additional steps of the solver.
+
+options! {
+    /// Additional steps and tolerance of the solver.
+    #[derive(Copy)]
+    pub struct Course under "Course of the solver" {
+        /// Lower the barrier strength as long as the energy without the barrier falls.
+        pub barrier_continuation: bool;
+        /// Also report the energy that the map tends to as the barrier strength tends to 0. The
+        /// difference is the bias of the barrier.
+        pub bias: bool;
+        /// The minimization ends when a step promises to lower the energy by less than this share.
+        /// The default is 1e-6.
+        pub tolerance: Option<f64>, in 1e-15..=1e-1, value "SHARE";
+    }
+}
+
+impl Course {
+    pub(super) fn plan(self, method: Method) -> Plan {
+        let default = Settings::follow();
+        Plan {
+            method,
+            barrier_continuation: self.barrier_continuation,
+            bias: self.bias,
+            settings: Settings {
+                tolerance: self.tolerance.unwrap_or(default.tolerance),
+                ..default
+            },
+        }
+    }
+}
+
+// Options for the paths of handles to their targets.
+
+options! {
+    /// Paths of handles to their targets.
+    #[derive(Copy)]
+    pub struct Pulling under "Ways to the targets" {
+        /// Try all bent ways to the targets, even if the straight ones lead there, and keep the map
+        /// with the lowest energy. Costs up to nine minimizations.
+        pub search: bool;
+    }
+}
+
+// Formats of deformed bodies.
+
+/// File format of a deformed body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
+#[serde(rename_all = "kebab-case")]
+pub enum BodyFormat {
+    /// Positions, one per line, 17 digits.
+    Txt,
+    /// Wavefront OBJ: triangles only.
+    Obj,
+    /// Geomview OFF: triangles only.
+    Off,
+    /// Gmsh.
+    Msh,
+    /// Medit.
+    Mesh,
+    /// TET: counts, positions, corners.
+    Tet,
+    /// VTK XML.
+    Vtu,
+    /// Binary glTF, for surfaces in a cage and for planar meshes from glTF, PLY or STL.
+    Glb,
+    /// glTF with separate files, for the same.
+    Gltf,
+}
+
+impl BodyFormat {
+    const ALL: [(Self, Format); 9] = [
+        (Self::Txt, Format::Txt),
+        (Self::Obj, Format::Obj),
+        (Self::Off, Format::Off),
+        (Self::Msh, Format::Msh),
+        (Self::Mesh, Format::Mesh),
+        (Self::Tet, Format::Tet),
+        (Self::Vtu, Format::Vtu),
+        (Self::Glb, Format::Glb),
+        (Self::Gltf, Format::Gltf),
+    ];
+
+    /// Returns the format for the extension of a file name.
+    pub fn of_name(name: &str) -> Option<Self> {
+        let named = Format::of_name(name)?;
+        let mut all = Self::ALL.into_iter();
+        all.find_map(|(format, file)| (file == named).then_some(format))
+    }
+
+    /// Returns the extension of its files.
+    pub fn extension(self) -> &'static str {
+        self.file().map_or("", Format::extension)
+    }
+
+    fn file(self) -> Option<Format> {
+        let mut all = Self::ALL.into_iter();
+        all.find_map(|(format, file)| (format == self).then_some(file))
+    }
+
+    /// Returns the corresponding document format; `None` if there is none.
+    pub(crate) fn of_document(self) -> Option<OutputFormat> {
+        match self {
+            Self::Obj => Some(OutputFormat::Obj),
+            Self::Glb => Some(OutputFormat::Glb),
+            Self::Gltf => Some(OutputFormat::Gltf),
+            _ => None,
+        }
+    }
+
+    /// Checks that the result of a mesh without a document can be written in this format.
+    pub(crate) fn check_for_mesh(self) -> Result<(), PipelineError> {
+        match self {
+            Self::Glb | Self::Gltf => Err(PipelineError::InvalidOptions(
+                "`format`: of this input the result is txt, obj, off, msh, mesh, tet or vtu".into(),
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// Returns the file of a deformed body: `elements` at the positions `x`, which are flattened. VTK files also
+    /// contain the distortion of each element.
+    pub(crate) fn write(self, elements: &Elements, problem: &Problem, x: &[f64]) -> Vec<u8> {
+        let format = self.file().and_then(ElementFormat::of);
+        let dim = problem.body.dim();
+        let text = match (format, dim) {
+            (None, 2) => text_positions::<2>(x.as_chunks().0),
+            (None, _) => text_positions::<3>(x.as_chunks().0),
+            (Some(format), _) => {
+                let moved = Elements {
+                    vertices: x
+                        .chunks_exact(dim)
+                        .map(|p: &[f64]| [p[0], p[1], p.get(2).copied().unwrap_or(0.0)])
+                        .collect(),
+                    ..elements.clone()
+                };
+                if format == ElementFormat::Vtu {
+                    vtu::write(&moved, &problem.cells(x))
+                } else {
+                    format.write(&moved)
+                }
+            }
+        };
+        text.into_bytes()
+    }
+}
+
+// Solution plans for problems.
+
+/// Method, settings and additional steps of a solution.
+#[derive(Clone, Copy)]
+pub struct Plan {
+    pub method: Method,
+    /// Lowers the barrier's strength while the energy without it falls.
+    pub barrier_continuation: bool,
+    /// Also minimizes the energy without a barrier.
+    pub bias: bool,
+    /// Settings of the projected method.
+    pub settings: Settings,
+}
+
+/// Rejects options of the projected method if another method solves.
+fn check_method(course: &Course, pulling: Pulling, method: Method) -> Result<(), String> {
+    let is_other = method != Method::Projected;
+    let with = "`method` projected";
+    checks::refused([
+        ("search", with, pulling.search && is_other),
+        ("tolerance", with, course.tolerance.is_some() && is_other),
+    ])
 }

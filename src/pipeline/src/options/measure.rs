@@ -1,11 +1,11 @@
 //! Options of measurement.
 
-#[cfg(feature = "schema")]
-use super::layout::padding_texels;
-use super::layout::{check_mips, check_texels};
+use super::unwrap::Nodes;
 use super::{Caller, CommandOptions, Layout, Workers};
 use crate::PipelineError;
-use crate::documents::nodes::Nodes;
+#[cfg(feature = "schema")]
+use crate::settings::padding_texels;
+use crate::settings::{check_mips, check_texels};
 use unwrapd_api::options::{OptionSet, options};
 use unwrapd_files::document::{Document, GroupBy, Terms};
 use unwrapd_maps::certificate::{Claims, Overlap, Padding};
@@ -118,5 +118,31 @@ impl MeasureOptions {
             required.aligned = terms.aligned;
         }
         required
+    }
+}
+
+// Options of verification.
+
+options! {
+    /// Options of verifying the UVs of a document.
+    pub struct VerifyOptions {
+        /// Also prove that no two faces overlap.
+        pub bijective: bool;
+        /// Also prove that no chart is mirrored.
+        pub unmirrored: bool;
+    }
+    groups {
+        /// The UVs to judge, and further properties to prove.
+        pub judged: MeasureOptions;
+    }
+}
+
+impl CommandOptions for VerifyOptions {
+    fn check(&self) -> Result<(), PipelineError> {
+        self.judged.check()
+    }
+
+    fn caller_mut(&mut self) -> &mut Caller {
+        self.judged.caller_mut()
     }
 }

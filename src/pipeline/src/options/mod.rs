@@ -2,48 +2,21 @@
 //!
 //! Every option is declared [once](mod@unwrapd_api::options). Arrays are unwrapped with
 //! [`Settings`](crate::Settings), which consists of the groups about geometry.
-
-mod cutting;
-mod layout;
-mod mapping;
-mod work;
-
-mod baking;
 mod caller;
-mod course;
+mod checks;
 mod deform;
 mod edit;
-mod idle;
-mod islands;
 mod measure;
-mod preset;
-mod pulling;
 mod repack;
-mod sets;
-mod solve;
 mod unwrap;
-mod unwrap_checks;
-mod verify;
-mod warp;
 
-pub use cutting::{Cutting, KeptMaps};
-pub use layout::{Layout, PackingMode};
-pub use mapping::Mapping;
-pub use work::{Budget, Workers};
-
-pub use baking::Baking;
+pub use crate::settings::{Budget, Cutting, KeptMaps, Layout, Mapping, PackingMode, Workers};
 pub use caller::{Caller, CommandOptions};
-pub use course::Course;
-pub use deform::DeformOptions;
-pub use edit::{EditOptions, Editing};
-pub(super) use idle::check_grouping;
-pub use islands::Island;
-pub use measure::MeasureOptions;
-pub use preset::Preset;
-pub use pulling::Pulling;
-pub use repack::RepackOptions;
-pub use sets::Sets;
-pub use solve::SolveOptions;
-pub use unwrap::{GivenSeams, NamedSeams, Options};
-pub use verify::VerifyOptions;
-pub use warp::WarpOptions;
+pub(super) use checks::check_grouping;
+pub use deform::{BodyFormat, Course, DeformOptions, Pulling, SolveOptions};
+pub(crate) use deform::{Plan, TRIANGLES};
+pub use edit::{EditOptions, Editing, WarpOptions};
+pub use measure::{MeasureOptions, VerifyOptions};
+pub use repack::{Island, RepackOptions};
+pub use unwrap::{Baking, GivenSeams, ImageFormat, NamedSeams, Options, Preset, Sets, TexelWeight};
+pub(crate) use unwrap::{MOST_SIDE, Nodes};

@@ -1,16 +1,22 @@
 //! Options of unwrapping.
 
-use serde::{Deserialize, Serialize};
-
-use super::{Baking, Budget, Caller, Cutting, Layout, Mapping, Preset, Sets, Workers};
+use super::{Budget, Caller, Cutting, Layout, Mapping, Workers};
 use crate::arrays::settings::Settings;
-use crate::documents::nodes::Nodes;
-use crate::documents::texel_weight::TexelWeight;
-use unwrapd_api::options::options;
-use unwrapd_files::document::{GroupBy, OutputFormat, Terms};
-use unwrapd_files::picture::HeatmapMeasure;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::fmt;
+use std::str::FromStr;
+use unwrapd_api::options::{options, within};
+use unwrapd_files::document::gltf::GltfDocument;
+use unwrapd_files::document::{
+    BakePlane, Document, DocumentError, GroupBy, OutputFormat, Primitive, Terms,
+};
+use unwrapd_files::picture::{HeatmapMeasure, Image};
 use unwrapd_layout::atlas::Borders;
 use unwrapd_maps::certificate::{Claims, Overlap, Padding};
+
+/// Maximum side of a texture in texels.
+pub(crate) const MOST_SIDE: u32 = 8192;
 
 /// Edges of a document to cut in any mode.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -173,3 +179,192 @@ impl Options {
 /// Number of mip levels for which the padding of a lightmap holds: a distant room shows a quarter of the texels along
 /// a side.
 const LIGHTMAP_MIPS: u32 = 2;
+
+// Purposes of UVs.
+
+/// Purpose of the UVs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
+pub enum Preset {
+    /// Textures of materials.
+    #[default]
+    Material,
+    /// Lighting of the whole scene: one atlas in UV set 1; other sets stay unchanged. Each node
+    /// that shows a mesh gets its own copy and region, sized by its area in the scene. Padding
+    /// holds for two more mip levels, and charts end on texel borders.
+    Lightmap,
+}
+
+// Options for the UV sets that are read and written.
+
+options! {
+    /// UV sets to read and write.
+    #[derive(Copy)]
+    pub struct Sets under "UV sets and textures" {
+        /// The UV set that provides the islands. The default is 0.
+        pub source_texcoord: Option<u32>, in 0..=7, value "N";
+        /// The UV set to write. The default is set 0 if no texture samples it, otherwise the next
+        /// free set.
+        pub texcoord: Option<u32>, in 0..=7, value "N";
+        /// Replace the UV set even if textures sample it.
+        pub overwrite: bool;
+    }
+}
+
+impl Sets {
+    /// Returns the UV set that provides the islands.
+    pub(crate) fn source(self) -> u32 {
+        self.source_texcoord.unwrap_or(0)
+    }
+}
+
+// Options of texture resampling.
+
+options! {
+    /// Resampling of textures.
+    #[derive(Copy)]
+    pub struct Baking under "UV sets and textures" {
+        /// Resample the textures for the new UVs, which then replace set 0 unless `texcoord` names
+        /// another.
+        ///
+        /// Textures that cannot be read, or of an unknown kind, stay as they are and keep their
+        /// UVs. The report lists them.
+        pub rebake: bool, arg(help_heading = None::<&'static str>);
+        /// Side of the resampled textures, in texels. The default is `resolution`, or more if the
+        /// surface would lose texels: a power of two up to 4096.
+        pub bake_size: Option<u32>, in 16..=8192, value "TEXELS";
+        /// File format of the resampled textures: that of the source images, or one format for all.
+        pub image_format: ImageFormat = ImageFormat::Source;
+    }
+}
+
+const _: () = assert!(MOST_SIDE == 8192);
+
+// File format of resampled textures.
+
+/// The format of the files of resampled textures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
+pub enum ImageFormat {
+    /// JPEG if all source images are JPEG, otherwise PNG.
+    #[default]
+    Source,
+    /// PNG, lossless.
+    Png,
+    /// JPEG, or PNG if a texel is transparent.
+    Jpeg,
+}
+
+// The longest side of a JPEG file is 65,535 pixels.
+const _: () = assert!(MOST_SIDE <= u16::MAX as u32);
+
+impl ImageFormat {
+    /// Encodes the texture that `plane` produced.
+    pub fn file(
+        self,
+        document: &GltfDocument,
+        plane: &BakePlane,
+        image: &Image,
+    ) -> Result<Vec<u8>, DocumentError> {
+        let is_jpeg = match self {
+            Self::Source => is_all_jpeg(document, plane)?,
+            Self::Png => false,
+            Self::Jpeg => true,
+        };
+        let jpeg = if is_jpeg { image.jpeg() } else { None };
+        Ok(jpeg.unwrap_or_else(|| image.png()))
+    }
+}
+
+/// Returns whether all source images of a texture are JPEG files.
+fn is_all_jpeg(document: &GltfDocument, plane: &BakePlane) -> Result<bool, DocumentError> {
+    const MAGIC: [u8; 3] = [0xFF, 0xD8, 0xFF];
+    for source in plane.sources.values() {
+        if !document.image(source.image)?.starts_with(&MAGIC) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+// Definition of the surfaces of a scene.
+
+/// Definition of the surfaces of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Nodes {
+    /// Each mesh in its own space, however often and wherever nodes show it.
+    Shared,
+    /// Each instance of a mesh at its place in the scene.
+    Separate,
+}
+
+impl Nodes {
+    /// Returns the document with one mesh per surface.
+    pub fn prepared(self, document: Document) -> Result<Document, DocumentError> {
+        match self {
+            Self::Shared => Ok(document),
+            Self::Separate => document.with_separate_meshes(),
+        }
+    }
+
+    /// Returns the primitives with the shapes of the surfaces.
+    pub fn primitives(self, document: &Document) -> Result<Cow<'_, [Primitive]>, DocumentError> {
+        match self {
+            Self::Shared => Ok(Cow::Borrowed(document.primitives())),
+            Self::Separate => document.primitives_in_scene().map(Cow::Owned),
+        }
+    }
+}
+
+// Materials with a higher or lower texel density.
+
+/// Factor on the linear texel density of a material, relative to materials without a weight; written `MATERIAL=W`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct TexelWeight {
+    /// Name of the material, or its index in the file.
+    pub material: String,
+    /// The factor.
+    pub weight: f64,
+}
+
+impl TexelWeight {
+    pub(crate) fn check(&self) -> Result<(), String> {
+        within("texel_weight", self.weight, 1e-3, 1e3)
+    }
+}
+
+impl FromStr for TexelWeight {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("{text:?} is not a material weight of the form MATERIAL=W");
+        let (material, weight) = text.rsplit_once('=').ok_or_else(wrong)?;
+        Ok(Self {
+            material: material.to_owned(),
+            weight: weight.parse().map_err(|_| wrong())?,
+        })
+    }
+}
+
+impl TryFrom<String> for TexelWeight {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<TexelWeight> for String {
+    fn from(weight: TexelWeight) -> Self {
+        weight.to_string()
+    }
+}
+
+impl fmt::Display for TexelWeight {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}", self.material, self.weight)
+    }
+}

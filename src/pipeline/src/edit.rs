@@ -1,8 +1,7 @@
-//! Editing of a document's UVs by anchors, judged in the written bytes.
+//! Editing of a document's UVs by anchors.
 
-use super::report::{ChartEditReport, EditReport, completion};
 use crate::arrays::unwrap::in_pool;
-use crate::deform::pull_report::PullReport;
+use crate::deform::solution::{Completion, PullReport};
 use crate::judge::groups::WrittenUvs;
 use crate::judge::proven::{Mirrored, Proven};
 use crate::judge::shortfalls::unproven;
@@ -11,8 +10,10 @@ use crate::options::{CommandOptions, EditOptions, Editing, MeasureOptions};
 use crate::start::start;
 use crate::tracker::Tracker;
 use crate::{PipelineError, limits};
+use serde::Serialize;
 use unwrapd_api::Stage;
-use unwrapd_deform::uv::{ChartFaces, EditedUvs, UvMesh, UvSession, edit_uvs_from};
+use unwrapd_deform::Unreached;
+use unwrapd_deform::uv::{ChartFaces, EditedUvs, UvMesh, UvRest, UvSession, edit_uvs_from};
 use unwrapd_files::document::{
     Corners, Document, DocumentError, GroupBy, Layout, Marked, NewUvs, OutputFormat, Sets, Terms,
     Upload, Warning, WriteOptions, Written,
@@ -20,6 +21,8 @@ use unwrapd_files::document::{
 use unwrapd_maps::certificate::{Overlap, PlanarCertificate, boundary_crossings, certify_planar};
 use unwrapd_maps::mesh::CornerUvs;
 use unwrapd_method::barrier::BarrierKind;
+
+// Editing of a document's UVs by anchors, judged in the written bytes.
 
 /// A document with edited UVs.
 #[derive(Clone, Debug)]
@@ -232,11 +235,14 @@ fn judge_charts(
 
 /// Certifies a chart by the UVs of the file; `flip_v` states that the file's v axis was reversed.
 fn certified(faces: &ChartFaces, uvs: &[CornerUvs], flip_v: bool) -> PlanarCertificate {
-    let place = |corner: u32| {
-        let [u, v] = uvs[corner as usize / 3][corner as usize % 3];
-        [u, if flip_v { -v } else { v }]
-    };
-    let places: Vec<[f64; 2]> = faces.corners().flatten().map(place).collect();
+    let places: Vec<[f64; 2]> = faces
+        .corners()
+        .flatten()
+        .map(|corner: u32| {
+            let [u, v] = uvs[corner as usize / 3][corner as usize % 3];
+            [u, if flip_v { -v } else { v }]
+        })
+        .collect();
     let triangles = (0..faces.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]);
     certify_planar(&places, &triangles.collect::<Vec<_>>())
 }
@@ -307,4 +313,56 @@ impl WholeJudgment {
             )
         })
     }
+}
+
+// Reports of edited UVs.
+
+/// Report on the edited UVs of a document.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct EditReport {
+    /// `true` if the whole UV set is proven in the bytes written: no face is flipped or degenerate, and no two faces
+    /// that share a UV space overlap, whether their charts have anchors or not. Warnings name what is missing.
+    pub certified: bool,
+    /// `true` if the whole UV set is bijective in the bytes written.
+    pub bijective: bool,
+    /// Properties that are missing, in words.
+    pub lacking: Vec<&'static str>,
+    /// Proven properties of the whole UV set.
+    pub proven: Proven,
+    /// Degree to which the request was completed.
+    pub completion: Completion,
+    /// Warnings about the input file, the work and the written file.
+    pub warnings: Vec<Warning>,
+    /// The shapes that were kept.
+    pub rest: UvRest,
+    /// The charts with anchors.
+    pub charts: Vec<ChartEditReport>,
+}
+
+/// Report on an edited chart.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ChartEditReport {
+    /// Its number among the charts of the document, in the order of their first faces.
+    pub chart: u32,
+    /// Number of its faces that were flipped or empty and had to be untangled first.
+    pub untangled: usize,
+    /// Quality of the map; the certificate is about the bytes written.
+    #[serde(flatten)]
+    pub map: PullReport,
+}
+
+/// Returns the worst completion of all charts, with its warning.
+pub(super) fn completion(edited: &EditedUvs) -> (Completion, Option<Warning>) {
+    let summaries = || edited.charts.iter().map(|chart| &chart.summary);
+    let worst = summaries().max_by_key(|summary| Completion::of(summary.status));
+    let Some(status) = worst.map(|summary| summary.status) else {
+        return (Completion::Complete, None);
+    };
+    let completion = Completion::of(status);
+    let of_worst = summaries().filter(|summary| Completion::of(summary.status) == completion);
+    let mut unreached: Vec<Unreached> = of_worst.flat_map(|s| s.unreached.clone()).collect();
+    unreached.sort_by_key(|anchor| anchor.handle);
+    (completion, completion.warning(status, &unreached))
 }

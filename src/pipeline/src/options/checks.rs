@@ -1,39 +1,64 @@
-//! Rejection of options that would have no effect, contrary to their user's expectation.
+//! Checks of options: ranges, and rejection of options that would have no effect, contrary to their user's expectation.
 
-use super::{Course, KeptMaps, Options, Preset, Pulling};
-use crate::rebake::ImageFormat;
-use unwrapd_deform::{Method, Model};
+use super::ImageFormat;
+use super::{KeptMaps, Options, Preset};
+use crate::Caller;
+use crate::CommandOptions;
+use crate::PipelineError;
+use crate::TexelWeight;
+use crate::settings::check_mips;
+use unwrapd_api::options::OptionSet;
+use unwrapd_deform::Model;
 use unwrapd_files::document::{GroupBy, OutputFormat};
 use unwrapd_layout::charts::Cut;
 use unwrapd_method::barrier::BarrierKind;
 
-/// Name of an option, its requirement, and whether it is given without effect.
-type Idle = (&'static str, &'static str, bool);
+impl Options {
+    fn validate(&self) -> Result<(), String> {
+        // Before the ranges: that of the padding depends on the resolution.
+        self.layout.check()?;
+        self.check_ranges()?;
+        check_mips(self.layout.padding, self.mips(), self.layout.resolution)?;
+        self.settings().validate()?;
+        check(self)?;
+        self.texel_weight.iter().try_for_each(TexelWeight::check)?;
+        if self.cutting.cut == Cut::Seams && self.seams.is_none() {
+            return Err("`cut` seams requires `seams`".to_owned());
+        }
+        let is_one_square = self.layout.pages == 1 && self.layout.resolution.aspect() == 1.0;
+        if self.baking.rebake && !is_one_square {
+            return Err(
+                "`rebake` makes one square texture: it requires `pages` 1 and a square `resolution`"
+                    .to_owned(),
+            );
+        }
+        Ok(())
+    }
+}
 
-fn refused(all: impl IntoIterator<Item = Idle>) -> Result<(), String> {
+impl CommandOptions for Options {
+    fn check(&self) -> Result<(), PipelineError> {
+        self.validate().map_err(PipelineError::InvalidOptions)
+    }
+
+    fn caller_mut(&mut self) -> &mut Caller {
+        &mut self.caller
+    }
+}
+
+/// Name of an option, its requirement, and whether it is given without effect.
+pub(super) type Idle = (&'static str, &'static str, bool);
+
+pub(super) fn refused(all: impl IntoIterator<Item = Idle>) -> Result<(), String> {
     match all.into_iter().find(|(.., is_idle)| *is_idle) {
         Some((name, with, _)) => Err(format!("`{name}` requires {with}")),
         None => Ok(()),
     }
 }
 
-/// Rejects options of the projected method if another method solves.
-pub(super) fn check_method(
-    course: &Course,
-    pulling: Pulling,
-    method: Method,
-) -> Result<(), String> {
-    let is_other = method != Method::Projected;
-    let with = "`method` projected";
-    refused([
-        ("search", with, pulling.search && is_other),
-        ("tolerance", with, course.tolerance.is_some() && is_other),
-    ])
-}
-
 /// Rejects options of unwrapping that the other options leave without effect. An option with its default value counts
 /// as absent.
-pub(crate) fn check(options: &Options) -> Result<(), String> {
+fn check(options: &Options) -> Result<(), String> {
     let default = Options::default();
     let is_auto = options.cutting.cut == Cut::Auto && options.mapping.barrier != BarrierKind::None;
     let is_kept = options.cutting.cut == Cut::Keep;

@@ -1,0 +1,298 @@
+//! Documents prepared for unwrapping.
+
+use crate::arrays::plan::Plan;
+use crate::arrays::seams::Seams;
+use crate::arrays::soup::{Part, Soup};
+use crate::options::TexelWeight;
+use crate::options::{GivenSeams, NamedSeams, Options, check_grouping};
+use crate::{PipelineError, limits};
+use std::collections::BTreeMap;
+use std::collections::HashMap;
+use unwrapd_files::document::{
+    Document, DocumentError, Group, GroupBy, OldUvs, OutputFormat, Primitive, Upload,
+};
+use unwrapd_maps::mesh::{CornerUvs, Resolution, VAxis};
+
+/// A document in the form in which it is written.
+pub struct Prepared {
+    pub document: Document,
+    /// Meshes that share one atlas.
+    pub group_by: GroupBy,
+    /// Options, with seams in the numbering of the document.
+    pub seams: Options,
+    /// Origins of vertices and faces in the file.
+    pub origins: Origins,
+    /// Texture for which kept UVs were made, if the file states it.
+    pub texture: Option<Resolution>,
+}
+
+/// Original numbers of vertices and faces over all primitives of a document; `None` if they are unchanged.
+pub struct Origins {
+    pub vertices: Option<Vec<u32>>,
+    pub faces: Option<Vec<u32>>,
+}
+
+impl Prepared {
+    /// Reads a document, and rejects options that it cannot be written with before any work is done.
+    pub fn read(upload: &Upload, options: &Options, plan: &Plan) -> Result<Self, PipelineError> {
+        let document = Document::read(upload)?;
+        limits::check(&options.caller.limits, &document)?;
+        // Choose the grouping, and reject what cannot be written.
+        let group_by = match options.format {
+            // An OBJ file has one UV space, whatever was asked for.
+            OutputFormat::Obj => GroupBy::Scene,
+            OutputFormat::Glb | OutputFormat::Gltf => {
+                options.group_by.unwrap_or(document.grouping())
+            }
+        };
+        check_grouping(options, Some(group_by)).map_err(PipelineError::InvalidOptions)?;
+        if options.baking.rebake && !can_rebake(&document, options.format) {
+            let what =
+                "new textures for an OBJ file from another format than glTF: write .glb or .gltf";
+            return Err(DocumentError::UnsupportedOutput(what.to_owned()).into());
+        }
+        // Convert the document to the form of the output.
+        let old_uvs = if plan.reads_uvs() {
+            OldUvs::Kept
+        } else {
+            OldUvs::Sampled
+        };
+        check_edges(document.primitives(), options)?;
+        let texture = document.texture_of(options.sets.source());
+        let conversion = document.for_output(options.format, old_uvs)?;
+        // Renumber the given seams if vertices have changed their numbers.
+        let mut seams = options.clone();
+        if let (Some(GivenSeams::Edges(edges)), Some(vertices)) =
+            (&options.seams, &conversion.vertices)
+        {
+            let primitives = conversion.document.primitives();
+            let edges = renumbered(edges, vertices, primitives);
+            seams.seams = Some(GivenSeams::Edges(edges));
+        }
+        Ok(Self {
+            document: options.nodes().prepared(conversion.document)?,
+            group_by,
+            seams,
+            origins: Origins {
+                vertices: conversion.vertices,
+                faces: conversion.faces,
+            },
+            texture,
+        })
+    }
+}
+
+fn can_rebake(document: &Document, format: OutputFormat) -> bool {
+    matches!(document, Document::Gltf(_)) || format != OutputFormat::Obj
+}
+
+/// Renumbers [checked](check_edges) edges of a file for each primitive that now contains them. `vertices` are the
+/// original numbers of the vertices of all primitives.
+fn renumbered(edges: &[[u32; 2]], vertices: &[u32], primitives: &[Primitive]) -> Vec<[u32; 2]> {
+    // Copies of a vertex lie in one place, so the first in each primitive is enough.
+    let mut numbers: HashMap<u32, Vec<(usize, u32)>> = edges
+        .as_flattened()
+        .iter()
+        .map(|&v| (v, Vec::new()))
+        .collect();
+    let sizes = primitives.iter().map(|primitive| primitive.positions.len());
+    let owners = sizes
+        .enumerate()
+        .flat_map(|(index, n)| std::iter::repeat_n(index, n));
+    for ((number, vertex), owner) in (0..).zip(vertices).zip(owners) {
+        if let Some(numbers) = numbers.get_mut(vertex)
+            && numbers.last().is_none_or(|(last, _)| *last != owner)
+        {
+            numbers.push((owner, number));
+        }
+    }
+    let mut inside = Vec::new();
+    for [a, b] in edges {
+        let others: HashMap<usize, u32> = numbers[b].iter().copied().collect();
+        let both = numbers[a]
+            .iter()
+            .filter_map(|(owner, a)| Some([*a, *others.get(owner)?]));
+        inside.extend(both);
+    }
+    inside
+}
+
+// The primitives of a group as one mesh.
+
+/// The primitives of a group as one mesh.
+pub struct Merged {
+    pub positions: Vec<[f64; 3]>,
+    pub triangles: Vec<[u32; 3]>,
+    pub seams: Seams,
+    /// Meshes that it was merged from.
+    pub parts: Vec<Part>,
+}
+
+impl Merged {
+    pub fn new(primitives: &[Primitive], group: &Group) -> Self {
+        Self::of(group.primitives.iter().map(|&index| &primitives[index]))
+    }
+
+    fn of<'a>(primitives: impl Iterator<Item = &'a Primitive>) -> Self {
+        let mut merged = Self {
+            positions: Vec::new(),
+            triangles: Vec::new(),
+            seams: Seams::default(),
+            parts: Vec::new(),
+        };
+        let mut last = None;
+        for primitive in primitives {
+            let first = merged.positions.len() as u32;
+            let first_face = merged.triangles.len() as u32;
+            let positions = primitive.positions.iter();
+            (merged.positions).extend(positions.map(|p| p.map(f64::from)));
+            let triangles = primitive.triangles.iter();
+            merged
+                .triangles
+                .extend(triangles.map(|t| t.map(|v| v + first)));
+            // Begin a part where the mesh changes; its primitives extend it.
+            if last.replace(primitive.mesh) != Some(primitive.mesh) {
+                merged.parts.push(Part {
+                    vertices: first..first,
+                    faces: first_face..first_face,
+                });
+            }
+            if let Some(part) = merged.parts.last_mut() {
+                part.vertices.end = merged.positions.len() as u32;
+                part.faces.end = merged.triangles.len() as u32;
+            }
+        }
+        merged
+    }
+
+    /// Merges a group and adds the seams that the options request. Seam edges must have been [checked](check_edges);
+    /// `primitives` are those of the document, in any space.
+    pub fn with_seams(
+        document: &Document,
+        primitives: &[Primitive],
+        group: &Group,
+        options: &Options,
+        plan: &Plan,
+    ) -> Result<Self, PipelineError> {
+        let mut merged = Self::new(primitives, group);
+        if plan.reads_uvs() {
+            merged.seams.uvs = Some(corner_uvs(document, group, options.sets.source())?);
+        }
+        if options.material_borders {
+            let labels = group.primitives.iter().flat_map(|&index| {
+                let primitive = &primitives[index];
+                let label = primitive.material.map_or(0, |material| 1 + material as u32);
+                std::iter::repeat_n(label, primitive.triangles.len())
+            });
+            merged.seams.labels = Some(labels.collect());
+        }
+        if !options.texel_weight.is_empty() {
+            let weights = face_weights(document, primitives, group, &options.texel_weight);
+            merged.seams.weights = Some(weights?);
+        }
+        match &options.seams {
+            Some(GivenSeams::Named(NamedSeams::Normals)) => {
+                merged.seams.normals = Some(corner_normals(document, group)?);
+            }
+            Some(GivenSeams::Edges(edges)) => {
+                merged.seams.edges = Some(edges_of_group(primitives, group, edges));
+            }
+            None => {}
+        }
+        Ok(merged)
+    }
+
+    pub fn soup(&self) -> Soup<'_> {
+        Soup {
+            positions: &self.positions,
+            triangles: &self.triangles,
+            seams: &self.seams,
+            parts: &self.parts,
+        }
+    }
+}
+
+/// Returns the UVs of a group with v up.
+pub fn corner_uvs(
+    document: &Document,
+    group: &Group,
+    texcoord: u32,
+) -> Result<Vec<CornerUvs>, PipelineError> {
+    let mut all = Vec::new();
+    for &index in &group.primitives {
+        let uvs = document.corner_uvs(index, texcoord)?;
+        all.extend(uvs.ok_or_else(|| PipelineError::NoUvs {
+            group: group.label.clone(),
+            texcoord,
+        })?);
+    }
+    if document.v_axis() == VAxis::Down {
+        for uv in all.as_flattened_mut() {
+            uv[1] = 1.0 - uv[1];
+        }
+    }
+    Ok(all)
+}
+
+fn corner_normals(document: &Document, group: &Group) -> Result<Vec<[[f64; 3]; 3]>, PipelineError> {
+    let mut all = Vec::new();
+    for &index in &group.primitives {
+        all.extend(
+            document
+                .corner_normals(index)?
+                .ok_or_else(|| PipelineError::Seams(format!("{} has no normals", group.label)))?,
+        );
+    }
+    Ok(all)
+}
+
+/// Checks the edges that options name, which count vertices over all primitives.
+pub fn check_edges(primitives: &[Primitive], options: &Options) -> Result<(), PipelineError> {
+    let Some(GivenSeams::Edges(edges)) = &options.seams else {
+        return Ok(());
+    };
+    let whole = Merged::of(primitives.iter());
+    Seams::check_edges(edges, &whole.positions, &whole.triangles)
+}
+
+/// Selects the edges within a group from edges between vertices of the file, in the group's numbering.
+fn edges_of_group(primitives: &[Primitive], group: &Group, edges: &[[u32; 2]]) -> Vec<[u32; 2]> {
+    let mut local = Vec::new();
+    let mut next = 0;
+    for (index, primitive) in primitives.iter().enumerate() {
+        let is_inside = group.primitives.contains(&index);
+        for _ in &primitive.positions {
+            local.push(is_inside.then_some(next));
+            next += u32::from(is_inside);
+        }
+    }
+    let number = |v: u32| local.get(v as usize).copied().flatten();
+    edges
+        .iter()
+        .filter_map(|&[a, b]: &[u32; 2]| Some([number(a)?, number(b)?]))
+        .collect()
+}
+
+/// Returns the weight of every face of a group. If a material is named twice, the last weight counts.
+pub fn face_weights(
+    document: &Document,
+    primitives: &[Primitive],
+    group: &Group,
+    weights: &[TexelWeight],
+) -> Result<Vec<f64>, PipelineError> {
+    let mut of_material = BTreeMap::new();
+    for TexelWeight { material, weight } in weights {
+        let index = document
+            .material(material)
+            .ok_or_else(|| PipelineError::UnknownMaterial(material.clone()))?;
+        of_material.insert(index, *weight);
+    }
+    let of_primitive = |primitive: &Primitive| {
+        let weight = primitive.material.and_then(|m| of_material.get(&m));
+        std::iter::repeat_n(weight.copied().unwrap_or(1.0), primitive.triangles.len())
+    };
+    let group = group.primitives.iter();
+    Ok(group
+        .flat_map(|&index| of_primitive(&primitives[index]))
+        .collect())
+}

@@ -1,4 +1,0 @@
-//! Editing of a document's UVs by anchors.
-
-pub(super) mod report;
-pub(super) mod uvs;

@@ -1,0 +1,407 @@
+//! Resampling of a document's textures for its new UVs.
+
+use crate::PipelineError;
+use crate::options::{MOST_SIDE, Options};
+use crate::tracker::Tracker;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use unwrapd_api::Stage;
+use unwrapd_files::bake::{
+    Coverage, Frames, MOST_TEXELS, Plane, Sampled, Texture, baked, side_for,
+};
+use unwrapd_files::document::gltf::{GltfDocument, tangents};
+use unwrapd_files::document::{
+    BakePlan, BakePlane, BakedTextures, CornerTangents, Document, DocumentError, Encoding, Group,
+    NewUvs, TextureSource, Warning,
+};
+use unwrapd_files::picture::Image;
+use unwrapd_maps::mesh::VAxis;
+
+/// Minimum distance of charts in texels at which bilinear filtering does not mix them.
+const FILTER_TEXELS: f64 = 2.0;
+
+/// Resamples all textures that can be read and are understood for `uvs`, v up. Enters the stage only if there are
+/// any.
+pub(super) fn rebaked(
+    document: &Document,
+    groups: &[Group],
+    uvs: &NewUvs,
+    options: &Options,
+    tracker: &Tracker,
+) -> Result<BakedTextures, PipelineError> {
+    let Document::Gltf(document) = document else {
+        let what = "new textures for another format than glTF".to_owned();
+        return Err(DocumentError::UnsupportedOutput(what).into());
+    };
+    // Plan as if every image were readable; without anything to do, there is no stage.
+    let hoped = document.bake_plan(groups, &BTreeMap::new())?;
+    if hoped.planes.is_empty() && hoped.kept.is_empty() {
+        return Ok(BakedTextures {
+            has_colors_only: document.has_vertex_colors(),
+            plan: hoped,
+            files: Vec::new(),
+            tangents: vec![None; document.primitives().len()],
+        });
+    }
+    // Read the images, and plan again with those that can be read.
+    tracker.stage(Stage::Bake);
+    let (images, unreadable) = read_images(document, &hoped.planes)?;
+    let plan = document.bake_plan(groups, &unreadable)?;
+    let surfaces: Vec<Surface> = (0..document.primitives().len())
+        .into_par_iter()
+        .map(|index| Surface::new(document, index, uvs, plan.is_normal_mapped(index)))
+        .collect::<Result<_, _>>()?;
+    let bake = Bake {
+        document,
+        images: &images,
+        surfaces: &surfaces,
+    };
+    let files = files(&bake, &plan, groups, options)?;
+    Ok(BakedTextures {
+        has_colors_only: plan.planes.is_empty() && document.has_vertex_colors(),
+        plan,
+        files,
+        tangents: (surfaces.into_iter())
+            .map(Surface::written_tangents)
+            .collect(),
+    })
+}
+
+/// Returns the side and the file of each texture of a plan. Resamples nothing if they would have too many texels in
+/// total.
+fn files(
+    bake: &Bake,
+    plan: &BakePlan,
+    groups: &[Group],
+    options: &Options,
+) -> Result<Vec<(u32, Vec<u8>)>, DocumentError> {
+    let sides = sides(bake, plan, groups, options)?;
+    let mut files = Vec::new();
+    // Textures of one group often have one size.
+    let mut last: Option<((usize, u32), Coverage)> = None;
+    for (wanted, side) in plan.planes.iter().zip(sides) {
+        let members = &groups[wanted.group].primitives;
+        let plane = bake.plane(wanted, members)?;
+        let key = (wanted.group, side);
+        let known = last.take().filter(|(known, _)| *known == key);
+        let (_, coverage) = last.insert(
+            known.unwrap_or_else(|| (key, Coverage::new(&bake.faces(members), side as usize))),
+        );
+        let image = baked(&plane, coverage);
+        let file = options
+            .baking
+            .image_format
+            .file(bake.document, wanted, &image)?;
+        files.push((side, file));
+    }
+    Ok(files)
+}
+
+/// Returns the side of each texture of a plan: as requested, or fine enough for its sources.
+fn sides(
+    bake: &Bake,
+    plan: &BakePlan,
+    groups: &[Group],
+    options: &Options,
+) -> Result<Vec<u32>, DocumentError> {
+    let least = options
+        .baking
+        .bake_size
+        .unwrap_or(options.layout.resolution.longer().min(MOST_SIDE));
+    check_texels(u64::from(least).pow(2) * plan.planes.len() as u64)?;
+    if options.baking.bake_size.is_some() {
+        return Ok(vec![least; plan.planes.len()]);
+    }
+    let (mut sides, mut texels) = (Vec::new(), 0);
+    for wanted in &plan.planes {
+        let members = &groups[wanted.group].primitives;
+        let side = least.max(side_for(
+            &bake.plane(wanted, members)?,
+            &bake.faces(members),
+        ));
+        texels += u64::from(side).pow(2);
+        check_texels(texels)?;
+        sides.push(side);
+    }
+    Ok(sides)
+}
+
+/// Warns if there was nothing to resample, and of textures whose charts are so close that bilinear filtering at the
+/// border of one reads texels of another.
+pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning> {
+    // Find the textures in which charts come too near.
+    let mut sides: Vec<u32> = baked.files.iter().map(|(side, _)| *side).collect();
+    sides.sort_unstable();
+    sides.dedup();
+    let texels = f64::from(options.settings().layout.padding)
+        / f64::from(options.layout.resolution.longer());
+    let gap = |side: u32| texels * f64::from(side);
+    let near = sides.into_iter().filter(|side| gap(*side) < FILTER_TEXELS);
+    let near = near.map(|side| {
+        let gap = gap(side);
+        let message = format!(
+            "charts are {gap:.2} texels apart in textures of {side}, so filtering mixes them: use more padding"
+        );
+        Warning::new("charts_near", message)
+    });
+    // Say why nothing was resampled.
+    let nothing = baked.plan.planes.is_empty() && baked.plan.kept.is_empty();
+    let nothing = nothing.then(|| {
+        if baked.has_colors_only {
+            Warning::new(
+                "colors_kept",
+                "the model has colors at its vertices and no textures: they are not resampled",
+            )
+        } else {
+            Warning::new(
+                "nothing_to_resample",
+                "the model has no textures to resample",
+            )
+        }
+    });
+    near.chain(nothing).collect()
+}
+
+fn check_texels(texels: u64) -> Result<(), DocumentError> {
+    if texels <= MOST_TEXELS {
+        return Ok(());
+    }
+    let (most, wanted) = (MOST_TEXELS >> 20, texels >> 20);
+    Err(DocumentError::LimitExceeded(format!(
+        "the new textures would have {wanted} Mi texels or more; the limit is {most} Mi"
+    )))
+}
+
+// Sampling planes: sources of the texels of each group.
+
+/// Inputs of resampling.
+pub(super) struct Bake<'a> {
+    pub document: &'a GltfDocument,
+    pub images: &'a Images,
+    pub surfaces: &'a [Surface],
+}
+
+impl<'a> Bake<'a> {
+    /// Returns the new UVs of a group, v down.
+    pub fn faces(&self, members: &[usize]) -> Vec<[[f64; 2]; 3]> {
+        let all = members.iter().flat_map(|&index| &self.surfaces[index].uvs);
+        all.copied().collect()
+    }
+
+    /// Returns the sources of a group in one texture.
+    pub fn plane(&self, wanted: &BakePlane, members: &[usize]) -> Result<Plane<'a>, DocumentError> {
+        let mut plane = Plane {
+            encoding: wanted.encoding,
+            textures: Vec::new(),
+            faces: Vec::new(),
+            frames: None,
+        };
+        let mut frames = Frames {
+            normals: Vec::new(),
+            from: Vec::new(),
+            to: Vec::new(),
+        };
+        for &index in members {
+            let n_faces = self.surfaces[index].uvs.len();
+            // Primitives without this texture have empty faces.
+            let Some(source) = wanted.sources.get(&index) else {
+                plane.faces.extend(std::iter::repeat_n(None, n_faces));
+                frames.skip(n_faces);
+                continue;
+            };
+            let texture = Texture {
+                image: &self.images[&source.image],
+                encoding: wanted.encoding,
+                wrap: source.wrap,
+                is_nearest: wanted.is_nearest(),
+            };
+            // Append the places of its faces, with frames for a normal map.
+            let places = self.places(index, source)?;
+            if wanted.encoding == Encoding::Normal {
+                self.extend_frames(&mut frames, index, &places)?;
+            }
+            let (size, number) = (texture.size(), plane.textures.len() as u32);
+            plane.textures.push(texture);
+            plane.faces.extend(places.iter().map(|face| {
+                Some(Sampled {
+                    texture: number,
+                    corners: face.map(|[u, v]| [u * size[0], v * size[1]]),
+                })
+            }));
+        }
+        plane.frames = (wanted.encoding == Encoding::Normal).then_some(frames);
+        Ok(plane)
+    }
+
+    /// Returns the places of a primitive's corners in its image. Without UVs all are at (0, 0), as in renderers.
+    fn places(
+        &self,
+        index: usize,
+        source: &TextureSource,
+    ) -> Result<Vec<[[f64; 2]; 3]>, DocumentError> {
+        let uvs = self.document.corner_uvs(index, source.set)?;
+        let uvs = uvs.unwrap_or_else(|| vec![[[0.0; 2]; 3]; self.surfaces[index].uvs.len()]);
+        Ok(uvs
+            .iter()
+            .map(|face| face.map(|uv| source.place(uv)))
+            .collect())
+    }
+
+    fn extend_frames(
+        &self,
+        frames: &mut Frames,
+        index: usize,
+        places: &[[[f64; 2]; 3]],
+    ) -> Result<(), DocumentError> {
+        let Some(directions) = &self.surfaces[index].directions else {
+            return Ok(());
+        };
+        let from = if let Some(tangents) = self.document.corner_tangents(index)? {
+            tangents
+        } else {
+            let uvs: Vec<_> = places
+                .iter()
+                .map(|face| face.map(|[u, v]: [f64; 2]| [u as f32, (1.0 - v) as f32]))
+                .collect();
+            let primitive = &self.document.primitives()[index];
+            let found = tangents(primitive, &directions.normals, &uvs);
+            found.unwrap_or_else(|| directions.tangents.clone())
+        };
+        frames.from.extend(from);
+        frames.normals.extend(&directions.normals);
+        frames.to.extend(&directions.tangents);
+        Ok(())
+    }
+}
+
+// Primitives with their new UVs.
+
+/// A primitive with its new UVs.
+pub(super) struct Surface {
+    /// New UVs, v down.
+    pub uvs: Vec<[[f64; 2]; 3]>,
+    pub directions: Option<Directions>,
+}
+
+/// Reference frames of normal maps.
+pub(super) struct Directions {
+    pub normals: Vec<[[f32; 3]; 3]>,
+    pub tangents: Vec<CornerTangents>,
+    /// Set if the document has these normals. Otherwise they are those of the flat faces, and tangents are not
+    /// written.
+    are_given: bool,
+}
+
+impl Surface {
+    pub fn new(
+        document: &GltfDocument,
+        index: usize,
+        uvs: &NewUvs,
+        is_normal_mapped: bool,
+    ) -> Result<Self, DocumentError> {
+        let upward = uvs.toward(index, VAxis::Up).unwrap_or_default();
+        let directions = if is_normal_mapped {
+            Some(Directions::new(document, index, &upward)?)
+        } else {
+            None
+        };
+        Ok(Self {
+            uvs: upward
+                .iter()
+                .map(|face| face.map(|[u, v]: [f32; 2]| [f64::from(u), 1.0 - f64::from(v)]))
+                .collect(),
+            directions,
+        })
+    }
+
+    /// Returns the tangents to write to the document.
+    pub fn written_tangents(self) -> Option<Vec<CornerTangents>> {
+        let directions = self.directions.filter(|directions| directions.are_given);
+        directions.map(|directions| directions.tangents)
+    }
+}
+
+impl Directions {
+    fn new(
+        document: &GltfDocument,
+        index: usize,
+        uvs: &[[[f32; 2]; 3]],
+    ) -> Result<Self, DocumentError> {
+        let primitive = &document.primitives()[index];
+        let given = document.corner_normals(index)?;
+        let are_given = given.is_some();
+        let normals: Vec<_> = match given {
+            Some(normals) => normals
+                .into_iter()
+                .map(|face: [[f64; 3]; 3]| face.map(|n| n.map(|x| x as f32)))
+                .collect(),
+            None => (primitive.triangles.iter())
+                .map(|face| [flat_normal(face.map(|v| primitive.positions[v as usize])); 3])
+                .collect(),
+        };
+        let tangents = tangents(primitive, &normals, uvs);
+        Ok(Self {
+            tangents: tangents.unwrap_or_else(|| vec![[[1.0, 0.0, 0.0, 1.0]; 3]; uvs.len()]),
+            normals,
+            are_given,
+        })
+    }
+}
+
+/// Returns the unit normal of a flat face; zero if the face is degenerate.
+fn flat_normal([a, b, c]: [[f32; 3]; 3]) -> [f32; 3] {
+    let (e, f) = (
+        [0, 1, 2].map(|k| b[k] - a[k]),
+        [0, 1, 2].map(|k| c[k] - a[k]),
+    );
+    let normal = [
+        e[1] * f[2] - e[2] * f[1],
+        e[2] * f[0] - e[0] * f[2],
+        e[0] * f[1] - e[1] * f[0],
+    ];
+    let length = normal.iter().map(|x| x * x).sum::<f32>().sqrt();
+    normal.map(|x| x / length.max(f32::MIN_POSITIVE))
+}
+
+// Source images of textures.
+
+/// Maximum number of pixels of all images together: a gigabyte at four bytes each.
+const MOST_PIXELS: usize = 1 << 28;
+
+/// Images by index.
+type Images = BTreeMap<usize, Image>;
+
+/// Decodes the images that are sampled. Returns them, and the reasons why others cannot be read.
+fn read_images(
+    document: &GltfDocument,
+    planes: &[BakePlane],
+) -> Result<(Images, BTreeMap<usize, String>), DocumentError> {
+    // List the images that are sampled, each once.
+    let sources = planes.iter().flat_map(|plane| plane.sources.values());
+    let mut indices: Vec<usize> = sources.map(|source| source.image).collect();
+    indices.sort_unstable();
+    indices.dedup();
+    let (mut images, mut unreadable) = (Images::new(), BTreeMap::new());
+    let mut pixels = 0;
+    // Decode them; stop once they have too many pixels together.
+    for index in indices {
+        let decoded = match document.image(index) {
+            Ok(bytes) => Image::decode(&bytes).map_err(|error| error.to_string()),
+            Err(error) => Err(error.to_string()),
+        };
+        match decoded {
+            Ok(image) => {
+                pixels += image.pixels.len();
+                images.insert(index, image);
+            }
+            Err(reason) => drop(unreadable.insert(index, reason)),
+        }
+        if pixels > MOST_PIXELS {
+            let most = MOST_PIXELS >> 20;
+            return Err(DocumentError::LimitExceeded(format!(
+                "the images have more than {most} Mi pixels"
+            )));
+        }
+    }
+    Ok((images, unreadable))
+}
