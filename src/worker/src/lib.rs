@@ -7,19 +7,11 @@
 //! killed server leaves no orphans.
 
 mod attempt;
-mod catalog;
-mod drawing;
-mod estimator;
-mod frames;
-mod map_frame;
 mod maps;
-mod quality;
 mod reporter;
 pub mod session;
 mod work;
 
 pub use attempt::{draw, run as compute};
-pub use catalog::Computations;
-pub use estimator::Estimator;
-pub use quality::quality_of;
-pub use work::Work;
+pub use reporter::Estimator;
+pub use work::{Computations, Work, quality_of};
