@@ -20,7 +20,11 @@ fn main() {
         println!(
             "primitive {number}: {} triangles, {}",
             primitive.triangles.len(),
-            if mapped.is_some() { "with UVs" } else { "without UVs" }
+            if mapped.is_some() {
+                "with UVs"
+            } else {
+                "without UVs"
+            }
         );
     }
 }

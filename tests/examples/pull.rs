@@ -19,7 +19,9 @@ fn main() {
     // Hold the left end, and drag a corner of the right end.
     for vertex in [0, 1] {
         let to = vec![0.0, f64::from(vertex)];
-        session.add(Handle::Vertex { vertex, to }).expect("a handle");
+        session
+            .add(Handle::Vertex { vertex, to })
+            .expect("a handle");
     }
     let corner = Handle::Vertex {
         vertex: 21,

@@ -1,8 +1,8 @@
 //! Calls of the library from JavaScript: cancellation, progress and errors.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::{Arc, Mutex, PoisonError};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::panicking;
 use std::time::{Duration, Instant};
 
