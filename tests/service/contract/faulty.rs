@@ -12,7 +12,7 @@ use futures_util::future::{BoxFuture, pending};
 use tokio::sync::Notify;
 use unwrapd::jobs::access::Visibility;
 use unwrapd::jobs::{
-    BlobContent, Blobs, Capacity, Census, Changed, Enqueued, Event, Heartbeat, IdempotencyKey, Job,
+    Blobs, Capacity, Census, Changed, Content, Enqueued, Event, Heartbeat, IdempotencyKey, Job,
     JobId, JobStore, Listing, Quarantined, Queue, Reason, Share, StoreError, StoreId, StoreResult,
     Sweep, Timestamp, Transition, WorkerId,
 };
@@ -272,11 +272,7 @@ impl Blobs for Faulty<Box<dyn Blobs>> {
         self.fault.call("fetch", self.inner.fetch(key, to))
     }
 
-    fn read<'a>(
-        &'a self,
-        key: &'a str,
-        range: Range<u64>,
-    ) -> BoxFuture<'a, StoreResult<BlobContent>> {
+    fn read<'a>(&'a self, key: &'a str, range: Range<u64>) -> BoxFuture<'a, StoreResult<Content>> {
         self.inner.read(key, range)
     }
 
