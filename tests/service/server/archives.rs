@@ -1,10 +1,12 @@
 //! Inputs and results as one ZIP.
 
 use std::io::{Cursor, Read, Write};
+use std::sync::Arc;
 
 use reqwest::Response;
 use reqwest::multipart::{Form, Part};
 use serde_json::{Value, json as object};
+use unwrapd::http::Crowds;
 use zip::write::SimpleFileOptions;
 use zip::{ZipArchive, ZipWriter};
 
@@ -168,6 +170,18 @@ async fn an_owner_receives_only_so_many_archives_at_a_time() {
     while asked().await.status() != 200 {
         tokio::task::yield_now().await;
     }
+}
+
+/// Keys that are always rejected must not fill the memory of the service.
+#[test]
+fn a_limit_of_zero_leaves_nothing_of_a_rejected_key() {
+    let crowds = Arc::new(Crowds::default());
+    assert!(Crowds::enter(&crowds, "a", Some(0)).is_none());
+    assert!(crowds.is_empty());
+    let seat = Crowds::enter(&crowds, "a", Some(1));
+    assert!(seat.is_some() && Crowds::enter(&crowds, "a", Some(1)).is_none());
+    drop(seat);
+    assert!(crowds.is_empty());
 }
 
 /// What an input does not refer to is not kept: zeros pack well.

@@ -1,20 +1,22 @@
-//! Authentication of requests by a key, in a header or in the cookie of a signed-in page.
+//! Authentication of requests by a key, in a header or in the cookie of a signed-in page; scopes; signing in.
 
 use std::sync::Arc;
 
+use axum::Json;
 use axum::extract::{FromRequestParts, MatchedPath, Request, State};
 use axum::http::request::Parts;
-use axum::http::{HeaderMap, header};
+use axum::http::{HeaderMap, HeaderValue, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+use serde::Serialize;
 
 use super::app::{App, Shared};
 use super::connections::Peer;
+use super::limits::Standing;
 use super::problem::{Code, Problem};
-use super::scopes::needed;
 use super::upload::drain_refused;
-use super::windows::Standing;
-use crate::jobs::access::{Caller, Denied, Scope};
+use crate::jobs::Timestamp;
+use crate::jobs::access::{Caller, Denied, Scope, Scopes, Signed};
 
 /// Name of the cookie of signed-in pages.
 pub(super) const COOKIE: &str = "unwrapd-key";
@@ -110,12 +112,12 @@ fn wrong_key(app: &App, peer: Option<Peer>) -> Problem {
 
 /// Returns the key of a request: the bearer token, or else the cookie.
 fn key(headers: &HeaderMap) -> Option<&str> {
-    let scheme = |text: &'_ str| text.get(..7).map(str::to_ascii_lowercase);
     let given = headers.get(header::AUTHORIZATION);
     let bearer = given
         .and_then(|value| value.to_str().ok())
-        .filter(|text| scheme(text).as_deref() == Some("bearer "))
-        .map(|text| text[7..].trim());
+        .and_then(|text| text.split_at_checked(7))
+        .filter(|(scheme, _)| scheme.eq_ignore_ascii_case("bearer "))
+        .map(|(_, key)| key.trim());
     let cookies = headers.get_all(header::COOKIE).iter();
     let mut cookies = cookies
         .filter_map(|value| value.to_str().ok())
@@ -146,4 +148,123 @@ impl FromRequestParts<Arc<App>> for Caller {
         let caller = parts.extensions.get::<Self>().cloned();
         caller.ok_or_else(|| Problem::internal(&"an open route asks who calls"))
     }
+}
+
+// Scopes required by operations: reading needs `read`, anything else `write`.
+
+/// Path of operations for any key, which concern the key itself.
+const OF_ANY_KEY: &str = "/v1/sign-in";
+/// Path of an operation that changes something although its method is GET.
+const WRITTEN: &str = "/v1/sessions/{id}/live";
+/// Paths of operations on things that belong to no owner, which need `admin`.
+const OF_ALL: [&str; 3] = ["/v1/drain", "/v1/pause", "/metrics"];
+
+/// Returns the scopes that an operation requires.
+pub(super) fn needed(method: &Method, path: &str) -> Vec<Scope> {
+    if path == OF_ANY_KEY {
+        return Vec::new();
+    }
+    let is_reading = [Method::GET, Method::HEAD].contains(method) && path != WRITTEN;
+    let verb = if is_reading {
+        Scope::Read
+    } else {
+        Scope::Write
+    };
+    let admin = OF_ALL.contains(&path).then_some(Scope::Admin);
+    std::iter::once(verb).chain(admin).collect()
+}
+
+// Sign-in of pages: browsers send no header with a WebSocket or an image, but they send cookies.
+
+/// Identity and permissions of the caller.
+#[derive(Serialize, utoipa::ToSchema)]
+#[schema(as = Caller)]
+pub(super) struct CallerView {
+    /// Owner of what the caller makes; null for a caller without a key.
+    owner: Option<String>,
+    /// Permissions of the caller: `read`, `write`, `admin`.
+    #[schema(value_type = Vec<Scope>)]
+    scopes: Scopes,
+    /// `true` if the caller is a page that signed in.
+    signed_in: bool,
+    /// Time after which the key is refused; null if it has no end.
+    #[schema(value_type = Option<String>, format = DateTime)]
+    expires_at: Option<Timestamp>,
+}
+
+/// Check who calls.
+#[utoipa::path(
+    get, path = "/v1/sign-in", operation_id = "getCaller", tag = "access",
+    responses((status = 200, description = "The caller", body = CallerView))
+)]
+pub(super) async fn get_caller(caller: Caller) -> Json<CallerView> {
+    let key = caller.key();
+    Json(CallerView {
+        owner: caller.owner().name().map(str::to_owned),
+        scopes: caller.scopes().clone(),
+        signed_in: key.is_some_and(|key| key.parent.is_some()),
+        expires_at: key.and_then(|key| key.expires),
+    })
+}
+
+/// Sign a page in.
+///
+/// The answer sets a cookie for the calls of this browser. It stands for the key of the request for
+/// 12 hours at most, and ends with it. Scripts cannot read it, other sites cannot use it, and the key
+/// is not in it.
+#[utoipa::path(
+    post, path = "/v1/sign-in", operation_id = "signIn", tag = "access",
+    responses(
+        (status = 204, description = "The cookie is set", headers(("Set-Cookie" = String, description = "The cookie"))),
+        (status = 409, description = "`no_keys`", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn sign_in(
+    State(app): Shared,
+    caller: Caller,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    let Some(Signed { text, life }) = app.keys.sign_in(&caller).await? else {
+        return Err(Problem::new(Code::NoKeys, "every call is answered"));
+    };
+    answer(&text.reveal(), life.as_secs(), &headers)
+}
+
+/// Sign a page out.
+///
+/// The cookie is removed and refused from now on. The key that signed in stays valid.
+#[utoipa::path(
+    delete, path = "/v1/sign-in", operation_id = "signOut", tag = "access",
+    responses((status = 204, description = "The cookie is removed", headers(("Set-Cookie" = String, description = "An empty cookie")))),
+)]
+pub(super) async fn sign_out(
+    State(app): Shared,
+    caller: Caller,
+    headers: HeaderMap,
+) -> Result<Response, Problem> {
+    app.keys.sign_out(&caller).await?;
+    answer("", 0, &headers)
+}
+
+/// Sets the cookie. It has no path, so browsers send it to all paths beside this one, whatever prefix a proxy adds.
+fn answer(value: &str, seconds: u64, headers: &HeaderMap) -> Result<Response, Problem> {
+    let secure = if is_encrypted(headers) {
+        "; Secure"
+    } else {
+        ""
+    };
+    let cookie = format!("{COOKIE}={value}; HttpOnly; SameSite=Strict; Max-Age={seconds}{secure}");
+    let mut cookie = HeaderValue::from_str(&cookie).map_err(|error| Problem::internal(&error))?;
+    cookie.set_sensitive(true);
+    Ok((StatusCode::NO_CONTENT, [(header::SET_COOKIE, cookie)]).into_response())
+}
+
+/// Returns whether the browser reaches the service over TLS, as the headers of browser or proxy tell.
+fn is_encrypted(headers: &HeaderMap) -> bool {
+    [("origin", "https://"), ("x-forwarded-proto", "https")]
+        .into_iter()
+        .any(|(name, start)| {
+            let value = headers.get(name).and_then(|value| value.to_str().ok());
+            value.is_some_and(|value| value.starts_with(start))
+        })
 }

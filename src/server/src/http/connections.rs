@@ -1,13 +1,17 @@
-//! Connections: their number, timeouts and shutdown.
+//! Connections: their number, timeouts, shutdown and metrics.
 //!
 //! A silent peer loses its connection: without headers, between two requests, or within a body in either direction.
 //! Until then it keeps its slot, and others wait when all slots are taken. A limit per address keeps a single address
 //! from taking all of them.
 
-use super::counted::Counted;
-use super::crowds::{Crowds, Seat};
-use super::problem::{Code, Problem};
-use super::settings::Connections;
+use std::collections::VecDeque;
+use std::io::{self, Error, ErrorKind};
+use std::net::{IpAddr, SocketAddr};
+use std::pin::{Pin, pin};
+use std::sync::Arc;
+use std::task::{Context, Poll};
+use std::time::Duration;
+
 use axum::Router;
 use hyper::Request;
 use hyper::body::Incoming;
@@ -15,20 +19,39 @@ use hyper::server::conn::http1::Builder;
 use hyper::service::{Service, service_fn};
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
-use std::collections::VecDeque;
-use std::io;
-use std::io::{Error, ErrorKind};
-use std::net::{IpAddr, SocketAddr};
-use std::pin::{Pin, pin};
-use std::sync::Arc;
-use std::task::{Context, Poll};
-use std::time::Duration;
+use metrics::{counter, describe_counter, gauge};
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio_io_timeout::TimeoutStream;
 use tokio_util::sync::CancellationToken;
 use tokio_util::task::{AbortOnDropHandle, TaskTracker};
+
+use super::limits::{Crowds, Seat};
+use super::problem::{Code, Problem};
+
+/// Limits of connections.
+#[derive(Clone, Debug)]
+pub struct Connections {
+    /// Maximum number of connections. Others wait until one of them ends.
+    pub most: usize,
+    /// Maximum number of connections per address. Others are refused.
+    pub most_of_address: Option<usize>,
+    /// Timeout for the headers of a request, and between two requests.
+    pub header_time: Duration,
+    /// Timeout between two chunks of a body, in either direction.
+    pub silence: Duration,
+}
+
+impl Connections {
+    /// Limits for collectors of metrics.
+    pub(super) const OF_COLLECTORS: Self = Self {
+        most: 16,
+        most_of_address: None,
+        header_time: Duration::from_mins(2),
+        silence: Duration::from_secs(30),
+    };
+}
 
 /// Address that a request comes from: that of the last proxy, if there is one.
 #[derive(Clone, Copy)]
@@ -259,5 +282,40 @@ impl<P: Unpin> AsyncWrite for ConnectionWithSlot<P> {
 
     fn is_write_vectored(&self) -> bool {
         self.stream.is_write_vectored()
+    }
+}
+
+// Metrics of connections.
+
+/// Gauge of open connections.
+pub(super) const OPEN: &str = "unwrapd_connections";
+const REFUSED: &str = "unwrapd_connections_refused_total";
+
+/// Describes the metrics and starts the counter at zero.
+pub(super) fn describe() {
+    let meaning = "Connections refused because their address had too many";
+    describe_counter!(REFUSED, meaning);
+    counter!(REFUSED).absolute(0);
+}
+
+/// Counts an open connection until it is dropped.
+struct Counted;
+
+impl Counted {
+    pub fn new() -> Self {
+        gauge!(OPEN).increment(1.0);
+        Self
+    }
+
+    /// Counts a refused connection.
+    pub fn refused() -> Self {
+        counter!(REFUSED).increment(1);
+        Self::new()
+    }
+}
+
+impl Drop for Counted {
+    fn drop(&mut self) {
+        gauge!(OPEN).decrement(1.0);
     }
 }

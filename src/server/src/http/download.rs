@@ -7,7 +7,7 @@ use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use super::app::App;
-use super::missing::job_not_found;
+use super::extract::job_not_found;
 use super::problem::{Code, Problem};
 use crate::jobs::{Job, Undrawn};
 use unwrapd_api::{Format, InputFile, OutputFile, Picture};
@@ -25,7 +25,7 @@ const TYPED: [Format; 7] = [
 
 /// A file of a job.
 #[derive(Clone, Copy)]
-pub(super) enum File<'a> {
+pub(super) enum StoredFile<'a> {
     /// An output file.
     Output(&'a OutputFile),
     /// A picture of its result, which the job can have.
@@ -34,7 +34,7 @@ pub(super) enum File<'a> {
     Input(usize, &'a InputFile),
 }
 
-impl<'a> File<'a> {
+impl<'a> StoredFile<'a> {
     fn name(&self) -> &str {
         match self {
             Self::Output(file) => &file.name,
@@ -56,23 +56,23 @@ impl<'a> File<'a> {
     }
 
     /// Opens the file; draws a picture that is not stored.
-    async fn open(self, app: &App, job: &Job) -> Result<Opened<'a>, Problem> {
+    async fn open(self, app: &App, job: &Job) -> Result<OpenFile<'a>, Problem> {
         Ok(match self {
-            Self::Output(file) => Opened::Output(file),
-            Self::Input(_, file) => Opened::Input(file),
-            Self::Picture(wanted) => Opened::Picture(picture(app, job, wanted).await?),
+            Self::Output(file) => OpenFile::Output(file),
+            Self::Input(_, file) => OpenFile::Input(file),
+            Self::Picture(wanted) => OpenFile::Picture(picture(app, job, wanted).await?),
         })
     }
 }
 
 /// A file of known size.
-enum Opened<'a> {
+enum OpenFile<'a> {
     Output(&'a OutputFile),
     Input(&'a InputFile),
     Picture(Vec<u8>),
 }
 
-impl Opened<'_> {
+impl OpenFile<'_> {
     fn bytes(&self) -> u64 {
         match self {
             Self::Output(file) => file.bytes,
@@ -106,7 +106,7 @@ pub(super) async fn picture(app: &App, job: &Job, picture: Picture) -> Result<Ve
 pub(super) async fn answer(
     app: &App,
     job: &Job,
-    file: File<'_>,
+    file: StoredFile<'_>,
     headers: &HeaderMap,
 ) -> Result<Response, Problem> {
     let tag = file.tag(job);
@@ -135,20 +135,22 @@ pub(super) async fn answer(
     let length = part.end - part.start;
     let mut response = content.into_response();
     let headers = response.headers_mut();
-    let mut set = |name, value: &str| {
-        if let Ok(value) = HeaderValue::from_str(value) {
+    for (name, value) in [
+        (header::CONTENT_TYPE, content_type(file.name())),
+        (header::CONTENT_LENGTH, length.to_string()),
+        (header::CONTENT_DISPOSITION, disposition(file.name())),
+        (header::ACCEPT_RANGES, "bytes".to_owned()),
+        (header::CACHE_CONTROL, "private, no-cache".to_owned()),
+        (header::ETAG, tag),
+    ] {
+        if let Ok(value) = HeaderValue::from_str(&value) {
             headers.insert(name, value);
         }
-    };
-    set(header::CONTENT_TYPE, &content_type(file.name()));
-    set(header::CONTENT_LENGTH, &length.to_string());
-    set(header::CONTENT_DISPOSITION, &disposition(file.name()));
-    set(header::ACCEPT_RANGES, "bytes");
-    set(header::CACHE_CONTROL, "private, no-cache");
-    set(header::ETAG, &tag);
+    }
     if range.is_some() {
         let range = format!("bytes {}-{}/{bytes}", part.start, part.end - 1);
-        set(header::CONTENT_RANGE, &range);
+        let range = HeaderValue::from_str(&range);
+        headers.extend(range.map(|range| (header::CONTENT_RANGE, range)));
         *response.status_mut() = StatusCode::PARTIAL_CONTENT;
     }
     Ok(response)
@@ -204,10 +206,13 @@ fn disposition(name: &str) -> String {
         Some(Format::Png | Format::Json) => "inline",
         _ => "attachment",
     };
-    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_' | ' ');
     let ascii: String = name
         .chars()
-        .map(|c| if plain(c) { c } else { '_' })
+        .map(|c| match c {
+            '.' | '-' | '_' | ' ' => c,
+            _ if c.is_ascii_alphanumeric() => c,
+            _ => '_',
+        })
         .collect();
     if ascii == name {
         return format!("{kind}; filename=\"{ascii}\"");

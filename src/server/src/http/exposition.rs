@@ -15,8 +15,8 @@ use metrics_exporter_prometheus::{BuildError, PrometheusBuilder, PrometheusHandl
 use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
 
-use super::settings::Connections;
-use super::{connections, counted, observation};
+use super::connections::Connections;
+use super::{connections, observation};
 use crate::jobs::{Jobs, StoreResult, meters};
 use crate::sessions::Sessions;
 
@@ -59,7 +59,7 @@ const GAUGES: [(&str, &str); 19] = [
         SESSIONS_LIMIT,
         "Live sessions that this process may have at the same time",
     ),
-    (counted::OPEN, "Connections of this process"),
+    (connections::OPEN, "Connections of this process"),
 ];
 const BUILD_INFO: &str = "unwrapd_build_info";
 const JOBS: &str = "unwrapd_jobs";
@@ -101,10 +101,10 @@ pub fn measure() -> Result<Measured, BuildError> {
         describe_gauge!(name, meaning);
     }
     gauge!(BUILD_INFO, "version" => env!("CARGO_PKG_VERSION")).set(1.0);
-    gauge!(counted::OPEN).set(0.0);
+    gauge!(connections::OPEN).set(0.0);
     meters::describe();
     observation::describe();
-    counted::describe();
+    connections::describe();
     Ok(measured)
 }
 

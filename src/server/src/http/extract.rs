@@ -1,4 +1,4 @@
-//! Extractors whose rejections are problems.
+//! Extractors whose rejections are problems, and the problems of missing jobs.
 
 use std::time::Duration;
 
@@ -7,9 +7,10 @@ use axum::http::HeaderMap;
 use axum::http::request::Parts;
 use serde::de::DeserializeOwned;
 
-use super::missing::job_not_found;
+use super::app::App;
 use super::problem::{Code, Problem};
-use crate::jobs::JobId;
+use crate::jobs::access::Visibility;
+use crate::jobs::{Job, JobId};
 
 /// Maximum time for which a request may wait for a job, in seconds. Longer waits keep connections open; clients can
 /// repeat the request instead.
@@ -73,4 +74,35 @@ pub(super) fn preferred_wait(headers: &HeaderMap) -> Option<Duration> {
         .flat_map(|value| value.split([',', ';']))
         .find_map(|preference| preference.trim().strip_prefix("wait=")?.parse::<u64>().ok())?;
     Some(Duration::from_secs(seconds.min(MAX_WAIT_SECONDS)))
+}
+
+// Jobs that do not exist, no longer exist or belong to another owner; callers cannot tell which.
+
+/// Returns a job, or the problem of a missing one.
+pub(super) async fn existing(
+    app: &App,
+    visibility: &Visibility,
+    id: JobId,
+) -> Result<Job, Problem> {
+    match app.jobs.get(visibility, id).await? {
+        Some(job) => Ok(job),
+        None => Err(missing(app, visibility, id).await),
+    }
+}
+
+/// Returns the problem of a missing job.
+pub(super) async fn missing(app: &App, visibility: &Visibility, id: JobId) -> Problem {
+    match app.jobs.has_expired(visibility, id).await {
+        Ok(true) => Problem::new(Code::JobExpired, "it was removed when its time was over"),
+        Ok(false) => job_not_found(),
+        Err(error) => error.into(),
+    }
+}
+
+/// Returns the problem of an unknown id.
+pub(super) fn job_not_found() -> Problem {
+    Problem::new(
+        Code::JobNotFound,
+        "it never existed, or it has been deleted",
+    )
 }

@@ -69,8 +69,10 @@ fn word(method: &str) -> &'static str {
 /// Returns the client's id of a request if it is well-formed, otherwise a fresh one.
 fn request_id(headers: &HeaderMap) -> String {
     let given = headers.get(REQUEST_ID).and_then(|id| id.to_str().ok());
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-    let given = given.filter(|id| (1..=LONGEST_ID).contains(&id.len()) && id.chars().all(is_plain));
+    let given = given.filter(|id| {
+        (1..=LONGEST_ID).contains(&id.len())
+            && (id.chars()).all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c))
+    });
     given.map_or_else(|| JobId::fresh().to_string(), str::to_owned)
 }
 
@@ -78,9 +80,10 @@ fn request_id(headers: &HeaderMap) -> String {
 pub(super) fn traceparent(headers: &HeaderMap) -> Option<String> {
     let text = headers.get(TRACE)?.to_str().ok()?;
     let parts: Vec<&str> = text.split('-').collect();
-    let is_hex = |c: char| c.is_ascii_digit() || ('a'..='f').contains(&c);
     let is_whole = parts.iter().map(|part| part.len()).eq([2, 32, 16, 2])
-        && parts.iter().all(|part| part.chars().all(is_hex))
+        && parts
+            .iter()
+            .all(|part| part.chars().all(|c| matches!(c, '0'..='9' | 'a'..='f')))
         && parts[0] != "ff"
         && parts[1..3].iter().all(|id| id.chars().any(|c| c != '0'));
     is_whole.then(|| text.to_owned())

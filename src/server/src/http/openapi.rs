@@ -1,19 +1,18 @@
 //! The OpenAPI document: the docs of the handlers, and what several of them share.
 
-use super::admission::COOKIE;
-use super::answers::problems;
-use super::causes::CAUSES;
-use super::problem::Code;
-use super::schemas::{self, bytes, reference};
-use super::scopes::needed;
-use super::upload::{other_types, surface_types};
-use crate::jobs::access::Scope;
+use std::collections::BTreeSet;
+
 use axum::http::Method;
 use serde_json::{Map, Value, json};
-use std::collections::BTreeSet;
-use unwrapd_api::{Catalog, Kind};
 use utoipa::openapi::tag::TagBuilder;
 use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
+
+use super::admission::{COOKIE, needed};
+use super::problem::{CAUSES, Code};
+use super::schemas::{self, bytes, problems, reference};
+use super::upload::{other_types, surface_types};
+use crate::jobs::access::Scope;
+use unwrapd_api::{Catalog, Kind};
 
 const DESCRIPTION: &str = "Unwraps meshes: a mesh file in, the same file with certified flip-free UVs and a \
     distortion report out. Also deforms meshes, pictures and UVs by handles without inverting an element. Errors are \
@@ -55,16 +54,13 @@ pub(super) fn preamble() -> OpenApi {
         .description(Some(DESCRIPTION))
         .license(Some(license))
         .build();
-    let tag = |(name, description): (&str, &str)| {
+    let tags = TAGS.map(|(name, description)| {
         TagBuilder::new()
             .name(name)
             .description(Some(description))
             .build()
-    };
-    OpenApiBuilder::new()
-        .info(info)
-        .tags(Some(TAGS.map(tag)))
-        .build()
+    });
+    OpenApiBuilder::new().info(info).tags(Some(tags)).build()
 }
 
 /// Returns the complete document as text. Operations at `open` paths need no key.
@@ -180,23 +176,16 @@ fn links() -> Value {
         "getHeatmap",
         "deleteJob",
     ];
-    let link = |name: &str| {
+    let links = operations.into_iter().map(|name| {
         let to_job = json!({ "operationId": name, "parameters": { "id": "$response.body#/id" } });
         (name.to_owned(), to_job)
-    };
-    Value::Object(operations.into_iter().map(link).collect())
+    });
+    Value::Object(links.collect())
 }
 
 /// Describes the request that is posted to the `webhook` of a job.
 fn webhooks() -> Value {
     // Describe the notice.
-    let header = |name: &str, description: &str| {
-        json!({
-            "name": name, "in": "header", "required": true, "schema": { "type": "string" },
-            "description": description,
-        })
-    };
-    let nullable = |kind: &str| json!({ "type": [kind, "null"] });
     let time = json!({ "type": "string", "format": "date-time" });
     let data = json!({
         "type": "object",
@@ -236,9 +225,9 @@ fn webhooks() -> Value {
         "summary": "The end of a job",
         "description": WEBHOOK,
         "parameters": [
-            header("webhook-id", "Names the notice; repetitions have the same"),
-            header("webhook-timestamp", "Time of this delivery, in seconds since 1970"),
-            header("webhook-signature", "`v1,` and a signature; several, with spaces between, while a secret is replaced"),
+            required_header("webhook-id", "Names the notice; repetitions have the same"),
+            required_header("webhook-timestamp", "Time of this delivery, in seconds since 1970"),
+            required_header("webhook-signature", "`v1,` and a signature; several, with spaces between, while a secret is replaced"),
         ],
         "requestBody": {
             "required": true,
@@ -252,16 +241,26 @@ fn webhooks() -> Value {
     } } })
 }
 
-/// Returns the table of codes.
+/// Returns the description of a header of a webhook.
+fn required_header(name: &str, description: &str) -> Value {
+    json!({
+        "name": name, "in": "header", "required": true, "schema": { "type": "string" },
+        "description": description,
+    })
+}
+
+/// Returns the schema of a value that may be null.
+fn nullable(kind: &str) -> Value {
+    json!({ "type": [kind, "null"] })
+}
+
+/// Returns the table of codes: those of the service, then those of unusable inputs.
 fn table_of_codes() -> Value {
-    let row = |code: &Code| {
-        let (word, status, title) = code.row();
-        json!({ "code": word, "status": status, "title": title })
-    };
-    let cause =
-        |&(word, title): &(&str, &str)| json!({ "code": word, "status": 422, "title": title });
-    let own = Code::ALL.iter().map(row);
-    own.chain(CAUSES.iter().map(cause)).collect()
+    let own = Code::ALL.iter().map(|code| code.row());
+    let causes = CAUSES.iter().map(|&(word, title)| (word, 422, title));
+    own.chain(causes)
+        .map(|(word, status, title)| json!({ "code": word, "status": status, "title": title }))
+        .collect()
 }
 
 /// Describes the request body of an upload: a form or raw bytes, with options in the form or the query.

@@ -16,10 +16,10 @@ use axum::response::{IntoResponse, Response};
 use tower_http::cors::{AllowHeaders, AllowMethods, AllowOrigin, CorsLayer};
 use tower_http::csrf::{ConfigError, CsrfLayer, ProtectionError};
 
+use super::app::Settings;
+use super::limits;
 use super::observation::REQUEST_ID;
 use super::problem::{Code, Problem};
-use super::settings::Settings;
-use super::windows;
 
 /// Response headers that scripts of other origins may read.
 const EXPOSED: [HeaderName; 7] = [
@@ -28,8 +28,8 @@ const EXPOSED: [HeaderName; 7] = [
     header::LOCATION,
     header::RETRY_AFTER,
     REQUEST_ID,
-    windows::LEFT,
-    windows::POLICY,
+    limits::LEFT,
+    limits::POLICY,
 ];
 
 /// Wraps a router in the checks of the settings.
@@ -104,8 +104,10 @@ fn is_host(value: &HeaderValue) -> bool {
 
 /// Returns the host name and port that a request uses for the service.
 fn host(headers: &HeaderMap, uri: &Uri) -> Option<Authority> {
-    let given = || headers.get(header::HOST)?.to_str().ok()?.parse().ok();
-    uri.authority().cloned().or_else(given)
+    if let Some(authority) = uri.authority() {
+        return Some(authority.clone());
+    }
+    headers.get(header::HOST)?.to_str().ok()?.parse().ok()
 }
 
 impl Allowed {

@@ -1,22 +1,17 @@
-//! Receiver of the files, options and kind of one upload.
+//! Receiver of the files, options and kind of one upload, from a form or a raw body.
 
 use std::path::PathBuf;
 
 use axum::body::Body;
-use axum::extract::multipart::{Field, Multipart};
+use axum::extract::multipart::{Field, Multipart, MultipartError};
 use futures_util::{Stream, StreamExt};
 use serde_json::{Map, Value};
 use sha2::{Digest as _, Sha256};
 use tokio::io::AsyncWriteExt;
 
-use super::framing;
-use super::handling::{HandlingBuilder, once};
-use super::options::{self, UploadQuery};
-use super::parts::{INPUT_PARTS, MAX_FILES, at_most, at_most_name, malformed, text, unexpected};
+use super::contents::{self, Files, MAX_FILES, at_most, at_most_name, referenced};
 use super::problem::{Code, Problem};
-use super::received::Received;
-use super::references::referenced;
-use super::unpack::{self, Files};
+use super::submission::{self, HandlingBuilder, Received, UploadQuery, once};
 use crate::jobs::Scratch;
 use unwrapd_api::{Catalog, InputFile, Kind, from_json};
 
@@ -81,7 +76,7 @@ impl Receiver {
                     self.input = Some(self.store(name, field, |e| malformed(&e)).await?);
                 }
                 "kind" => {
-                    let kind = options::kind(&text(field).await?)?;
+                    let kind = submission::parse_kind(&text(field).await?)?;
                     once("kind", self.kind.replace(kind).is_none())?;
                 }
                 "options" => {
@@ -173,16 +168,17 @@ impl Receiver {
         for (name, value) in query.options {
             once(&name, given.insert(name.clone(), value).is_none())?;
         }
-        let options = options::complete(self.catalog, kind, given)?;
+        let options = submission::complete_options(self.catalog, kind, given)?;
 
         // Unpack, filter and name the files on a thread for blocking work.
         let mut files = vec![(input, path)];
         files.extend(self.resources);
         let (catalog, limit) = (self.catalog, self.limit);
-        let prepare = move || prepared(catalog, files, kind, limit, query.filename);
-        let files = tokio::task::spawn_blocking(prepare)
-            .await
-            .map_err(|error| Problem::internal(&error))??;
+        let files = tokio::task::spawn_blocking(move || {
+            prepared(catalog, files, kind, limit, query.filename)
+        })
+        .await
+        .map_err(|error| Problem::internal(&error))??;
         Ok(Received {
             folder: self.folder,
             kind,
@@ -203,19 +199,19 @@ fn prepared(
     filename: Option<String>,
 ) -> Result<Files, Problem> {
     let mut filename = filename;
-    if unpack::is_archive(&files[0].1)? {
+    if contents::is_archive(&files[0].1)? {
         if 1 < files.len() {
             let detail = "an archive has all files in it: send no resource beside it";
             return Err(Problem::new(Code::InvalidRequest, detail));
         }
-        files = unpack::unpacked(catalog, &files[0].1, kind, limit)?;
+        files = contents::unpacked(catalog, &files[0].1, kind, limit)?;
         // The name in the query was that of the archive.
         filename = None;
     } else {
         retain_referenced(catalog, &mut files, kind)?;
     }
     let (input, path) = &mut files[0];
-    let format = framing::format(catalog, path, kind)?;
+    let format = contents::detect_format(catalog, path, kind)?;
     let name = filename.as_deref().unwrap_or(&input.name);
     input.name = file_name(name, kind, format.extension());
     at_most(&input.name, MAX_INPUT_NAME)?;
@@ -250,7 +246,7 @@ fn file_name(given: &str, kind: Kind, extension: &str) -> String {
     let name: String = name.chars().filter(|c| !c.is_control()).collect();
     if name.is_empty() {
         format!("input.{extension}")
-    } else if framing::is_named(&name, kind) {
+    } else if contents::is_named(&name, kind) {
         name
     } else {
         format!("{name}.{extension}")
@@ -262,4 +258,40 @@ fn broken(error: &axum::Error) -> Problem {
         Code::InvalidRequest,
         format!("the body is incomplete: {error}"),
     )
+}
+
+// Form parts: their texts and their errors.
+
+/// Names of the part that holds the input.
+const INPUT_PARTS: [&str; 3] = ["mesh", "image", "problem"];
+/// Maximum length of a text part in bytes: enough for options with some thousand handles.
+const MAX_TEXT_BYTES: u64 = 256 << 10;
+
+/// Reads the text of a part.
+pub(super) async fn text(mut field: Field<'_>) -> Result<String, Problem> {
+    let mut bytes = Vec::new();
+    while let Some(chunk) = field.chunk().await.map_err(|e| malformed(&e))? {
+        bytes.extend_from_slice(&chunk);
+        if MAX_TEXT_BYTES < bytes.len() as u64 {
+            let detail = format!("a text part can have at most {MAX_TEXT_BYTES} bytes");
+            return Err(Problem::new(Code::UploadTooLarge, detail).with_limit(MAX_TEXT_BYTES));
+        }
+    }
+    String::from_utf8(bytes)
+        .map_err(|_| Problem::new(Code::InvalidRequest, "a text part is not UTF-8"))
+}
+
+/// Returns the problem of an unknown part.
+pub(super) fn unexpected(part: &str) -> Problem {
+    let part: String = part.chars().take(100).collect();
+    let detail = format!(
+        "unexpected part {part:?}: the parts of a form are mesh, image or problem, resource, options, kind, {}",
+        HandlingBuilder::NAMES.join(", ")
+    );
+    Problem::new(Code::InvalidRequest, detail)
+}
+
+/// Returns the problem of a malformed form.
+pub(super) fn malformed(error: &MultipartError) -> Problem {
+    Problem::new(Code::InvalidRequest, error.body_text())
 }

@@ -1,28 +1,37 @@
-//! Routes of live sessions: open, list, get, close, bake.
+//! Live sessions: the routes to open, list, get, close and bake them, and their WebSocket.
 
 use std::sync::Arc;
 
-use axum::extract::{FromRequestParts, Path, Request, State};
+use axum::extract::ws::rejection::WebSocketUpgradeRejection;
+use axum::extract::ws::{CloseFrame, Message, Utf8Bytes, WebSocket, WebSocketUpgrade, close_code};
+use axum::extract::{FromRequestParts, Path, Query, Request, State};
 use axum::http::request::Parts;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use serde::Serialize;
+use futures_util::stream::{SplitSink, SplitStream};
+use futures_util::{SinkExt, StreamExt};
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use tokio::io::AsyncWriteExt;
+use tokio::sync::broadcast::error::RecvError;
 
 use super::app::{App, Shared, json};
-use super::create::located;
+use super::extract::{existing, job_not_found};
+use super::jobs::located;
 use super::problem::{Code, Problem};
-use super::session_input::received;
+use super::socket::{KEEP_ALIVE, MOST_MESSAGE_BYTES, goodbye, refusal};
+use super::submission::{Received, UploadQuery, complete_options};
+use super::upload::{self, accepts};
 use super::view::JobView;
 use crate::jobs::access::Caller;
-use crate::jobs::{JobId, Submitted};
+use crate::jobs::{Handling, Job, JobId, Scratch, State as JobState, Submitted};
 use crate::sessions::{Baked, End, Opened, Session, Unopened};
-use unwrapd_api::{Failure, Kind};
+use unwrapd_api::{Failure, InputFile, Kind};
 
 /// A live session.
 #[derive(Serialize, utoipa::ToSchema)]
 #[schema(as = Session)]
-pub(super) struct SessionView {
+struct SessionView {
     /// Identifies the session.
     #[schema(format = "uuid")]
     id: String,
@@ -51,13 +60,13 @@ struct SessionLinks {
     itself: String,
     /// The WebSocket of its messages and frames.
     live: String,
-    /// Where it is baked.
+    /// Path for baking the session to a job.
     bake: String,
 }
 
 /// The sessions of a process.
 #[derive(Serialize, utoipa::ToSchema)]
-pub(super) struct SessionList {
+struct SessionList {
     /// The sessions, oldest first.
     sessions: Vec<SessionView>,
     /// Maximum number of sessions.
@@ -96,13 +105,12 @@ impl FromRequestParts<Arc<App>> for PathSession {
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, app: &Arc<App>) -> Result<Self, Problem> {
-        let missing = || Problem::new(Code::SessionNotFound, "it never existed, or it has ended");
         let caller = Caller::from_request_parts(parts, app).await?;
         let id = Path::<String>::from_request_parts(parts, app).await;
         let id: Option<JobId> = id.ok().and_then(|Path(id)| id.parse().ok());
         id.and_then(|id| app.sessions.get(&caller.visibility(), id))
             .map(Self)
-            .ok_or_else(missing)
+            .ok_or_else(|| Problem::new(Code::SessionNotFound, "it never existed, or it has ended"))
     }
 }
 
@@ -122,7 +130,7 @@ impl FromRequestParts<Arc<App>> for PathSession {
         ("kind" = Option<Kind>, Query, description = "`deform`, `warp`, `edit_uv` or `texture_map`. With `job` the default is `edit_uv`; an upload has to say it, here or in the form"),
         ("filename" = Option<String>, Query, description = "File name of a raw body"),
         ("job" = Option<String>, Query, format = "uuid", description = "The ended job to take the input from; there is no body then"),
-        ("file" = Option<super::session_input::JobFile>, Query, description = "With `job`: the file to take; the default is `result`"),
+        ("file" = Option<JobFile>, Query, description = "With `job`: the file to take; the default is `result`"),
     ),
     responses(
         (status = 201, description = "The session", body = SessionView, headers(("Location" = String, description = "Path of the session"))),
@@ -233,7 +241,7 @@ pub(super) async fn bake_session(
     State(app): Shared,
     PathSession(session): PathSession,
 ) -> Result<Response, Problem> {
-    super::upload::accepts(&app)?;
+    accepts(&app)?;
     let baked = session.bake().await;
     let Baked {
         submission,
@@ -243,4 +251,240 @@ pub(super) async fn bake_session(
         Submitted::New(job) | Submitted::Replay(job) => job,
     };
     Ok(located(&app, StatusCode::ACCEPTED, &job))
+}
+
+// Input of a session: an upload, or files of a job.
+
+/// File of a job that a session opens.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum JobFile {
+    /// The result of the job.
+    #[default]
+    Result,
+    /// The input of the job.
+    Input,
+}
+
+/// Query that names a job instead of an upload.
+#[derive(Deserialize)]
+struct FromJob {
+    job: Option<String>,
+    #[serde(default)]
+    file: JobFile,
+}
+
+/// Receives the input and the options of a session.
+pub(super) async fn received(
+    app: &Arc<App>,
+    caller: &Caller,
+    request: Request,
+) -> Result<Received, Problem> {
+    // Receive an upload unless the query names a job.
+    let Query(named) = Query::<FromJob>::try_from_uri(request.uri())
+        .map_err(|error| Problem::new(Code::InvalidRequest, error.body_text()))?;
+    let Some(job) = named.job else {
+        return upload::receive(app, None, request).await;
+    };
+    // Read the options from the query.
+    accepts(app)?;
+    let mut query = UploadQuery::read(request.uri())?;
+    query.options.shift_remove("job");
+    query.options.shift_remove("file");
+    let kind = query.kind.unwrap_or(Kind::EditUv);
+    let options = complete_options(app.jobs.settings().catalog, kind, query.options)?;
+    // Copy the files of the job into a new folder.
+    let id = job.parse().map_err(|_| job_not_found())?;
+    let job = existing(app, &caller.visibility(), id).await?;
+    let path = (app.jobs.settings().scratch).join(format!("upload-{}", JobId::fresh()));
+    let folder = Scratch::make(path)?;
+    let mut files = Vec::new();
+    for (number, file) in wanted(&job, named.file)?.into_iter().enumerate() {
+        let place = folder.path().join(format!("file-{number}"));
+        let mut content = match file {
+            Wanted::Input(file) => app.jobs.read_input(&job, file, 0..file.bytes).await?,
+            Wanted::Output(file) => app.jobs.read(&job, file, 0..file.bytes).await?,
+        };
+        let mut copy = tokio::fs::File::create(&place).await?;
+        while let Some(bytes) = content.next().await {
+            copy.write_all(&bytes?).await?;
+        }
+        copy.flush().await?;
+        files.push((file.listed(), place));
+    }
+    Ok(Received {
+        folder,
+        kind,
+        options,
+        files,
+        handling: Handling::default(),
+    })
+}
+
+/// A file of a job.
+enum Wanted<'a> {
+    Input(&'a InputFile),
+    Output(&'a unwrapd_api::OutputFile),
+}
+
+impl Wanted<'_> {
+    fn listed(&self) -> InputFile {
+        match self {
+            Self::Input(file) => (*file).clone(),
+            Self::Output(file) => InputFile {
+                name: file.name.clone(),
+                bytes: file.bytes,
+                sha256: file.sha256.clone(),
+            },
+        }
+    }
+}
+
+/// Returns the files of a job that a session takes, the mesh first.
+fn wanted(job: &Job, file: JobFile) -> Result<Vec<Wanted<'_>>, Problem> {
+    if file == JobFile::Input {
+        return Ok(job.input.iter().map(Wanted::Input).collect());
+    }
+    // Check that there is a result.
+    match job.state {
+        JobState::Succeeded => {}
+        JobState::Queued | JobState::Running => {
+            return Err(Problem::new(Code::NotFinished, "wait for its end"));
+        }
+        JobState::Failed | JobState::Cancelled => {
+            let verb = if job.state == JobState::Failed {
+                "has"
+            } else {
+                "has been"
+            };
+            let detail = format!("the job {verb} {}", job.state.word());
+            return Err(Problem::new(Code::NoResult, detail));
+        }
+    }
+    // Take the result with the files that belong to it.
+    let Some(result) = job.output("result") else {
+        return Err(Problem::new(Code::NoResult, "the job makes no file"));
+    };
+    let others = job
+        .output
+        .iter()
+        .filter(|file| file.role.starts_with("files/"));
+    let all = std::iter::once(result).chain(others);
+    Ok(all.map(Wanted::Output).collect())
+}
+
+// The WebSocket of a session.
+
+/// Pull what a session holds, live.
+///
+/// A WebSocket. The client sends messages as JSON texts. The server sends the mesh once, then
+/// frames, both binary, and a reply to each message. Frames that a slow client has not received are
+/// dropped in favor of the latest. The close code is 1000 if the session was ended or expired, 1001
+/// if the service stops, 1008 if the key is refused from now on, and 1009 after a message of more
+/// than 64 KiB. It is 1011 if the computation failed, with the code of the failure as the reason.
+/// `live.md` beside this document describes messages, replies, meshes and frames.
+#[utoipa::path(
+    get, path = "/v1/sessions/{id}/live", operation_id = "pullSession", tag = "sessions",
+    params(("id" = String, Path, format = "uuid", description = "The session")),
+    responses(
+        (status = 101, description = "The connection is a WebSocket"),
+        (status = 404, description = "`session_not_found`", body = Problem, content_type = "application/problem+json"),
+        (status = 426, description = "`upgrade_required`: the request does not ask for a WebSocket", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn pull_session(
+    State(app): Shared,
+    caller: Caller,
+    PathSession(session): PathSession,
+    upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
+) -> Result<Response, Problem> {
+    let Ok(upgrade) = upgrade else {
+        return Err(Problem::new(Code::UpgradeRequired, "connect a WebSocket"));
+    };
+    let sockets = app.sockets.clone();
+    let upgrade = upgrade.max_message_size(MOST_MESSAGE_BYTES);
+    Ok(upgrade.on_upgrade(move |socket| sockets.track_future(relay(socket, session, app, caller))))
+}
+
+/// Relays until the session, the connection or the client's key ends.
+async fn relay(socket: WebSocket, session: Arc<Session>, app: Arc<App>, caller: Caller) {
+    let (mut sink, mut stream) = socket.split();
+    let code = tokio::select! {
+        code = hear(&mut stream, &session) => code.map(|code| (code, String::new())),
+        code = tell(&mut sink, &session) => code,
+        () = app.keys.lapsed(&caller) => Some((close_code::POLICY, "key_refused".to_owned())),
+    };
+    let Some((code, reason)) = code else {
+        return;
+    };
+    let reason = Utf8Bytes::from(reason);
+    let close = Message::Close(Some(CloseFrame { code, reason }));
+    if sink.send(close).await.is_ok() {
+        goodbye(&mut stream).await;
+    }
+}
+
+/// Passes messages to the session until one cannot be read. Returns the close code; `None` if the client is gone.
+async fn hear(stream: &mut SplitStream<WebSocket>, session: &Session) -> Option<u16> {
+    loop {
+        let said = match stream.next().await? {
+            Err(error) => return refusal(error),
+            Ok(Message::Text(text)) => session.say(text.as_bytes()).await,
+            Ok(Message::Close(_)) => return None,
+            Ok(Message::Binary(_) | Message::Ping(_) | Message::Pong(_)) => Ok(()),
+        };
+        if said.is_err() {
+            // The child is gone: wait for the reason, which `tell` sends.
+            session.ended().await;
+        }
+    }
+}
+
+/// Sends the mesh, frames and replies until the session ends. Returns the close code and reason; `None` if the client
+/// is gone.
+async fn tell(
+    sink: &mut SplitSink<WebSocket, Message>,
+    session: &Session,
+) -> Option<(u16, String)> {
+    // Subscribe before sending the mesh, so that no reply is missed.
+    let (mut frames, mut replies) = (session.frames(), session.replies());
+    sink.send(Message::Binary(session.mesh.clone()))
+        .await
+        .ok()?;
+    let mut quiet = tokio::time::interval(KEEP_ALIVE);
+    // Send the present frame first, even if it does not change any more.
+    frames.mark_changed();
+    loop {
+        // The end comes before replies, and replies before frames, which may be skipped.
+        let message = tokio::select! {
+            biased;
+            why = session.ended() => return Some(closing(why)),
+            reply = replies.recv() => match reply {
+                Ok(reply) => Message::Text(Utf8Bytes::try_from(reply).ok()?),
+                Err(RecvError::Lagged(_)) => {
+                    return Some((close_code::POLICY, "too_slow".to_owned()));
+                }
+                Err(RecvError::Closed) => return None,
+            },
+            changed = frames.changed() => {
+                changed.ok()?;
+                let frame = frames.borrow_and_update().clone();
+                if frame.is_empty() {
+                    continue;
+                }
+                Message::Binary(frame)
+            }
+            _ = quiet.tick() => Message::Ping(Vec::new().into()),
+        };
+        sink.send(message).await.ok()?;
+    }
+}
+
+fn closing(why: End) -> (u16, String) {
+    match why {
+        End::Closed => (close_code::NORMAL, "closed".to_owned()),
+        End::Expired => (close_code::NORMAL, "expired".to_owned()),
+        End::Stopping => (close_code::AWAY, "stopping".to_owned()),
+        End::Failed(failure) => (close_code::ERROR, failure.code),
+    }
 }

@@ -7,11 +7,11 @@ use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderName, HeaderValue};
 use axum::response::Response;
 
-use super::answers::CallProblems;
 use super::app::{App, Shared};
 use super::jobs::wait_for;
 use super::problem::{Code, Problem};
-use super::submission_headers::SubmissionHeaders;
+use super::schemas::CallProblems;
+use super::submission::SubmissionHeaders;
 use super::{download, upload};
 use crate::jobs::access::Caller;
 use crate::jobs::{Ended, Job, JobId, Jobs, State as JobState, Submitted};
@@ -125,8 +125,13 @@ async fn answer(app: &App, job: &Job) -> Result<Response, Problem> {
     match (&job.failure, job.state, job.output.first()) {
         (Some(failure), _, _) => Err(Problem::of_failure(failure)),
         (None, JobState::Succeeded, Some(file)) => {
-            let mut response =
-                download::answer(app, job, download::File::Output(file), &HeaderMap::new()).await?;
+            let mut response = download::answer(
+                app,
+                job,
+                download::StoredFile::Output(file),
+                &HeaderMap::new(),
+            )
+            .await?;
             tell_verdict(&job.verdict, response.headers_mut());
             Ok(response)
         }

@@ -1,21 +1,22 @@
 //! Reception of uploads.
 
-use super::app::App;
-use super::options::UploadQuery;
-use super::problem::{Code, Problem};
-use super::received::Received;
-use super::receiver::Receiver;
-use crate::jobs::JobId;
+use std::pin::Pin;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::task::{Context, Poll};
+use std::time::Duration;
+
 use axum::BoxError;
 use axum::body::{Body, BodyDataStream, Bytes};
 use axum::extract::{FromRequest, Multipart, Request};
 use axum::http::{HeaderMap, header};
 use futures_util::{Stream, StreamExt, stream};
-use std::pin::Pin;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
-use std::task::{Context, Poll};
-use std::time::Duration;
 use tokio::time::{Instant, Sleep, sleep};
+
+use super::app::App;
+use super::problem::{Code, Problem};
+use super::receiver::Receiver;
+use super::submission::{Received, UploadQuery};
+use crate::jobs::JobId;
 use unwrapd_api::{Content, Format, Kind};
 
 /// Time for which the rest of a rejected body is read; data that comes later finds the connection closed. A longer
@@ -175,8 +176,7 @@ async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Receiv
             .map_err(|error| Problem::new(Code::InvalidRequest, error.body_text()))?;
         receiver.form(form).await?;
     } else {
-        let has_type = |format: &Format| format.media_types().contains(&media_type.as_str());
-        let format = formats().find(has_type);
+        let format = formats().find(|format| format.media_types().contains(&media_type.as_str()));
         if format.is_none() && !UNTOLD.contains(&media_type.as_str()) {
             let detail = format!(
                 "{media_type:?} is not the type of a mesh, a picture, a drawing or a problem"
@@ -184,8 +184,9 @@ async fn parse(app: &App, kind: Option<Kind>, request: Request) -> Result<Receiv
             return Err(Problem::new(Code::UnsupportedMediaType, detail));
         }
         let given = disposition_name(request.headers());
-        let made = || format.map(|format| format!("input.{}", format.extension()));
-        let name = given.or_else(made).unwrap_or_default();
+        let name = given
+            .or_else(|| Some(format!("input.{}", format?.extension())))
+            .unwrap_or_default();
         receiver.body(name, request.into_body()).await?;
     }
     receiver.finish(kind, query).await

@@ -118,8 +118,7 @@ impl JobView {
             bytes: job.drawn(*picture).map(|file| file.bytes),
         });
         // Put the pictures before the numbers, which are less often looked at.
-        let is_number = |file: &OutputFile| matches!(&*file.role, "uvs.bin" | "report");
-        let place = job.results().take_while(|file| !is_number(file)).count();
+        let place = job.results().take_while(|file| !is_numeric(file)).count();
         let mut files: Vec<FileLink> = files.collect();
         files.splice(place..place, pictures);
         let inputs = job.input.iter().enumerate().map(|(index, file)| FileLink {
@@ -164,6 +163,11 @@ impl JobView {
             },
         }
     }
+}
+
+/// Returns whether a file has numbers rather than something to look at.
+fn is_numeric(file: &OutputFile) -> bool {
+    matches!(&*file.role, "uvs.bin" | "report")
 }
 
 /// A page of jobs.

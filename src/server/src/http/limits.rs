@@ -1,13 +1,67 @@
-//! Rate limits per key in fixed windows of time.
-//!
-//! The windows are the same for all keys, so nothing is kept of past ones. Each process counts its own requests.
+//! Limits per key: of concurrent items, and of requests per minute.
 
 use std::collections::HashMap;
 use std::hash::Hash;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use axum::http::{HeaderMap, HeaderName, HeaderValue};
+
+/// Number of items of each key.
+#[derive(Debug)]
+pub struct Crowds<K: Eq + Hash>(Mutex<HashMap<K, usize>>);
+
+impl<K: Eq + Hash> Default for Crowds<K> {
+    fn default() -> Self {
+        Self(Mutex::default())
+    }
+}
+
+impl<K: Clone + Eq + Hash> Crowds<K> {
+    /// Adds an item of `who` and returns its seat; `None` if it already has `most`.
+    pub fn enter(crowds: &Arc<Self>, who: K, most: Option<usize>) -> Option<Seat<K>> {
+        let mut counts = crowds.0.lock().unwrap_or_else(PoisonError::into_inner);
+        // A rejected key must not leave an entry behind.
+        let count = counts.get(&who).copied().unwrap_or_default();
+        if most.is_some_and(|most| most <= count) {
+            return None;
+        }
+        counts.insert(who.clone(), count + 1);
+        Some(Seat {
+            crowds: Arc::clone(crowds),
+            who,
+        })
+    }
+
+    /// Returns whether no key has an item.
+    pub fn is_empty(&self) -> bool {
+        let counts = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        counts.is_empty()
+    }
+}
+
+/// An item, counted until it is dropped.
+#[derive(Debug)]
+pub struct Seat<K: Eq + Hash> {
+    crowds: Arc<Crowds<K>>,
+    who: K,
+}
+
+impl<K: Eq + Hash> Drop for Seat<K> {
+    fn drop(&mut self) {
+        let mut counts = (self.crowds.0.lock()).unwrap_or_else(PoisonError::into_inner);
+        if let Some(count) = counts.get_mut(&self.who) {
+            *count -= 1;
+            if *count == 0 {
+                counts.remove(&self.who);
+            }
+        }
+    }
+}
+
+// Rate limits per key in fixed windows of time.
+//
+// The windows are the same for all keys, so nothing is kept of past ones. Each process counts its own requests.
 
 /// Length of a window: the options that set the limits count per minute.
 const LENGTH: Duration = Duration::from_mins(1);
