@@ -25,7 +25,7 @@ use super::upload::{self, accepts};
 use super::view::JobView;
 use crate::jobs::access::Caller;
 use crate::jobs::{Handling, Job, JobId, Scratch, State as JobState, Submitted};
-use crate::sessions::{Baked, End, Opened, Session, Unopened};
+use crate::sessions::{Baked, NewSession, Session, SessionEnd, Unopened};
 use unwrapd_api::{Failure, InputFile, Kind};
 
 /// A live session.
@@ -151,7 +151,7 @@ pub(super) async fn open_session(
     request: Request,
 ) -> Result<Response, Problem> {
     let received = received(&app, &caller, request).await?;
-    let opened = Opened {
+    let opened = NewSession {
         owner: caller.owner().clone(),
         kind: received.kind,
         options: received.options,
@@ -216,7 +216,7 @@ pub(super) async fn get_session(State(app): Shared, PathSession(session): PathSe
     )
 )]
 pub(super) async fn close_session(PathSession(session): PathSession) -> Response {
-    session.close(End::Closed);
+    session.close(SessionEnd::Closed);
     StatusCode::NO_CONTENT.into_response()
 }
 
@@ -480,11 +480,11 @@ async fn tell(
     }
 }
 
-fn closing(why: End) -> (u16, String) {
+fn closing(why: SessionEnd) -> (u16, String) {
     match why {
-        End::Closed => (close_code::NORMAL, "closed".to_owned()),
-        End::Expired => (close_code::NORMAL, "expired".to_owned()),
-        End::Stopping => (close_code::AWAY, "stopping".to_owned()),
-        End::Failed(failure) => (close_code::ERROR, failure.code),
+        SessionEnd::Closed => (close_code::NORMAL, "closed".to_owned()),
+        SessionEnd::Expired => (close_code::NORMAL, "expired".to_owned()),
+        SessionEnd::Stopping => (close_code::AWAY, "stopping".to_owned()),
+        SessionEnd::Failed(failure) => (close_code::ERROR, failure.code),
     }
 }

@@ -1,26 +1,27 @@
 //! One attempt at a job, from the worker's side.
 
-use super::access::Visibility;
-use super::child::{Child, Exit};
-use super::deadline::{given_up_after, timed_out};
-use super::job::Job;
-use super::keys::{input_key, output_folder, output_key};
-use super::memory_failure::{Kills, killed_for_memory, out_of_memory};
-use super::meters::StageClock;
-use super::progress::Event;
-use super::queue::Jobs;
-use super::running::Attempt;
-use super::settings::Deployment;
-use super::storage::Changed;
-use super::store_error::{StoreError, StoreResult};
-use super::transition::{Ending, Transition};
 use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
+
 use tokio::time::{Instant, MissedTickBehavior};
 use tokio_util::sync::CancellationToken;
 use tracing::Instrument;
+
+use super::access::Visibility;
+use super::child::{
+    Child, Exit, Kills, given_up_after, killed_for_memory, out_of_memory, timed_out,
+};
+use super::files::{input_key, output_folder, output_key};
+use super::job::{Event, Job};
+use super::meters::StageClock;
+use super::queue::Jobs;
+use super::running::RunningAttempt;
+use super::settings::Deployment;
+use super::storage::Changed;
+use super::store_error::{StoreError, StoreResult};
+use super::transition::{Ending, Transition};
 use unwrapd_api::{
     ERROR, Failure, Limits, Message, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task, input_file,
     output_file, read_json, write_json,
@@ -37,7 +38,7 @@ const PAUSE_FOR_NEWER: Duration = Duration::from_secs(3);
 pub(super) async fn run_logged(
     jobs: &Jobs,
     job: Job,
-    attempt: &Attempt,
+    attempt: &RunningAttempt,
     leave: &CancellationToken,
 ) -> Duration {
     let trace = job.trace.as_deref();
@@ -48,7 +49,12 @@ pub(super) async fn run_logged(
 /// Runs a claimed job to its end and records the outcome. `leave` asks to hand the job back. Returns the time for
 /// which this worker should pause: without files or space its next job would fail as well, but another worker may
 /// succeed.
-async fn run(jobs: &Jobs, job: Job, attempt: &Attempt, leave: &CancellationToken) -> Duration {
+async fn run(
+    jobs: &Jobs,
+    job: Job,
+    attempt: &RunningAttempt,
+    leave: &CancellationToken,
+) -> Duration {
     // Announce the attempt.
     let name = format!("attempt-{}-{}", job.id, job.token);
     let folder = jobs.settings.scratch.join(name);
@@ -133,7 +139,7 @@ async fn prepare(jobs: &Jobs, job: &Job, folder: &Path) -> StoreResult<()> {
 async fn compute(
     jobs: &Jobs,
     job: &Job,
-    attempt: &Attempt,
+    attempt: &RunningAttempt,
     folder: &Path,
     leave: &CancellationToken,
 ) -> StoreResult<Option<Ending>> {
@@ -188,7 +194,7 @@ async fn compute(
 }
 
 /// Registers an attempt at a job that was just claimed. Its lease counts from `sent`, before the claim was sent.
-pub(super) fn started(jobs: &Jobs, job: &Job, sent: Instant) -> Arc<Attempt> {
+pub(super) fn started(jobs: &Jobs, job: &Job, sent: Instant) -> Arc<RunningAttempt> {
     jobs.running.start(job, sent + jobs.settings.rules.lease)
 }
 
@@ -204,7 +210,7 @@ const RECORDING_PAUSE: Duration = Duration::from_secs(1);
 async fn conclude(
     jobs: &Jobs,
     job: &Job,
-    attempt: &Attempt,
+    attempt: &RunningAttempt,
     ending: Ending,
     leave: &CancellationToken,
 ) {
@@ -267,7 +273,7 @@ enum Watched {
 async fn watch(
     jobs: &Jobs,
     job: &Job,
-    attempt: &Attempt,
+    attempt: &RunningAttempt,
     child: &mut Child,
     folder: &Path,
     leave: &CancellationToken,

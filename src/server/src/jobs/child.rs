@@ -1,7 +1,8 @@
-//! The compute child as a process: starting, signaling and ending it.
+//! The compute child as a process: starting, signaling and ending it, and what its end means.
 
+use std::ffi::OsString;
 use std::os::unix::process::ExitStatusExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{ExitStatus, Stdio};
 use std::time::Duration;
 
@@ -11,8 +12,10 @@ use tokio::io::{AsyncBufReadExt, AsyncReadExt, AsyncWriteExt, BufReader, Lines};
 use tokio::process::{ChildStdin, ChildStdout};
 use tokio::task::JoinHandle;
 
-use super::program::Program;
-use unwrapd_api::{Failure, Message};
+use unwrapd_api::{
+    ERROR, Failure, Kind, Limits, Message, NO_SPACE, OUTCOME, Outcome, OutputFile, Pictures, TASK,
+    Task, Upload, input_file, read_json, write_json,
+};
 
 /// Time between SIGTERM and SIGKILL. The child has no handler for SIGTERM, so it normally ends at once.
 const GRACE: Duration = Duration::from_millis(100);
@@ -62,9 +65,10 @@ impl Child {
     /// Starts the program with `WORD FOLDER`.
     pub fn start(program: &Program, word: &str, folder: &Path) -> std::io::Result<Self> {
         let mut process = spawn(program, word, folder)?;
-        let gone = || std::io::Error::other("a pipe of the compute child is missing");
-        let stdout = process.stdout.take().ok_or_else(gone)?;
-        let stderr = process.stderr.take().ok_or_else(gone)?;
+        let (Some(stdout), Some(stderr)) = (process.stdout.take(), process.stderr.take()) else {
+            let detail = "a pipe of the compute child is missing";
+            return Err(std::io::Error::other(detail));
+        };
         Ok(Self {
             stdin: process.stdin.take(),
             messages: BufReader::new(stdout).lines(),
@@ -214,4 +218,232 @@ impl Exit {
             }
         }
     }
+}
+
+// The program that compute children run.
+
+/// Environment variable with the search path of the dynamic linker.
+const LIBRARY_PATH: &str = "LD_LIBRARY_PATH";
+
+/// Command line that starts this program as a child.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// File to execute.
+    pub file: PathBuf,
+    /// Arguments before those of the child.
+    pub arguments: Vec<OsString>,
+    /// File whose checksum identifies the build that computes.
+    pub engine: PathBuf,
+}
+
+impl Program {
+    /// Returns the running executable.
+    pub fn current() -> std::io::Result<Self> {
+        std::env::current_exe().map(Self::from)
+    }
+
+    /// Returns a command with these arguments and an empty environment. Only an interpreter keeps the library search
+    /// path, where it may find its own libraries.
+    pub(super) fn command(&self, word: &str, folder: &Path) -> tokio::process::Command {
+        let mut command = tokio::process::Command::new(&self.file);
+        command.args(&self.arguments).arg(word).arg(folder);
+        command.env_clear();
+        if self.file != self.engine
+            && let Some(path) = std::env::var_os(LIBRARY_PATH)
+        {
+            command.env(LIBRARY_PATH, path);
+        }
+        command
+    }
+}
+
+impl From<PathBuf> for Program {
+    fn from(file: PathBuf) -> Self {
+        Self {
+            engine: file.clone(),
+            file,
+            arguments: Vec::new(),
+        }
+    }
+}
+
+// A single computation in a child process, without a queue, for commands that run many.
+
+/// Settings of a contained computation, whose crash ends only its child process.
+#[derive(Clone, Debug)]
+pub struct Contained {
+    /// Program started as the compute child.
+    pub program: Program,
+    /// Maximum number of threads.
+    pub threads: usize,
+    /// Wall-clock time limit, after which the current valid map becomes the result.
+    pub time: Duration,
+    /// Memory limit in bytes.
+    pub memory: u64,
+    /// Time at which the pictures of an atlas are drawn.
+    pub pictures: Pictures,
+}
+
+impl Contained {
+    /// Runs a job of this kind. Leaves the n-th output file as [`output_file`](unwrapd_api::output_file)`(n)` in
+    /// `folder`, which must exist and be empty. Dropping the future kills the child.
+    ///
+    /// # Errors
+    /// Returns the failure that the computation reports, or the reason why it could not report one.
+    pub async fn run(
+        &self,
+        kind: Kind,
+        options: &serde_json::Value,
+        upload: &Upload,
+        folder: &Path,
+    ) -> Result<Vec<OutputFile>, Failure> {
+        let task = Task {
+            kind,
+            input: names(upload).map(str::to_owned).collect(),
+            options: options.clone(),
+            limits: Limits {
+                triangles: None,
+                threads: Some(self.threads),
+                seconds: Some(self.time.as_secs_f64()),
+            },
+            memory: self.memory,
+            pictures: self.pictures,
+        };
+        prepare(&task, upload, folder).await?;
+        let child = Child::start(&self.program, "compute", folder)?;
+        let at_most = given_up_after(self.time);
+        finished(child, folder, at_most, timed_out(self.time)).await?;
+        let outcome: Outcome = read_json(folder, OUTCOME)?;
+        Ok(outcome.output)
+    }
+}
+
+/// Waits until a child that works in `folder` has finished. Ends it after `at_most` and returns `late`.
+pub(super) async fn finished(
+    mut child: Child,
+    folder: &Path,
+    at_most: Duration,
+    late: Failure,
+) -> Result<(), Failure> {
+    let heard = async { while child.next_message().await.is_some() {} };
+    if tokio::time::timeout(at_most, heard).await.is_err() {
+        child.terminate().await?;
+        return Err(late);
+    }
+    let exit = child.wait().await?;
+    match exit {
+        Exit::Code(0) => Ok(()),
+        Exit::Code(NO_SPACE) => {
+            let detail = format!("no space left in {}", folder.display());
+            Err(Failure::new("storage_full", detail))
+        }
+        _ => Err(read_json(folder, ERROR).unwrap_or_else(|_| exit.cause())),
+    }
+}
+
+/// Returns the name of the mesh, then the names of the files it refers to.
+fn names(upload: &Upload) -> impl Iterator<Item = &str> {
+    let resources = upload.resources.keys().map(String::as_str);
+    std::iter::once(upload.name.as_str()).chain(resources)
+}
+
+async fn prepare(task: &Task, upload: &Upload, folder: &Path) -> std::io::Result<()> {
+    let contents = std::iter::once(&upload.bytes).chain(upload.resources.values());
+    for (index, content) in contents.enumerate() {
+        tokio::fs::write(folder.join(input_file(index)), content).await?;
+    }
+    write_json(folder, TASK, task)
+}
+
+// Termination of computations that overrun their time limit.
+
+/// Grace period after the time limit for a computation to end with its current map: this share of the limit, but at
+/// least `LEAST_GRACE`. A longer period lets a hanging computation occupy its slot; a shorter one discards valid
+/// maps. `tests/bench/ends.rs` measures how long an early end takes.
+const GRACE_SHARE: f64 = 0.25;
+const LEAST_GRACE: Duration = Duration::from_secs(10);
+
+/// Returns the time after which a computation with a time limit is terminated.
+pub(super) fn given_up_after(limit: Duration) -> Duration {
+    limit + limit.mul_f64(GRACE_SHARE).max(LEAST_GRACE)
+}
+
+/// Returns the failure of a computation that was terminated.
+pub(super) fn timed_out(limit: Duration) -> Failure {
+    let seconds = limit.as_secs_f64();
+    let detail = format!("no valid map within the time limit of {seconds} s");
+    Failure::new("timed_out", detail)
+}
+
+// Failures of computations that run out of memory.
+
+/// Returns the failure of a job that exceeds its memory limit of `limit` bytes.
+pub(super) fn out_of_memory(limit: u64) -> Failure {
+    let detail = format!(
+        "needs more than {} MiB, the memory limit of a job",
+        limit >> 20
+    );
+    Failure::new("out_of_memory", detail)
+}
+
+/// Returns the failure of a job that the system killed because the container or machine ran out of memory.
+pub(super) fn killed_for_memory() -> Failure {
+    let detail = "the system ended it because the memory of the container or machine was used up";
+    Failure::new("out_of_memory", detail)
+}
+
+// Detection of out-of-memory kills in this container.
+
+/// Counter of each cgroup version: marker in `/proc/self/cgroup`, mount point, file name.
+const COUNTERS: [(&str, &str, &str); 2] = [
+    ("0::", "/sys/fs/cgroup", "memory.events"),
+    ("memory", "/sys/fs/cgroup/memory", "memory.oom_control"),
+];
+
+/// Number of processes that the system killed for lack of memory in the cgroups of this process, which include its
+/// compute children.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Kills(u64);
+
+impl Kills {
+    /// Returns the count so far; 0 if the system does not count.
+    pub fn so_far() -> Self {
+        let groups = std::fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
+        let counters = counters(&groups).into_iter();
+        let texts = counters.filter_map(|path| std::fs::read_to_string(path).ok());
+        Self(texts.filter_map(|text| count(&text)).sum())
+    }
+
+    /// Returns whether the count has grown since.
+    pub fn is_one_more(&self) -> bool {
+        self.0 < Self::so_far().0
+    }
+}
+
+/// Returns the counter files listed by the text of `/proc/self/cgroup`: version 2 has one line `0::PATH`, version 1
+/// one line `N:CONTROLLERS:PATH` per controller. Within a container, the path may be that of the host, and the files
+/// lie at the top.
+fn counters(groups: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for line in groups.lines() {
+        for (mark, root, file) in COUNTERS {
+            let mut fields = line.splitn(3, ':').skip(1);
+            let (Some(controllers), Some(path)) = (fields.next(), fields.next()) else {
+                continue;
+            };
+            let is_meant = line.starts_with(mark) || controllers.split(',').any(|it| it == mark);
+            if is_meant {
+                let own = PathBuf::from(format!("{root}{path}")).join(file);
+                let top = PathBuf::from(root).join(file);
+                found.push(if own.exists() { own } else { top });
+            }
+        }
+    }
+    found
+}
+
+/// Returns the count in the line `oom_kill N`, which both versions have.
+fn count(text: &str) -> Option<u64> {
+    let mut lines = text.lines();
+    lines.find_map(|line| line.strip_prefix("oom_kill ")?.trim().parse().ok())
 }

@@ -1,19 +1,15 @@
-//! The record of a job.
+//! The record of a job: its id, its state and progress, and the lease of its worker.
 
 use std::fmt;
 use std::str::FromStr;
+use std::time::Duration;
 
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 use uuid::Uuid;
 
 use super::access::Owner;
-use super::gates::Gates;
-use super::lease::{Token, WorkerId};
-use super::metadata::Metadata;
-use super::progress::Event;
-use super::state::State;
+use super::handling::{Gates, Metadata, Webhook};
 use super::timestamp::Timestamp;
-use super::webhook::Webhook;
 use unwrapd_api::{Failure, InputFile, Kind, OutputFile, Progress, Verdict};
 
 /// Id of a job; ids sort by creation time (UUID version 7).
@@ -194,5 +190,163 @@ impl Job {
     /// Returns the output file with this role.
     pub fn output(&self, role: &str) -> Option<&OutputFile> {
         self.output.iter().find(|file| file.role == role)
+    }
+}
+
+// States of jobs.
+
+/// State of a job. The last three are final.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum State {
+    /// Stored and waiting for its turn.
+    Queued,
+    /// A compute child is working on it.
+    Running,
+    /// Done; result and report can be fetched.
+    Succeeded,
+    /// Ended with a cause, found in `error`.
+    Failed,
+    /// Ended by request.
+    Cancelled,
+}
+
+impl State {
+    /// All states, in the order of a job's life.
+    pub const ALL: [Self; 5] = [
+        Self::Queued,
+        Self::Running,
+        Self::Succeeded,
+        Self::Failed,
+        Self::Cancelled,
+    ];
+
+    /// Returns whether the job has ended. A failed job can still be retried.
+    pub fn is_final(self) -> bool {
+        matches!(self, Self::Succeeded | Self::Failed | Self::Cancelled)
+    }
+
+    /// Returns the name used in JSON and in the store.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Queued => "queued",
+            Self::Running => "running",
+            Self::Succeeded => "succeeded",
+            Self::Failed => "failed",
+            Self::Cancelled => "cancelled",
+        }
+    }
+}
+
+// Progress and events of a job.
+
+/// Progress report of an attempt.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ProgressReport {
+    /// Number of its latest event.
+    pub seq: u64,
+    /// Progress of the attempt.
+    pub progress: Progress,
+    /// Processor time used, in milliseconds.
+    pub cpu_ms: u64,
+}
+
+/// One state of a job in its sequence. Events are snapshots: one that was missed is not needed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, utoipa::ToSchema)]
+pub struct Event {
+    /// Rises with every event of a job, with gaps.
+    pub seq: u64,
+    /// State of the job.
+    pub state: State,
+    /// Progress of the attempt.
+    #[serde(flatten)]
+    pub progress: Progress,
+    /// Milliseconds since the present attempt started.
+    pub elapsed_ms: u64,
+}
+
+/// Event numbers reserved for each attempt. A child reports at most 40 times per second within a stage, so an attempt
+/// of 600 s, the default limit, sends about 24,000 events at most.
+const EVENTS_PER_ATTEMPT: u64 = 1_000_000;
+
+/// Returns the first event number of the next attempt. It is above all numbers that a lost attempt may have sent
+/// without recording them.
+pub fn next_attempt_seq(seq: u64) -> u64 {
+    (seq / EVENTS_PER_ATTEMPT + 1) * EVENTS_PER_ATTEMPT
+}
+
+// Leases of workers on jobs, and the rules for retries.
+
+/// Id of one run of a worker process. It does not name a host, which may run several or come back as another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorkerId(Uuid);
+
+impl WorkerId {
+    /// Creates an id that no worker had before.
+    pub fn fresh() -> Self {
+        Self(Uuid::now_v7())
+    }
+}
+
+impl fmt::Display for WorkerId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl FromStr for WorkerId {
+    type Err = uuid::Error;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        text.parse().map(Self)
+    }
+}
+
+/// Fencing token of a job's holder. It rises whenever the job changes hands, so a former holder is recognized by its
+/// lower number.
+pub type Token = u64;
+
+/// Rules for losing and retrying jobs.
+#[derive(Clone, Copy, Debug)]
+pub struct Rules {
+    /// Time for which a lease lasts without a heartbeat.
+    pub lease: Duration,
+    /// Maximum number of attempts whose computation is killed, as for lack of memory, before the job fails.
+    pub attempts: u32,
+    /// Maximum number of attempts lost with their workers before the job fails. Jobs rarely kill workers, so this is
+    /// much larger than `attempts`; but a job that kills every worker must end.
+    pub interruptions: u32,
+    /// Pause after the first lost attempt; it doubles with each further one.
+    pub pause: Duration,
+}
+
+/// Upper bound of the pause. Doubled from one second, the twentieth would otherwise take six days.
+const LONGEST_PAUSE: Duration = Duration::from_mins(5);
+/// Number of lost workers after which a job is suspected of killing them. From then on a worker computes it alone, so
+/// that it takes no other job down with it. One loss is usually an accident, such as a restart; a higher number puts
+/// more innocent jobs at risk.
+pub const SUSPECT: u32 = 2;
+
+impl Default for Rules {
+    fn default() -> Self {
+        Self {
+            lease: Duration::from_secs(15),
+            attempts: 3,
+            interruptions: 20,
+            pause: Duration::from_secs(1),
+        }
+    }
+}
+
+impl Rules {
+    /// Returns the pause after `lost` lost attempts, at least one.
+    pub(super) fn pause_after(&self, lost: u32) -> Duration {
+        let doubled = 1 << lost.saturating_sub(1).min(16);
+        self.pause.saturating_mul(doubled).min(LONGEST_PAUSE)
+    }
+
+    /// Returns the longest pause under these rules.
+    pub fn longest_pause(&self) -> Duration {
+        self.pause_after(self.attempts.max(self.interruptions))
     }
 }

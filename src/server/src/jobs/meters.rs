@@ -8,8 +8,7 @@ use metrics::{
 };
 use tokio::time::Instant;
 
-use super::job::Job;
-use super::state::State;
+use super::job::{Job, State};
 use super::timestamp::Timestamp;
 use unwrapd_api::{Kind, Stage};
 
@@ -74,10 +73,13 @@ pub(super) fn finished(job: &Job) {
         counter!(FAILURES, "code" => failure.code.clone()).increment(1);
     }
     if let Some(start) = job.started {
-        let seconds = |until: Timestamp, from| until.since(from) as f64 / 1000.0;
-        histogram!(WAIT, "kind" => kind).record(seconds(start, job.created));
-        histogram!(RUN, "kind" => kind, "result" => result).record(seconds(end, start));
+        histogram!(WAIT, "kind" => kind).record(seconds_since(job.created, start));
+        histogram!(RUN, "kind" => kind, "result" => result).record(seconds_since(start, end));
     }
+}
+
+fn seconds_since(start: Timestamp, end: Timestamp) -> f64 {
+    end.since(start) as f64 / 1000.0
 }
 
 /// Counts a job taken from a silent worker.

@@ -25,7 +25,7 @@
 //! the store, workers get the time of a lease to do so before jobs are taken from them.
 //!
 //! A job whose input, options and engine equal those of an earlier one gets a copy of its result instead
-//! (`reuse.rs`), unless the client refuses. Pictures of a result are drawn on first request (`pictures.rs`).
+//! (`output.rs`), unless the client refuses. Pictures of a result are drawn on first request (`pictures.rs`).
 //!
 //! A finished job is kept for a time ([`Settings::retention`]) and then removed with its files.
 //!
@@ -38,90 +38,59 @@
 
 pub mod access;
 mod attempt;
-mod blobs;
-mod capacity;
-mod checksum;
 mod child;
-mod clock;
-mod contained;
-mod deadline;
-mod digest;
-mod drain;
-mod gates;
+mod files;
 mod handling;
-mod heartbeats;
-mod identity;
 mod inspection;
 mod job;
-mod keys;
-mod lease;
-mod listing;
-mod map_feed;
-mod memory_failure;
-mod metadata;
 pub mod meters;
-mod outbox;
 mod output;
 mod pictures;
-mod program;
-mod progress;
-mod quarantine;
 mod queue;
-mod quotas;
 mod retention;
-mod retry;
-mod reuse;
 mod runner;
 mod running;
-mod scratch;
 mod settings;
-mod space;
-mod state;
 mod storage;
 mod store_error;
-mod store_id;
 mod submit;
-mod subscription;
-mod sweeping;
 mod timestamp;
 mod transition;
-mod watching;
-mod webhook;
 
-pub use blobs::{Blobs, Content};
-pub use capacity::Usage;
+pub use child::Contained;
+pub use child::Program;
 pub use child::{read_stderr, spawn};
-pub use clock::{Steadiness, SteadyClock};
-pub use contained::Contained;
-pub use digest::Digest;
-pub use gates::{Gate, GateError, Gates};
+pub use files::Scratch;
+pub use files::free_bytes;
+pub use handling::Digest;
 pub use handling::Handling;
-pub use identity::{adopt, shared_identity};
+pub use handling::{Gate, GateError, Gates};
+pub use handling::{Metadata, MetadataError};
+pub use handling::{Webhook, WebhookError};
 pub use inspection::{Inspection, Loss, LostFile, inspect, purge, repair};
+pub use inspection::{adopt, shared_identity};
+pub use job::State;
+pub use job::{Event, ProgressReport};
 pub use job::{Job, JobId};
-pub use lease::{Rules, SUSPECT, Token, WorkerId};
-pub use listing::{Listing, Order};
-pub use metadata::{Metadata, MetadataError};
-pub use outbox::{Notice, Outbox};
+pub use job::{Rules, SUSPECT, Token, WorkerId};
 pub use pictures::Undrawn;
-pub use program::Program;
-pub use progress::{Event, ProgressReport};
+pub use queue::NextMaps;
+pub use queue::Subscription;
 pub use queue::{Ended, Jobs};
-pub use quotas::{Capacity, OwnerQuota, OwnerQuotas};
-pub use retry::{Retried, retry_failed};
-pub use scratch::Scratch;
 pub use settings::{Deployment, Settings};
-pub use space::free_bytes;
-pub use state::State;
+pub use storage::StoreId;
+pub use storage::{BlobContent, Blobs};
+pub use storage::{Capacity, OwnerQuota, OwnerQuotas};
 pub use storage::{
     Census, Changed, Enqueued, Heartbeat, IdempotencyKey, JobStore, Quarantined, Queue, Reason,
     Share, Sweep,
 };
+pub use storage::{Listing, Order};
+pub use storage::{Notice, Outbox};
 pub use store_error::{StoreError, StoreResult};
-pub use store_id::StoreId;
+pub use submit::Usage;
+pub use submit::{Retried, retry_failed};
 pub use submit::{Submission, SubmitError, Submitted};
-pub use subscription::Subscription;
 pub use timestamp::Timestamp;
+pub use timestamp::{Steadiness, SteadyClock};
 pub use transition::{Command, Ending, Refusal, Transition, after};
-pub use watching::NextMaps;
-pub use webhook::{Webhook, WebhookError};

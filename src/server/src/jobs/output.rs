@@ -1,16 +1,15 @@
-//! Verified reading of the output and input files of jobs.
+//! Verified reading of the files of jobs, and reuse of results.
 
 use std::ops::Range;
 use std::path::Path;
 
 use futures_util::TryStreamExt;
 
-use super::blobs::Content;
-use super::checksum;
-use super::job::Job;
-use super::keys::{input_key, output_key};
+use super::files::{self, input_key, output_key};
+use super::job::{Job, State};
 use super::meters;
 use super::queue::Jobs;
+use super::storage::BlobContent;
 use super::store_error::{StoreError, StoreResult};
 use unwrapd_api::{InputFile, OutputFile};
 
@@ -34,7 +33,7 @@ impl Jobs {
         job: &Job,
         file: &OutputFile,
         range: Range<u64>,
-    ) -> StoreResult<Content> {
+    ) -> StoreResult<BlobContent> {
         let index = job.output.iter().position(|other| other == file);
         let stored = Stored::output(job, index.unwrap_or_default(), file);
         let content = self.read_verified(&stored, range).await;
@@ -50,7 +49,7 @@ impl Jobs {
         job: &Job,
         file: &InputFile,
         range: Range<u64>,
-    ) -> StoreResult<Content> {
+    ) -> StoreResult<BlobContent> {
         let index = job.input.iter().position(|other| other == file);
         let stored = Stored {
             key: input_key(job.id, index.unwrap_or_default()),
@@ -83,7 +82,7 @@ impl Jobs {
     ) -> StoreResult<()> {
         let fetched = async {
             self.blobs.fetch(key, to).await?;
-            checksum::check(to, sha256).await
+            files::check_sha256(to, sha256).await
         };
         match fetched.await {
             Err(error) => Err(self.lost_file(error).await),
@@ -111,7 +110,11 @@ impl Jobs {
         error
     }
 
-    async fn read_verified(&self, stored: &Stored<'_>, range: Range<u64>) -> StoreResult<Content> {
+    async fn read_verified(
+        &self,
+        stored: &Stored<'_>,
+        range: Range<u64>,
+    ) -> StoreResult<BlobContent> {
         let content = async {
             if stored.bytes <= VERIFIED_FIRST {
                 self.verify_stored(stored).await?;
@@ -119,7 +122,7 @@ impl Jobs {
             let is_whole = range == (0..stored.bytes);
             let content = self.blobs.read(&stored.key, range).await?;
             Ok(match stored.sha256.filter(|_| is_whole) {
-                Some(expected) => checksum::checked(content, expected.to_owned()),
+                Some(expected) => files::checked(content, expected.to_owned()),
                 None => content,
             })
         };
@@ -138,7 +141,7 @@ impl Jobs {
         let Some(expected) = stored.sha256 else {
             return Ok(());
         };
-        let checked = checksum::checked(content, expected.to_owned());
+        let checked = files::checked(content, expected.to_owned());
         checked.try_for_each(async |_| Ok(())).await
     }
 }
@@ -150,5 +153,78 @@ impl<'a> Stored<'a> {
             bytes: file.bytes,
             sha256: file.sha256.as_deref(),
         }
+    }
+}
+
+// Reuse of results among equal jobs.
+
+impl Jobs {
+    /// Returns the checksum of the program, since another build may compute different results.
+    pub(super) async fn engine(&self) -> StoreResult<&str> {
+        let file = &self.settings.program.engine;
+        let engine = self.engine.get_or_try_init(|| files::sha256_of(file));
+        engine.await.map(String::as_str)
+    }
+
+    /// Completes a new job with copies of the results of an equal, undamaged job of its owner, if there is one. If
+    /// copying fails, the job stays queued and is computed; partial copies are removed with the job.
+    pub(super) async fn reuse(&self, job: &mut Job) {
+        match self.copy_equal(job).await {
+            Ok(Some(earlier)) => {
+                tracing::info!(job = %job.id, %earlier.id, "equal to an earlier job");
+                job.state = State::Succeeded;
+                job.progress.fraction = 1.0;
+                job.finished = Some(job.created);
+                job.output = earlier.output;
+                job.verdict = earlier.verdict;
+            }
+            Ok(None) => {}
+            Err(error) => tracing::warn!(job = %job.id, %error, "no earlier result reused"),
+        }
+    }
+
+    /// Copies the files of an equal job and returns that job.
+    async fn copy_equal(&self, job: &Job) -> StoreResult<Option<Job>> {
+        let engine = self.engine().await?;
+        let equal = self.store.equal(job).await?;
+        for earlier in equal {
+            if !earlier.is_repeatable(engine) {
+                continue;
+            }
+            match self.copy_verified(&earlier, job).await {
+                Ok(()) => return Ok(Some(earlier)),
+                Err(error) if error.is_loss() => self.spoil(&earlier).await,
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(None)
+    }
+
+    /// Copies the output of an earlier job if all of it is intact.
+    async fn copy_verified(&self, earlier: &Job, job: &Job) -> StoreResult<()> {
+        for (index, file) in earlier.output.iter().enumerate() {
+            self.verify(earlier, index, file).await?;
+        }
+        for index in 0..earlier.output.len() {
+            let from = output_key(earlier.id, earlier.token, index);
+            let to = output_key(job.id, job.token, index);
+            self.blobs.copy(&from, &to).await?;
+        }
+        Ok(())
+    }
+}
+
+impl Job {
+    /// Returns whether the result is a copy of an earlier job's.
+    pub fn is_copy(&self) -> bool {
+        self.state == State::Succeeded && self.attempt == 0
+    }
+
+    /// Returns whether this engine would compute the same result: the job was not ended early.
+    fn is_repeatable(&self, engine: &str) -> bool {
+        let mut warnings = self.verdict.warnings.iter();
+        self.state == State::Succeeded
+            && self.verdict.engine == engine
+            && !warnings.any(|warning| warning.code == "ended_early")
     }
 }

@@ -16,13 +16,10 @@ use std::time::Duration;
 use futures_util::TryStreamExt;
 
 use super::access::Visibility;
-use super::checksum;
-use super::child::Child;
-use super::contained::finished;
+use super::child::{Child, finished};
+use super::files::{self, Scratch, input_key, output_key, picture_key};
 use super::job::{Job, JobId};
-use super::keys::{input_key, output_key, picture_key};
 use super::queue::Jobs;
-use super::scratch::Scratch;
 use super::storage::Changed;
 use super::store_error::{StoreError, StoreResult};
 use super::transition::Transition;
@@ -62,8 +59,7 @@ impl Job {
 
     /// Returns the output files without pictures.
     pub fn results(&self) -> impl Iterator<Item = &OutputFile> {
-        let is_picture = |file: &OutputFile| Picture::ALL.iter().any(|it| it.role() == file.role);
-        self.output.iter().filter(move |file| !is_picture(file))
+        (self.output.iter()).filter(|file| Picture::ALL.iter().all(|it| it.role() != file.role))
     }
 
     /// Returns a picture that exists: drawn on request, or by a version of the program that drew all pictures at the
@@ -163,13 +159,13 @@ impl Jobs {
     async fn whole(&self, key: &str, file: &OutputFile) -> StoreResult<Vec<u8>> {
         let mut content = self.blobs.read(key, 0..file.bytes).await?;
         if let Some(expected) = &file.sha256 {
-            content = checksum::checked(content, expected.clone());
+            content = files::checked(content, expected.clone());
         }
-        let append = async |mut all: Vec<u8>, block: Vec<u8>| {
-            all.extend(block);
-            Ok(all)
-        };
-        content.try_fold(Vec::new(), append).await
+        let mut whole = Vec::new();
+        while let Some(block) = content.try_next().await? {
+            whole.extend(block);
+        }
+        Ok(whole)
     }
 
     /// Draws a picture, stores it and records it.

@@ -1,28 +1,26 @@
-//! The queue as clients see it: jobs are read, awaited, ended, retried and removed.
+//! The queue as clients see it: jobs are read, watched, awaited, ended, retried and removed.
 
-use super::access::Visibility;
-use super::blobs::Blobs;
-use super::clock::SteadyClock;
-use super::job::{Job, JobId};
-use super::keys::output_folder;
-use super::lease::WorkerId;
-use super::listing::Listing;
-use super::meters;
-use super::progress::Event;
-use super::running::Running;
-use super::settings::Settings;
-use super::state::State;
-use super::storage::{Changed, JobStore, Queue, Reason};
-use super::store_error::StoreResult;
-use super::store_id::StoreId;
-use super::subscription::Subscription;
-use super::transition::{Command, Transition};
 use std::collections::HashMap;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Duration;
+
 use tokio::sync::{Notify, OnceCell, OwnedMutexGuard, OwnedSemaphorePermit, Semaphore, watch};
+use tokio::time::MissedTickBehavior;
+use tokio_util::bytes::Bytes;
+use tokio_util::sync::CancellationToken;
 use tokio_util::task::TaskTracker;
+
+use super::access::Visibility;
+use super::files::output_folder;
+use super::job::{Event, Job, JobId, State, WorkerId};
+use super::meters;
+use super::running::{MapListener, Running};
+use super::settings::{Deployment, Settings};
+use super::storage::{Blobs, Changed, JobStore, Listing, Queue, Reason, StoreId};
+use super::store_error::StoreResult;
+use super::timestamp::SteadyClock;
+use super::transition::{Command, Transition};
 
 /// Time limit for a dismissed job to end. A job that takes longer is removed later, with the expired ones.
 const DISMISSAL_TIME: Duration = Duration::from_mins(1);
@@ -203,9 +201,11 @@ impl Jobs {
         match job.state {
             State::Cancelled => return self.blobs.remove(&job.id.to_string()).await,
             State::Succeeded | State::Failed if 0 < job.lost + job.interrupted => {
-                let has_result = |token| job.state == State::Succeeded && token == job.token;
-                for token in (1..=job.token).filter(|token| !has_result(*token)) {
-                    self.blobs.remove(&output_folder(job.id, token)).await?;
+                for token in 1..=job.token {
+                    let has_result = job.state == State::Succeeded && token == job.token;
+                    if !has_result {
+                        self.blobs.remove(&output_folder(job.id, token)).await?;
+                    }
                 }
             }
             _ => {}
@@ -301,5 +301,186 @@ impl LiveEvents {
         let mut watched = self.watched();
         watched.retain(|_, sender| 0 < sender.receiver_count());
         watched.keys().copied().collect()
+    }
+}
+
+// Draining a process, and pausing the queue.
+
+impl Jobs {
+    /// Starts or stops draining: a draining process neither accepts nor starts jobs, but finishes those it has.
+    pub fn set_draining(&self, draining: bool) {
+        self.draining.store(draining, Ordering::Relaxed);
+        tracing::info!(draining, "drain");
+        self.wake_lanes();
+    }
+
+    /// Returns whether the process is draining.
+    pub fn is_draining(&self) -> bool {
+        self.draining.load(Ordering::Relaxed)
+    }
+
+    /// Pauses or resumes the queue: while it is paused, no process starts jobs, but all still accept them.
+    pub async fn set_paused(&self, paused: bool) -> StoreResult<()> {
+        self.store.set_paused(paused).await?;
+        tracing::info!(paused, "pause");
+        self.wake_lanes();
+        Ok(())
+    }
+
+    /// Returns whether the queue is paused.
+    pub async fn is_paused(&self) -> StoreResult<bool> {
+        self.store.is_paused().await
+    }
+
+    /// Returns the number of jobs that this process is computing.
+    pub fn running(&self) -> usize {
+        self.running.heartbeats().len()
+    }
+}
+
+// Watching of jobs, wherever they run.
+
+/// Number of lookups of the attempt at a job that was just claimed, and the interval between them. The record says
+/// `running` a moment before the attempt is registered here. If another process computes the job, the request waits
+/// for all lookups in vain: a quarter of a second.
+const LOOKUPS: usize = 5;
+const LOOKUP_INTERVAL: Duration = Duration::from_millis(50);
+
+/// Answer to a request for the maps of a running job.
+pub enum NextMaps {
+    /// The bytes of a frame.
+    Frame(Bytes),
+    /// The attempt has ended.
+    Over,
+    /// Another process computes the job.
+    Elsewhere,
+}
+
+impl Jobs {
+    /// Subscribes to a job; `None` if there is no such job.
+    pub async fn subscribe(
+        &self,
+        visibility: &Visibility,
+        id: JobId,
+    ) -> StoreResult<Option<Subscription>> {
+        // Subscribe before reading the record, so that no event between the two is missed.
+        let subscription = self.live.subscribe(id);
+        // Do not end the events of a job outside the caller's scope: others may watch it.
+        let Some(job) = self.get(visibility, id).await? else {
+            return Ok(None);
+        };
+        self.live.publish(id, job.event());
+        Ok(Some(subscription))
+    }
+
+    /// Waits for the next frame of maps after `after`. Frames are only available in the process that computes the
+    /// job.
+    pub async fn next_maps(&self, id: JobId, after: u64) -> NextMaps {
+        let Some(listener) = self.map_listener(id).await else {
+            return match self.settings.deployment {
+                Deployment::Embedded => NextMaps::Over,
+                Deployment::Shared => NextMaps::Elsewhere,
+            };
+        };
+        (listener.next(after).await).map_or(NextMaps::Over, NextMaps::Frame)
+    }
+
+    async fn map_listener(&self, id: JobId) -> Option<MapListener> {
+        for _ in 0..LOOKUPS {
+            if let Some(attempt) = self.running.attempt(id) {
+                return Some(attempt.maps.listener());
+            }
+            tokio::time::sleep(LOOKUP_INTERVAL).await;
+        }
+        None
+    }
+
+    /// Polls the records of watched jobs until stopped.
+    pub(super) async fn watch_until(&self, stop: &CancellationToken) {
+        let mut interval = tokio::time::interval(self.settings.deployment.poll_interval());
+        interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        loop {
+            tokio::select! {
+                _ = interval.tick() => {}
+                () = stop.cancelled() => return,
+            }
+            let ids = self.live.ids();
+            if ids.is_empty() {
+                continue;
+            }
+            match self.store.events(&ids).await {
+                Ok(events) => {
+                    let events: HashMap<_, _> = events.into_iter().collect();
+                    for id in ids {
+                        match events.get(&id) {
+                            Some(&event) => self.live.publish(id, event),
+                            None => self.live.forget(id),
+                        }
+                    }
+                }
+                Err(error) => tracing::warn!(%error, "records of watched jobs not read"),
+            }
+        }
+    }
+}
+
+// A listener's view of a job's events.
+
+/// Subscription to the events of one job. A slow reader skips events.
+pub struct Subscription {
+    receiver: watch::Receiver<Option<Event>>,
+    last: Last,
+}
+
+/// The last event delivered.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Last {
+    /// No event yet.
+    None,
+    /// An event with this number.
+    Seq(u64),
+    /// A final event.
+    Final,
+}
+
+impl Subscription {
+    pub(super) fn new(receiver: watch::Receiver<Option<Event>>) -> Self {
+        Self {
+            receiver,
+            last: Last::None,
+        }
+    }
+
+    /// Skips events up to and including this number, except a final one.
+    #[must_use]
+    pub fn after(mut self, seq: Option<u64>) -> Self {
+        self.last = seq.map_or(Last::None, Last::Seq);
+        self
+    }
+
+    /// Waits for the next event newer than the last one. Returns `None` after a final event, or when the job is
+    /// removed.
+    pub async fn next(&mut self) -> Option<Event> {
+        while self.last != Last::Final {
+            let event = *self.receiver.borrow_and_update();
+            if let Some(event) = event.filter(|event| self.is_new(event)) {
+                self.last = if event.state.is_final() {
+                    Last::Final
+                } else {
+                    Last::Seq(event.seq)
+                };
+                return Some(event);
+            }
+            self.receiver.changed().await.ok()?;
+        }
+        None
+    }
+
+    fn is_new(&self, event: &Event) -> bool {
+        match self.last {
+            Last::None => true,
+            Last::Seq(seq) => seq < event.seq || event.state.is_final(),
+            Last::Final => false,
+        }
     }
 }

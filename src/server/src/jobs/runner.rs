@@ -1,19 +1,21 @@
-//! The worker: starts attempts as jobs arrive.
+//! The worker: starts attempts as jobs arrive, and sends their heartbeats.
 
-use super::job::Job;
-use super::queue::Jobs;
-use super::running::Attempt;
-use super::settings::Settings;
-use super::storage::Share;
-use super::{attempt, meters};
-use futures_util::future::join_all;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
+
+use futures_util::future::join_all;
 use tokio::sync::{Notify, OwnedSemaphorePermit, Semaphore};
-use tokio::time::Instant;
+use tokio::time::{Instant, MissedTickBehavior};
 use tokio_util::sync::CancellationToken;
 use tokio_util::task::TaskTracker;
+
+use super::job::Job;
+use super::queue::Jobs;
+use super::running::RunningAttempt;
+use super::settings::Settings;
+use super::storage::Share;
+use super::{attempt, meters};
 
 /// Delay before asking a failed store again. Longer delays leave slots idle after a short outage; shorter ones burden
 /// a store that is recovering.
@@ -23,7 +25,7 @@ const STORE_RETRY: Duration = Duration::from_secs(1);
 struct Claimed {
     slot: OwnedSemaphorePermit,
     job: Job,
-    attempt: Arc<Attempt>,
+    attempt: Arc<RunningAttempt>,
 }
 
 impl Jobs {
@@ -214,5 +216,35 @@ impl Lane {
     /// Returns the notifier of this lane.
     pub fn bell<'a>(&self, main: &'a Notify, reserve: &'a Notify) -> &'a Notify {
         if self.is_reserve { reserve } else { main }
+    }
+}
+
+// Heartbeats, which also carry client commands back to the attempts.
+
+impl Jobs {
+    /// Sends heartbeats for all attempts of this process every `interval`, and passes the answers on to them. Never
+    /// returns.
+    pub(super) async fn send_heartbeats(&self, interval: Duration) {
+        let mut interval = tokio::time::interval(interval);
+        interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        loop {
+            interval.tick().await;
+            let heartbeats = self.running.heartbeats();
+            if heartbeats.is_empty() {
+                continue;
+            }
+            let lease_end = Instant::now() + self.settings.rules.lease;
+            match self.store.heartbeat(&heartbeats).await {
+                Ok(answers) => {
+                    for (heartbeat, changed) in heartbeats.iter().zip(&answers) {
+                        self.running.answered(heartbeat, changed, lease_end);
+                    }
+                }
+                Err(error) => {
+                    meters::store_failed();
+                    tracing::warn!(%error, "no sign of life given");
+                }
+            }
+        }
     }
 }

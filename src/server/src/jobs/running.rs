@@ -1,21 +1,22 @@
-//! The attempts of this process: commands to them and heartbeats from them.
+//! The attempts of this process: commands to them, heartbeats from them, and frames of their maps.
 
 use std::collections::HashMap;
+use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use tokio::sync::{Notify, watch};
 use tokio::time::Instant;
+use tokio_util::bytes::Bytes;
 use tokio_util::sync::CancellationToken;
 
 use super::access::{Owner, Visibility};
-use super::job::{Job, JobId};
-use super::lease::{SUSPECT, Token};
-use super::map_feed::MapFeed;
-use super::progress::{Event, ProgressReport};
+use super::job::{Event, Job, JobId, ProgressReport, SUSPECT, Token};
 use super::storage::{Changed, Heartbeat};
 use super::transition::Command;
+use unwrapd_api::{MAPS, number_frame};
 
 /// An attempt of this process.
-pub(super) struct Attempt {
+pub(super) struct RunningAttempt {
     pub owner: Owner,
     pub token: Token,
     /// Set if the job was lost with several workers and must run alone.
@@ -38,7 +39,7 @@ struct Present {
     cpu_ms: u64,
 }
 
-impl Attempt {
+impl RunningAttempt {
     fn state(&self) -> MutexGuard<'_, Present> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -79,17 +80,17 @@ impl Attempt {
 /// The attempts of this process by job.
 #[derive(Default)]
 pub(super) struct Running {
-    attempts: Mutex<HashMap<JobId, Arc<Attempt>>>,
+    attempts: Mutex<HashMap<JobId, Arc<RunningAttempt>>>,
 }
 
 impl Running {
-    fn attempts(&self) -> MutexGuard<'_, HashMap<JobId, Arc<Attempt>>> {
+    fn attempts(&self) -> MutexGuard<'_, HashMap<JobId, Arc<RunningAttempt>>> {
         self.attempts.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Registers an attempt at a claimed job, whose lease lasts at least until `lease_end`.
-    pub fn start(&self, job: &Job, lease_end: Instant) -> Arc<Attempt> {
-        let attempt = Arc::new(Attempt {
+    pub fn start(&self, job: &Job, lease_end: Instant) -> Arc<RunningAttempt> {
+        let attempt = Arc::new(RunningAttempt {
             owner: job.owner.clone(),
             token: job.token,
             is_suspect: SUSPECT <= job.interrupted,
@@ -129,7 +130,7 @@ impl Running {
     }
 
     /// Returns the attempt at a job if it runs here.
-    pub fn attempt(&self, id: JobId) -> Option<Arc<Attempt>> {
+    pub fn attempt(&self, id: JobId) -> Option<Arc<RunningAttempt>> {
         self.attempts().get(&id).cloned()
     }
 
@@ -170,6 +171,79 @@ impl Running {
             }
             (Some(attempt), _) => attempt.outdated.cancel(),
             (None, _) => {}
+        }
+    }
+}
+
+// Frames of maps under way, passed from the compute child to its listeners.
+
+/// The latest frame of an attempt. Slow listeners skip frames.
+pub(super) struct MapFeed {
+    /// Notified when a listener waits for the next frame.
+    pub asked: Arc<Notify>,
+    latest: watch::Sender<MapFrame>,
+}
+
+/// A numbered frame; number 0 means that there is none.
+#[derive(Clone, Default)]
+struct MapFrame {
+    number: u64,
+    bytes: Bytes,
+}
+
+/// A listener for the next frame of an attempt. It does not keep the attempt alive.
+pub(super) struct MapListener {
+    asked: Arc<Notify>,
+    latest: watch::Receiver<MapFrame>,
+}
+
+impl MapFeed {
+    /// Creates a feed whose frames have numbers above `before`.
+    pub fn new(before: u64) -> Self {
+        let none = MapFrame {
+            number: before,
+            ..MapFrame::default()
+        };
+        Self {
+            asked: Arc::default(),
+            latest: watch::Sender::new(none),
+        }
+    }
+
+    /// Creates a listener.
+    pub fn listener(&self) -> MapListener {
+        MapListener {
+            asked: Arc::clone(&self.asked),
+            latest: self.latest.subscribe(),
+        }
+    }
+
+    /// Publishes the frame in the folder of the attempt; does nothing if it cannot be read.
+    pub async fn take(&self, folder: &Path) {
+        let Ok(mut bytes) = tokio::fs::read(folder.join(MAPS)).await else {
+            return;
+        };
+        let next = self.latest.borrow().number + 1;
+        if number_frame(&mut bytes, next) {
+            self.latest.send_replace(MapFrame {
+                number: next,
+                bytes: bytes.into(),
+            });
+        }
+    }
+}
+
+impl MapListener {
+    /// Waits for the first frame with a number above `after`, requesting one if needed. Returns `None` when the
+    /// attempt has ended.
+    pub async fn next(mut self, after: u64) -> Option<Bytes> {
+        self.asked.notify_one();
+        loop {
+            let MapFrame { number, bytes } = self.latest.borrow_and_update().clone();
+            if after < number && !bytes.is_empty() {
+                return Some(bytes);
+            }
+            self.latest.changed().await.ok()?;
         }
     }
 }

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use super::lease::Rules;
-use super::program::Program;
-use super::quotas::OwnerQuotas;
+use super::child::Program;
+use super::job::Rules;
+use super::storage::OwnerQuotas;
 use unwrapd_api::Catalog;
 
 /// Presence of other processes on the same records.

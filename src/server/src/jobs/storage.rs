@@ -1,20 +1,24 @@
-//! The storage interface for job records.
+//! The storage interfaces: for job records, job files and notices.
 
+use std::fmt;
+use std::ops::Range;
+use std::path::Path;
+use std::str::FromStr;
 use std::time::Duration;
 
 use futures_util::future::BoxFuture;
+use futures_util::stream::BoxStream;
+use serde::Deserialize;
+use serde_json::json;
+use uuid::Uuid;
 
-use super::access::Visibility;
-use super::job::{Job, JobId};
-use super::lease::{Token, WorkerId};
-use super::listing::Listing;
-use super::progress::{Event, ProgressReport};
-use super::quotas::{Capacity, OwnerQuota};
-use super::state::State;
+use super::access::{Owner, Visibility};
+use super::handling::{Metadata, Webhook};
+use super::job::{Event, Job, JobId, ProgressReport, State, Token, WorkerId};
 use super::store_error::StoreResult;
-use super::store_id::StoreId;
 use super::timestamp::Timestamp;
 use super::transition::{Refusal, Transition};
+use unwrapd_api::Kind;
 
 /// Key by which a client marks repeated submissions as one. Each owner has keys of its own.
 #[derive(Clone, Debug)]
@@ -239,4 +243,210 @@ pub trait JobStore: Send + Sync {
 
     /// Writes a probe to check that records can be written.
     fn check(&self) -> BoxFuture<'_, StoreResult<()>>;
+}
+
+// Filter and order of job lists.
+
+/// Filter, order and page of a job list. Absent filters match everything.
+#[derive(Clone, Debug, Default)]
+pub struct Listing {
+    /// State to match.
+    pub state: Option<State>,
+    /// Kind to match.
+    pub kind: Option<Kind>,
+    /// Owner to match.
+    pub owner: Option<Owner>,
+    /// Metadata members that must all match.
+    pub metadata: Metadata,
+    /// Earliest time of acceptance.
+    pub since: Option<Timestamp>,
+    /// Time before which jobs were accepted.
+    pub until: Option<Timestamp>,
+    /// Order of the list.
+    pub order: Order,
+    /// Job after which the page starts.
+    pub after: Option<JobId>,
+    /// Maximum number of jobs.
+    pub limit: u32,
+}
+
+/// Order of jobs: the one of two jobs that comes first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Order {
+    /// The later one.
+    #[default]
+    NewestFirst,
+    /// The earlier one.
+    OldestFirst,
+}
+
+// Storage quotas, in total and per owner.
+
+/// Limits on what may be stored.
+#[derive(Clone, Copy, Debug)]
+pub struct Capacity {
+    /// Maximum number of queued jobs.
+    pub depth: u32,
+    /// Maximum bytes of all jobs' files, including those of the job to be accepted.
+    pub bytes: Option<u64>,
+    /// Quotas of each owner.
+    pub of_owner: OwnerQuotas,
+}
+
+/// Quotas of one owner.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OwnerQuotas {
+    /// Maximum number of queued and running jobs.
+    pub jobs: Option<u32>,
+    /// Maximum bytes of the files of all their jobs.
+    pub bytes: Option<u64>,
+    /// Maximum processor time per day in UTC.
+    pub cpu_of_day: Option<Duration>,
+}
+
+/// Kind of quota of an owner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OwnerQuota {
+    /// [`OwnerQuotas::jobs`].
+    Jobs,
+    /// [`OwnerQuotas::bytes`].
+    Bytes,
+    /// [`OwnerQuotas::cpu_of_day`].
+    Cpu,
+}
+
+// The storage interface for job files.
+
+/// Content of a file as a stream of blocks.
+pub type BlobContent = BoxStream<'static, StoreResult<Vec<u8>>>;
+
+/// Files of jobs, under keys such as `ID/input/0`. A file exists completely or not at all, and is never modified.
+pub trait Blobs: Send + Sync {
+    /// Stores a local file under a key, durably. The local file may be moved away.
+    fn put<'a>(&'a self, key: &'a str, from: &'a Path) -> BoxFuture<'a, StoreResult<()>>;
+
+    /// Copies the content of one key to another, as durably as [`Blobs::put`].
+    fn copy<'a>(&'a self, from: &'a str, to: &'a str) -> BoxFuture<'a, StoreResult<()>>;
+
+    /// Copies a file to a local path.
+    fn fetch<'a>(&'a self, key: &'a str, to: &'a Path) -> BoxFuture<'a, StoreResult<()>>;
+
+    /// Reads this byte range of a file.
+    fn read<'a>(
+        &'a self,
+        key: &'a str,
+        range: Range<u64>,
+    ) -> BoxFuture<'a, StoreResult<BlobContent>>;
+
+    /// Returns the ids of the jobs that have files.
+    fn owners(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;
+
+    /// Returns the keys in this folder, with file sizes in bytes.
+    fn list<'a>(&'a self, folder: &'a str) -> BoxFuture<'a, StoreResult<Vec<(String, u64)>>>;
+
+    /// Returns the id of the store that the files belong to; `None` for new storage and for that of version 0.1.0.
+    fn identity(&self) -> BoxFuture<'_, StoreResult<Option<StoreId>>>;
+
+    /// Records the id of the store that the files belong to.
+    fn identify(&self, identity: StoreId) -> BoxFuture<'_, StoreResult<()>>;
+
+    /// Returns the number of free bytes; `None` if the storage does not count them.
+    fn free_bytes(&self) -> StoreResult<Option<u64>>;
+
+    /// Checks that files can be stored now, by writing a probe from time to time.
+    fn check(&self) -> BoxFuture<'_, StoreResult<()>>;
+
+    /// Removes all files in this folder. Succeeds if there are none.
+    fn remove<'a>(&'a self, folder: &'a str) -> BoxFuture<'a, StoreResult<()>>;
+}
+
+// The id that a database and its files share.
+
+/// Id of a store: a database together with its files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StoreId(Uuid);
+
+impl StoreId {
+    /// Creates an id that no other store has.
+    pub fn fresh() -> Self {
+        Self(Uuid::now_v7())
+    }
+}
+
+impl fmt::Display for StoreId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl FromStr for StoreId {
+    type Err = uuid::Error;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        text.trim().parse().map(Self)
+    }
+}
+
+// Notices of ended jobs, waiting for delivery.
+
+/// A notice that a job has ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    /// Id of the notice, the same in every delivery.
+    pub id: String,
+    /// Owner of the job.
+    pub owner: Owner,
+    /// Destination.
+    pub webhook: Webhook,
+    /// Content: a JSON object.
+    pub body: String,
+    /// Number of delivery attempts, including the current one.
+    pub attempt: u32,
+}
+
+impl Notice {
+    /// Returns the notice of a job that has just ended; `None` if it has no webhook or has not ended.
+    pub fn of_end(job: &Job) -> Option<Self> {
+        let end = job.finished.filter(|_| job.state.is_final())?;
+        let body = json!({
+            "type": format!("job.{}", job.state.word()),
+            "timestamp": end,
+            "data": {
+                "id": job.id,
+                "kind": job.kind,
+                "state": job.state,
+                "filename": job.input.first().map(|file| &file.name),
+                "metadata": job.metadata,
+                "certified": job.verdict.quality.certified,
+                "within_bound": job.verdict.within_bound,
+                "accepted": job.accepted(),
+                "error": job.failure,
+                "created_at": job.created,
+                "started_at": job.started,
+                "finished_at": end,
+            },
+        });
+        Some(Self {
+            id: format!("msg_{}", Uuid::now_v7().simple()),
+            owner: job.owner.clone(),
+            webhook: job.webhook.clone()?,
+            body: body.to_string(),
+            attempt: 0,
+        })
+    }
+}
+
+/// Queue of notices to be delivered. They are recorded in the transaction that ends the job, and stay until they are
+/// settled.
+pub trait Outbox: Send + Sync {
+    /// Takes at most `most` notices that are due. Nobody else gets them during `lease`; afterwards they are due
+    /// again.
+    fn take(&self, most: u32, lease: Duration) -> BoxFuture<'_, StoreResult<Vec<Notice>>>;
+
+    /// Deletes a notice that was delivered or given up.
+    fn settle<'a>(&'a self, id: &'a str) -> BoxFuture<'a, StoreResult<()>>;
+
+    /// Makes a notice due again after a pause.
+    fn defer<'a>(&'a self, id: &'a str, pause: Duration) -> BoxFuture<'a, StoreResult<()>>;
 }

@@ -1,9 +1,11 @@
-//! Timestamps in UTC, to the millisecond.
+//! Timestamps in UTC, to the millisecond, and jumps of the store's clock.
 
 use std::fmt;
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use serde::{Serialize, Serializer};
+use tokio::time::Instant;
 
 /// Milliseconds per day.
 const DAY_MS: i64 = 86_400_000;
@@ -79,5 +81,59 @@ fn civil_date(day: i64) -> (i64, i64, i64) {
 impl Serialize for Timestamp {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
+    }
+}
+
+// Detection of jumps of the store's clock, on which expiry depends.
+
+/// Maximum drift of the store's clock against the monotonic clock of this process between two readings. Disciplined
+/// clocks drift by two seconds per hour at most, and readings are at most an hour apart.
+const TOLERANCE: Duration = Duration::from_mins(1);
+
+/// Compares the clock of the store, which can be set, with the monotonic clock of this process, which cannot. Reports
+/// how long both have advanced alike since the start or the last jump.
+#[derive(Debug, Default)]
+pub struct SteadyClock {
+    last: Mutex<Option<Reading>>,
+}
+
+/// Both clocks at one moment.
+#[derive(Clone, Copy, Debug)]
+struct Reading {
+    /// Start of the period in which both have advanced alike.
+    steady_since: Instant,
+    at: Instant,
+    time: Timestamp,
+}
+
+/// Result of a reading.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Steadiness {
+    /// Time for which the store's clock has advanced normally.
+    pub steady: Duration,
+    /// Jump since the last reading, in milliseconds; `None` if there was none.
+    pub jump_ms: Option<i64>,
+}
+
+impl SteadyClock {
+    /// Records that the store's clock showed `time` at `at`.
+    pub fn record(&self, time: Timestamp, at: Instant) -> Steadiness {
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        let jump_ms = last.and_then(|last| {
+            let passed = at.saturating_duration_since(last.at);
+            let jump_ms = time.0.saturating_sub(last.time.later(passed).0);
+            (TOLERANCE.as_millis() < u128::from(jump_ms.unsigned_abs())).then_some(jump_ms)
+        });
+        let before = last.filter(|_| jump_ms.is_none());
+        let steady_since = before.map_or(at, |last| last.steady_since);
+        *last = Some(Reading {
+            steady_since,
+            at,
+            time,
+        });
+        Steadiness {
+            steady: at.saturating_duration_since(steady_since),
+            jump_ms,
+        }
     }
 }

@@ -4,10 +4,7 @@
 
 use std::time::Duration;
 
-use super::job::Job;
-use super::lease::{Rules, Token, WorkerId};
-use super::progress::{ProgressReport, next_attempt_seq};
-use super::state::State;
+use super::job::{Job, ProgressReport, Rules, State, Token, WorkerId, next_attempt_seq};
 use super::timestamp::Timestamp;
 use unwrapd_api::{Failure, OutputFile, Progress, Verdict};
 

@@ -15,11 +15,9 @@
 //! The child exits when its standard input closes, so a killed server leaves no orphans. Sessions end after a period
 //! without messages. Their number is limited, in total and per owner.
 
-mod baked;
-mod pipe;
 mod registry;
 mod session;
 
-pub use baked::Baked;
-pub use registry::{Opened, Sessions, Settings, Unopened};
-pub use session::{End, Session};
+pub use registry::{NewSession, Sessions, Settings, Unopened};
+pub use session::Baked;
+pub use session::{Session, SessionEnd};

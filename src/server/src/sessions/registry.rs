@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use serde_json::Value;
@@ -11,8 +11,8 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio_util::bytes::Bytes;
 use tokio_util::task::TaskTracker;
 
-use super::pipe;
-use super::session::{End, Parts, Session};
+use super::session;
+use super::session::{Parts, Session, SessionEnd, lock};
 use crate::jobs::access::{Owner, Visibility};
 use crate::jobs::{self, JobId, Scratch, read_stderr};
 use unwrapd_api::pipe::{FAILED, MESH};
@@ -54,7 +54,7 @@ pub struct Sessions {
 }
 
 /// Input of a new session.
-pub struct Opened {
+pub struct NewSession {
     /// Owner of the session.
     pub owner: Owner,
     /// Kind of the job that it corresponds to.
@@ -106,7 +106,7 @@ impl Sessions {
     }
 
     /// Opens a session. When this returns, its child has read the input and is ready.
-    pub async fn open(self: &Arc<Self>, opened: Opened) -> Result<Arc<Session>, Unopened> {
+    pub async fn open(self: &Arc<Self>, opened: NewSession) -> Result<Arc<Session>, Unopened> {
         // Reserve the slots of the session.
         let slots = self.slots(&opened.owner)?;
         let id = JobId::fresh();
@@ -117,10 +117,11 @@ impl Sessions {
         }
         write_json(folder.path(), TASK, &self.task(&opened))?;
         let mut child = jobs::spawn(&self.jobs.program, "session", folder.path())?;
-        let gone = || std::io::Error::other("a pipe of the child is missing");
-        let mut stdout = child.stdout.take().ok_or_else(gone)?;
-        let stdin = child.stdin.take().ok_or_else(gone)?;
-        tokio::spawn(log(id, child.stderr.take().ok_or_else(gone)?));
+        let pipes = (child.stdin.take(), child.stdout.take(), child.stderr.take());
+        let (Some(stdin), Some(mut stdout), Some(stderr)) = pipes else {
+            return Err(std::io::Error::other("a pipe of the child is missing").into());
+        };
+        tokio::spawn(log(id, stderr));
         // The mesh is the first thing that the child sends.
         let session = Arc::new(Session::new(Parts {
             id,
@@ -155,7 +156,7 @@ impl Sessions {
         ])
     }
 
-    fn task(&self, opened: &Opened) -> Task {
+    fn task(&self, opened: &NewSession) -> Task {
         let threads = self.jobs.threads(lock(&self.open).len() + 1);
         Task {
             kind: opened.kind,
@@ -181,9 +182,9 @@ impl Sessions {
     ) {
         tokio::select! {
             said = session.relay(&mut stdout) => {
-                session.close(End::Failed(said.unwrap_or_else(crashed)));
+                session.close(SessionEnd::Failed(said.unwrap_or_else(crashed)));
             }
-            () = session.expired(self.settings.idle) => session.close(End::Expired),
+            () = session.expired(self.settings.idle) => session.close(SessionEnd::Expired),
             _ = session.ended() => {}
         }
         lock(&self.open).remove(&session.id);
@@ -214,7 +215,7 @@ impl Sessions {
     pub async fn stop(&self) {
         self.slots.close();
         for session in self.list(&Visibility::All) {
-            session.close(End::Stopping);
+            session.close(SessionEnd::Stopping);
         }
         self.tasks.close();
         self.tasks.wait().await;
@@ -223,7 +224,7 @@ impl Sessions {
 
 /// Receives the mesh, which a child sends when it is ready.
 async fn mesh(stdout: &mut ChildStdout) -> Result<Bytes, Failure> {
-    match tokio::time::timeout(START_TIME, pipe::receive(stdout)).await {
+    match tokio::time::timeout(START_TIME, session::receive(stdout)).await {
         Ok(Ok((MESH, mesh))) => Ok(mesh),
         Ok(Ok((FAILED, failure))) => {
             Err(serde_json::from_slice(&failure).unwrap_or_else(|_| crashed()))
@@ -249,8 +250,4 @@ fn crashed() -> Failure {
         "crashed",
         "the computation ended, which is a bug in the service",
     )
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,20 +1,20 @@
-//! A session on the server's side: a process, its pipes and its listeners.
+//! A session on the server's side: a process, its pipes, its listeners, and the job that it can become.
 
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Duration;
 
 use serde_json::Value;
+use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt};
 use tokio::process::{ChildStdin, ChildStdout};
 use tokio::sync::{broadcast, mpsc, watch};
 use tokio::time::Instant;
 use tokio_util::bytes::Bytes;
 use tokio_util::sync::CancellationToken;
 
-use super::pipe;
 use crate::jobs::access::Owner;
-use crate::jobs::{JobId, Scratch};
-use unwrapd_api::pipe::{BAKE, BAKED, FAILED, FRAME, MESSAGE, REPLY};
-use unwrapd_api::{Failure, InputFile, Kind};
+use crate::jobs::{Digest, Handling, JobId, Scratch, Submission};
+use unwrapd_api::pipe::{BAKE, BAKED, FAILED, FRAME, MESSAGE, REPLY, head, length};
+use unwrapd_api::{Failure, InputFile, Kind, START, input_file, sha256};
 
 /// Number of replies that a client may lag behind before it is disconnected. A larger buffer takes more memory per
 /// session, a smaller one disconnects slow clients sooner.
@@ -22,7 +22,7 @@ const MOST_REPLIES: usize = 4096;
 
 /// Reason why a session ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum End {
+pub enum SessionEnd {
     /// A client closed it.
     Closed,
     /// No client sent a message for the idle time.
@@ -56,7 +56,7 @@ pub struct Session {
     baked: mpsc::Sender<Result<Vec<Value>, Failure>>,
     pub(super) bakes: tokio::sync::Mutex<mpsc::Receiver<Result<Vec<Value>, Failure>>>,
     end: CancellationToken,
-    why: OnceLock<End>,
+    why: OnceLock<SessionEnd>,
 }
 
 /// Parts of a new session.
@@ -99,12 +99,12 @@ impl Session {
     /// Fails if the child is gone.
     pub async fn say(&self, message: &[u8]) -> std::io::Result<()> {
         *lock(&self.heard) = Instant::now();
-        pipe::send(&mut *self.stdin.lock().await, MESSAGE, message).await
+        send(&mut *self.stdin.lock().await, MESSAGE, message).await
     }
 
     pub(super) async fn ask_to_bake(&self) -> std::io::Result<()> {
         *lock(&self.heard) = Instant::now();
-        pipe::send(&mut *self.stdin.lock().await, BAKE, &[]).await
+        send(&mut *self.stdin.lock().await, BAKE, &[]).await
     }
 
     /// Subscribes to frames. Each read returns the latest one; it is empty before the first.
@@ -128,20 +128,20 @@ impl Session {
     }
 
     /// Ends the session for this reason, unless it has ended.
-    pub fn close(&self, why: End) {
+    pub fn close(&self, why: SessionEnd) {
         self.why.get_or_init(|| why);
         self.end.cancel();
     }
 
     /// Waits for the end of the session and returns the reason.
-    pub async fn ended(&self) -> End {
+    pub async fn ended(&self) -> SessionEnd {
         self.end.cancelled().await;
-        self.why.get().cloned().unwrap_or(End::Closed)
+        self.why.get().cloned().unwrap_or(SessionEnd::Closed)
     }
 
     /// Relays the child's records until its output ends. Returns the failure that it reports, if any.
     pub(super) async fn relay(&self, stdout: &mut ChildStdout) -> Option<Failure> {
-        while let Ok((tag, bytes)) = pipe::receive(stdout).await {
+        while let Ok((tag, bytes)) = receive(stdout).await {
             match tag {
                 FRAME => {
                     self.frames.send_replace(bytes);
@@ -190,6 +190,113 @@ impl BakeOutcome {
     }
 }
 
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+/// Locks a mutex, also after a panic of its last holder.
+pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+// Conversion of sessions to jobs.
+
+/// Job made from a session, and the folder with its files, which must be kept until they are moved.
+pub struct Baked {
+    /// Submission of the job.
+    pub submission: Submission,
+    /// Folder with its files.
+    pub folder: Scratch,
+}
+
+impl Session {
+    /// Turns the present state of the session into a job: the same input and options, with the current handles, and
+    /// the current map as its [start](START). The session goes on.
+    ///
+    /// # Errors
+    /// Fails if there is no handle, or a file cannot be written.
+    pub async fn bake(&self) -> Result<Baked, Failure> {
+        // Ask the child for its map and its handles, one request at a time: each writes the same file.
+        let mut bakes = self.bakes.lock().await;
+        self.ask_to_bake().await?;
+        let said = tokio::select! {
+            said = bakes.recv() => said,
+            _ = self.ended() => None,
+        };
+        let Some(handles) = said.transpose()? else {
+            return Err(Failure::new("session_not_found", "it has ended"));
+        };
+        if handles.is_empty() {
+            return Err(Failure::new("no_handle", "nothing is pulled"));
+        }
+        // Link the input files into a folder of their own.
+        let path = self
+            .folder
+            .path()
+            .with_file_name(format!("baked-{}", JobId::fresh()));
+        let folder = Scratch::make(path)?;
+        let mut files = Vec::new();
+        for (index, file) in self
+            .input
+            .iter()
+            .filter(|file| file.name != START)
+            .enumerate()
+        {
+            let place = folder.path().join(input_file(index));
+            tokio::fs::hard_link(self.folder.path().join(input_file(index)), &place).await?;
+            files.push((file.clone(), place));
+        }
+        // Add the current map, which the child has just written.
+        let start = tokio::fs::read(self.folder.path().join(START)).await?;
+        let place = folder.path().join(START);
+        tokio::fs::write(&place, &start).await?;
+        let file = InputFile {
+            name: START.to_owned(),
+            bytes: start.len() as u64,
+            sha256: Some(sha256(&start)),
+        };
+        files.push((file, place));
+        // Describe the job.
+        let options = with_handles(self.kind, self.options.clone(), handles);
+        let submission = Submission {
+            owner: self.owner.clone(),
+            digest: Digest::of_job(self.kind, &options, files.iter().map(|(file, _)| file)),
+            kind: self.kind,
+            options,
+            files,
+            handling: Handling::default(),
+            trace: None,
+            reuse: false,
+            key: None,
+            ephemeral: false,
+        };
+        Ok(Baked { submission, folder })
+    }
+}
+
+/// Returns the options of a job with these handles.
+fn with_handles(kind: Kind, mut options: Value, handles: Vec<Value>) -> Value {
+    let name = match kind {
+        Kind::EditUv | Kind::TextureMap => "anchors",
+        _ => "handles",
+    };
+    options[name] = Value::Array(handles);
+    options
+}
+
+// Asynchronous records on the pipe between server and child.
+
+/// Writes a record.
+pub(super) async fn send(
+    to: &mut (impl AsyncWrite + Unpin),
+    tag: u8,
+    bytes: &[u8],
+) -> std::io::Result<()> {
+    to.write_all(&[&head(tag, bytes.len()), bytes].concat())
+        .await
+}
+
+/// Reads a record: its tag and its bytes.
+pub(super) async fn receive(from: &mut (impl AsyncRead + Unpin)) -> std::io::Result<(u8, Bytes)> {
+    let mut head = [0; 5];
+    from.read_exact(&mut head).await?;
+    let mut bytes = vec![0; length(head)?];
+    from.read_exact(&mut bytes).await?;
+    Ok((head[0], bytes.into()))
 }

@@ -1,13 +1,15 @@
-//! The database: opening, migration and connections.
+//! The database: opening, migration, connections, dialects and errors.
 
 use std::io::ErrorKind;
 use std::time::{Duration, Instant};
 
 use sqlx::any::AnyPoolOptions;
-use sqlx::migrate::{Migration, MigrationType, Migrator};
-use sqlx::{Any, AnyConnection, AnyPool, AssertSqlSafe, Connection, Row, SqlSafeStr, Transaction};
+use sqlx::migrate::{MigrateError, Migration, MigrationType, Migrator};
+use sqlx::{
+    Any, AnyConnection, AnyPool, AssertSqlSafe, Connection, Error, Row, SqlSafeStr, Transaction,
+};
 
-use super::dialect::Dialect;
+use super::rows::COLUMNS;
 use crate::jobs::{StoreError, StoreResult};
 
 /// Migrations: the n-th one leads from version n to the next. Programs of the previous version must keep working
@@ -77,16 +79,15 @@ impl Database {
             StoreError::Other("the URL of a database begins with postgres:".to_owned())
         })?;
         probe(url, PATIENCE).await?;
-        let pool = async |connections| pool(dialect, connections).connect(url).await;
         let database = match dialect {
             Dialect::Sqlite => Self {
-                writers: pool(1).await?,
-                readers: pool(SQLITE_READERS).await?,
+                writers: pool(dialect, 1).connect(url).await?,
+                readers: pool(dialect, SQLITE_READERS).connect(url).await?,
                 dialect,
                 url: url.to_owned(),
             },
             Dialect::Postgres => {
-                let pool = pool(POSTGRES_CONNECTIONS).await?;
+                let pool = pool(dialect, POSTGRES_CONNECTIONS).connect(url).await?;
                 Self {
                     readers: pool.clone(),
                     writers: pool,
@@ -104,12 +105,11 @@ impl Database {
             Dialect::Sqlite => &SQLITE[..],
             Dialect::Postgres => &POSTGRES[..],
         };
-        let migration = |(index, sql): (usize, &&'static str)| {
-            let (version, sql) = (index as i64 + 1, sql.into_sql_str());
+        let migrations = (1..).zip(steps).map(|(version, sql)| {
+            let sql = sql.into_sql_str();
             Migration::new(version, "".into(), MigrationType::Simple, sql, false)
-        };
-        let migrations = steps.iter().enumerate().map(migration).collect();
-        let mut migrator = Migrator::with_migrations(migrations);
+        });
+        let mut migrator = Migrator::with_migrations(migrations.collect());
         // Accept versions of a newer program: it may have migrated the database during a rolling update.
         migrator.set_ignore_missing(true);
         let mut connection = self.writers.acquire().await?;
@@ -197,6 +197,130 @@ fn pool(dialect: Dialect, connections: u32) -> AnyPoolOptions {
 async fn is_usable(connection: &mut AnyConnection) -> sqlx::Result<bool> {
     // The ping also waits for the rollback of a dropped transaction.
     let answer = tokio::time::timeout(PATIENCE, connection.ping()).await;
-    answer.unwrap_or_else(|_| Err(sqlx::Error::Io(ErrorKind::TimedOut.into())))?;
+    answer.unwrap_or_else(|_| Err(Error::Io(ErrorKind::TimedOut.into())))?;
     Ok(!connection.is_in_transaction())
+}
+
+// Differences between SQLite and PostgreSQL.
+
+/// The database engine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Dialect {
+    Sqlite,
+    Postgres,
+}
+
+impl Dialect {
+    /// Returns the engine for a database URL; `None` for an unknown scheme.
+    pub fn of(url: &str) -> Option<Self> {
+        match url.split(':').next()? {
+            "sqlite" => Some(Self::Sqlite),
+            "postgres" | "postgresql" => Some(Self::Postgres),
+            _ => None,
+        }
+    }
+
+    /// Returns the statement that begins a writing transaction. SQLite has a single lock, which a transaction that
+    /// reads first could not get later.
+    pub fn begin(self) -> &'static str {
+        match self {
+            Self::Sqlite => "BEGIN IMMEDIATE",
+            Self::Postgres => "BEGIN",
+        }
+    }
+
+    /// Returns the statement that lets one submission at a time count the queued jobs and look for its key; `None`
+    /// for SQLite, which has one writer anyway.
+    pub fn lock_submissions(self) -> Option<&'static str> {
+        match self {
+            Self::Sqlite => None,
+            Self::Postgres => Some("SELECT pg_advisory_xact_lock(7521198)"),
+        }
+    }
+
+    /// Returns the statement that lets one claim at a time count the running jobs of an owner; `None` for SQLite.
+    pub fn lock_claims(self) -> Option<&'static str> {
+        match self {
+            Self::Sqlite => None,
+            Self::Postgres => Some("SELECT pg_advisory_xact_lock(7521199)"),
+        }
+    }
+
+    /// Expands a statement: `{columns}` to the columns of a job, `{now}` to the clock, `{locked}` to a lock on the
+    /// rows after waiting for others, `{free}` to a lock on the job rows that no other transaction has locked.
+    pub fn sql(self, text: &str) -> String {
+        let (locked, free) = match self {
+            Self::Sqlite => ("", ""),
+            Self::Postgres => ("FOR UPDATE", "FOR UPDATE OF job SKIP LOCKED"),
+        };
+        text.replace("{columns}", COLUMNS)
+            .replace("{now}", self.now())
+            .replace("{locked}", locked)
+            .replace("{free}", free)
+    }
+
+    /// Returns the expression for milliseconds since 1970 by the clock of the database, which advances within a
+    /// transaction.
+    fn now(self) -> &'static str {
+        match self {
+            Self::Sqlite => "CAST(unixepoch('now', 'subsec') * 1000 AS INTEGER)",
+            Self::Postgres => "CAST(extract(epoch FROM clock_timestamp()) * 1000 AS BIGINT)",
+        }
+    }
+}
+
+// Conversion of database errors to store errors.
+
+/// SQLite's result codes `SQLITE_FULL`, `SQLITE_BUSY` and `SQLITE_LOCKED`. Extended codes have them in the low byte.
+const SQLITE_FULL: i32 = 13;
+const SQLITE_BUSY: [i32; 2] = [5, 6];
+/// PostgreSQL's code for a full disk, and the classes of its temporary errors: connections, deadlocks, lack of
+/// resources, interventions of an operator such as a restart, its disk.
+const POSTGRES_FULL: &str = "53100";
+const POSTGRES_PASSING: [&str; 5] = ["08", "40", "53", "57", "58"];
+
+impl From<Error> for StoreError {
+    fn from(error: Error) -> Self {
+        let text = error.to_string();
+        match error {
+            Error::Io(error) => match Self::from(error) {
+                Self::Full(text) => Self::Full(text),
+                _ => Self::Unavailable(text),
+            },
+            Error::PoolTimedOut => {
+                Self::Unavailable("no connection to the database became free in time".to_owned())
+            }
+            Error::Database(error) if error.is_unique_violation() => Self::Conflict(text),
+            Error::Database(error) => {
+                let code = error.code().unwrap_or_default();
+                // PostgreSQL's codes have five characters, SQLite's fewer digits.
+                match code.parse::<i32>().map(|code| code & 0xff) {
+                    _ if code == POSTGRES_FULL => Self::Full(text),
+                    _ if code.len() == 5 && POSTGRES_PASSING.contains(&&code[..2]) => {
+                        Self::Unavailable(text)
+                    }
+                    Ok(SQLITE_FULL) if code.len() < 5 => Self::Full(text),
+                    Ok(low) if code.len() < 5 && SQLITE_BUSY.contains(&low) => {
+                        Self::Unavailable(text)
+                    }
+                    _ => Self::Other(text),
+                }
+            }
+            Error::PoolClosed | Error::WorkerCrashed | Error::Tls(_) | Error::Protocol(_) => {
+                Self::Unavailable(text)
+            }
+            _ => Self::Other(text),
+        }
+    }
+}
+
+impl From<MigrateError> for StoreError {
+    fn from(error: MigrateError) -> Self {
+        match error {
+            MigrateError::Execute(error) => error.into(),
+            error => Self::Other(format!(
+                "the database cannot be brought up to date: {error}"
+            )),
+        }
+    }
 }

@@ -8,7 +8,7 @@ use sqlx::any::AnyRow;
 
 use super::database::Database;
 use super::records::{RecordStore, bounded};
-use super::rows::{self, damaged, time};
+use super::rows::{self, damaged, text, time};
 use crate::jobs::access::{Key, KeyId, KeyStore, NewKey, Owner};
 use crate::jobs::{StoreResult, Timestamp};
 
@@ -122,14 +122,13 @@ async fn add(database: &Database, new: &NewKey) -> StoreResult<Key> {
 
 /// Reads a key from a row with [`COLUMNS`].
 fn key(row: &AnyRow) -> StoreResult<Key> {
-    let text = |column| row.try_get::<String, _>(column).map_err(damaged);
     let parent: Option<String> = row.try_get("parent").map_err(damaged)?;
     Ok(Key {
-        id: KeyId::recorded(text("id")?),
-        digest: text("digest")?,
-        owner: Owner::recorded(text("owner")?),
-        scopes: text("scopes")?.parse().map_err(damaged)?,
-        name: text("name")?,
+        id: KeyId::recorded(text(row, "id")?),
+        digest: text(row, "digest")?,
+        owner: Owner::recorded(text(row, "owner")?),
+        scopes: text(row, "scopes")?.parse().map_err(damaged)?,
+        name: text(row, "name")?,
         parent: parent.map(KeyId::recorded),
         created: Timestamp(row.try_get("created").map_err(damaged)?),
         expires: time(row, "expires")?,

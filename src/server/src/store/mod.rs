@@ -13,27 +13,40 @@
 //! DATA/scratch/…        temporary files; emptied at every start
 //! ```
 
-mod address;
-mod claims;
 mod database;
-mod dialect;
-mod errors;
+mod enqueue;
 mod files;
-mod hints;
-mod idempotency;
 mod keys;
-mod notices;
 mod objects;
 mod outbox;
-mod quotas;
 mod reading;
 mod records;
 mod rows;
 mod transitions;
 mod upkeep;
-mod within;
 
-pub use address::blobs_at;
+use std::path::Path;
+
+use percent_encoding::percent_decode_str;
+
+use crate::jobs::{Blobs, StoreError, StoreResult};
+
 pub use files::FileBlobs;
 pub use objects::ObjectBlobs;
 pub use records::RecordStore;
+
+/// Opens the file storage at a URL: `file:///FOLDER`, `s3://BUCKET` or `s3://BUCKET/PREFIX`. Environment variables
+/// tell how to connect to a bucket.
+pub fn blobs_at(url: &str) -> StoreResult<Box<dyn Blobs>> {
+    match url.split_once("://") {
+        Some(("file", path)) => {
+            let path = percent_decode_str(path).decode_utf8_lossy();
+            Ok(Box::new(FileBlobs::open(Path::new(path.as_ref()))?))
+        }
+        Some(("s3", _)) => Ok(Box::new(ObjectBlobs::open(url, std::env::vars())?)),
+        _ => {
+            let detail = "its URL begins with file:/// or s3://".to_owned();
+            Err(StoreError::Other(detail))
+        }
+    }
+}

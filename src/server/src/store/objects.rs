@@ -17,7 +17,7 @@ use object_store::{
 use tokio::fs::File;
 use tokio::io::AsyncWriteExt;
 
-use crate::jobs::{Blobs, Content, JobId, StoreError, StoreId, StoreResult};
+use crate::jobs::{BlobContent, Blobs, JobId, StoreError, StoreId, StoreResult};
 
 /// Timeouts of a request and of connecting. Files are sent in parts of 10 MiB, the default of `BufWriter`, and fetched
 /// in one request each. A longer timeout lets a slow store occupy a slot; a shorter one fails large files on slow
@@ -62,19 +62,17 @@ impl ObjectBlobs {
             retry_timeout: RETRY_TIME,
             ..RetryConfig::default()
         };
-        let builder = AmazonS3Builder::new()
+        let mut builder = AmazonS3Builder::new()
             .with_url(url)
             .with_client_options(client)
             .with_retry(retry);
         // Apply the environment variables.
-        let set = |builder: AmazonS3Builder, (name, value): (String, String)| match name
-            .to_ascii_lowercase()
-            .parse::<AmazonS3ConfigKey>()
-        {
-            Ok(key) if name.starts_with("AWS_") => builder.with_config(key, value),
-            _ => builder,
-        };
-        let bucket = variables.fold(builder, set).build()?;
+        for (name, value) in variables.filter(|(name, _)| name.starts_with("AWS_")) {
+            if let Ok(key) = name.to_ascii_lowercase().parse::<AmazonS3ConfigKey>() {
+                builder = builder.with_config(key, value);
+            }
+        }
+        let bucket = builder.build()?;
         // Restrict the bucket to the prefix.
         let (_, path) = url
             .trim_start_matches("s3://")
@@ -96,7 +94,7 @@ impl ObjectBlobs {
         Ok(file.flush().await?)
     }
 
-    async fn read_from(&self, key: &str, range: Range<u64>) -> StoreResult<Content> {
+    async fn read_from(&self, key: &str, range: Range<u64>) -> StoreResult<BlobContent> {
         if range.is_empty() {
             return Ok(stream::empty().boxed());
         }
@@ -137,8 +135,8 @@ impl Blobs for ObjectBlobs {
                 object.shutdown().await
             };
             // The failure is on the side of the store, not of a local disk.
-            let failed = |error: std::io::Error| StoreError::Unavailable(error.to_string());
-            sent.await.map_err(failed)
+            sent.await
+                .map_err(|error| StoreError::Unavailable(error.to_string()))
         }
         .boxed()
     }
@@ -151,7 +149,11 @@ impl Blobs for ObjectBlobs {
         self.fetch_to(key, to).boxed()
     }
 
-    fn read<'a>(&'a self, key: &'a str, range: Range<u64>) -> BoxFuture<'a, StoreResult<Content>> {
+    fn read<'a>(
+        &'a self,
+        key: &'a str,
+        range: Range<u64>,
+    ) -> BoxFuture<'a, StoreResult<BlobContent>> {
         self.read_from(key, range).boxed()
     }
 

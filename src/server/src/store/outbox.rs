@@ -8,7 +8,7 @@ use sqlx::any::AnyRow;
 
 use super::database::Database;
 use super::records::{RecordStore, bounded};
-use super::rows::damaged;
+use super::rows::{damaged, text};
 use crate::jobs::access::Owner;
 use crate::jobs::{Notice, Outbox, StoreResult};
 
@@ -66,13 +66,12 @@ async fn take(database: &Database, most: u32, lease: Duration) -> StoreResult<Ve
 }
 
 fn notice(row: &AnyRow) -> StoreResult<Notice> {
-    let text = |column| row.try_get::<String, _>(column).map_err(damaged);
     let attempt: i64 = row.try_get("attempt").map_err(damaged)?;
     Ok(Notice {
-        id: text("id")?,
-        owner: Owner::recorded(text("owner")?),
-        webhook: text("url")?.parse().map_err(damaged)?,
-        body: text("body")?,
+        id: text(row, "id")?,
+        owner: Owner::recorded(text(row, "owner")?),
+        webhook: text(row, "url")?.parse().map_err(damaged)?,
+        body: text(row, "body")?,
         attempt: attempt as u32,
     })
 }

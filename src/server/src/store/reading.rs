@@ -7,7 +7,6 @@ use sqlx::{AnyConnection, AssertSqlSafe, Row};
 
 use super::database::Database;
 use super::rows;
-use super::within::within;
 use crate::jobs::access::Visibility;
 use crate::jobs::{Event, Job, JobId, Queue, State, StoreResult};
 
@@ -148,4 +147,15 @@ pub(super) async fn stored_bytes(connection: &mut AnyConnection) -> StoreResult<
 /// Reads jobs from rows.
 fn jobs(found: &[AnyRow]) -> StoreResult<Vec<Job>> {
     found.iter().map(rows::job).collect()
+}
+
+// Visibility of a request in SQL.
+
+/// Returns the condition that a row is visible, and the value to bind to its placeholder.
+pub(super) fn within(visibility: &Visibility, place: u8) -> (String, &str) {
+    match visibility {
+        Visibility::Own(owner) => (format!("owner = ${place}"), owner.as_str()),
+        // Names of owners cannot contain this character. The placeholder must be used, since every caller binds it.
+        Visibility::All => (format!("${place} = '*'"), "*"),
+    }
 }

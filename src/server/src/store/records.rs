@@ -1,22 +1,22 @@
 //! The job store in a database.
 
-use super::database::Database;
-use super::dialect::Dialect;
-use super::hints::Hints;
-use super::reading::stored_bytes;
-use super::within::within;
-use super::{claims, idempotency, notices, quotas, reading, rows, transitions, upkeep};
+use std::time::Duration;
+
+use futures_util::FutureExt;
+use futures_util::future::BoxFuture;
+use sqlx::query::Query;
+use sqlx::{Any, AssertSqlSafe, Row};
+
+use super::database::{Database, Dialect};
+use super::enqueue::{self, Hints, enqueue};
+use super::reading::{self, stored_bytes, within};
+use super::{rows, transitions, upkeep};
 use crate::jobs::access::{Owner, Visibility};
 use crate::jobs::{
     Capacity, Census, Changed, Enqueued, Event, Heartbeat, IdempotencyKey, Job, JobId, JobStore,
     Listing, Order, Quarantined, Queue, Reason, Rules, Share, State, StoreError, StoreId,
     StoreResult, Sweep, Timestamp, Transition, WorkerId,
 };
-use futures_util::FutureExt;
-use futures_util::future::BoxFuture;
-use sqlx::query::Query;
-use sqlx::{Any, AssertSqlSafe, Row, Transaction};
-use std::time::Duration;
 use unwrapd_api::Kind;
 
 /// Time limit of a call, including a lost connection. A longer limit delays the answers of an unreachable store; a
@@ -94,16 +94,16 @@ impl JobStore for RecordStore {
     }
 
     fn claim(&self, worker: WorkerId, share: Share) -> BoxFuture<'_, StoreResult<Option<Job>>> {
-        let claim = claims::claim(&self.database, worker, share, &self.rules);
+        let claim = transitions::claim(&self.database, worker, share, &self.rules);
         bounded(claim)
     }
 
     fn set_paused(&self, paused: bool) -> BoxFuture<'_, StoreResult<()>> {
-        bounded(claims::set_paused(&self.database, paused))
+        bounded(transitions::set_paused(&self.database, paused))
     }
 
     fn is_paused(&self) -> BoxFuture<'_, StoreResult<bool>> {
-        bounded(claims::is_paused(&self.database))
+        bounded(transitions::is_paused(&self.database))
     }
 
     fn ended_within(&self, time: Duration) -> BoxFuture<'_, StoreResult<u64>> {
@@ -171,7 +171,7 @@ impl JobStore for RecordStore {
     }
 
     fn forget_keys(&self) -> BoxFuture<'_, StoreResult<()>> {
-        bounded(idempotency::forget(&self.database))
+        bounded(enqueue::forget(&self.database))
     }
 
     fn ephemeral(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>> {
@@ -361,74 +361,4 @@ async fn keep(database: &Database) -> StoreResult<()> {
         .await?;
     transaction.commit().await?;
     Ok(())
-}
-
-// Recording of new jobs, subject to capacity and idempotency.
-
-/// Adds a job, timed by the database.
-async fn enqueue(
-    database: &Database,
-    hints: &Hints,
-    job: &Job,
-    key: Option<&IdempotencyKey>,
-    capacity: Capacity,
-) -> StoreResult<Enqueued> {
-    // One submission at a time counts jobs and looks for its key.
-    let mut transaction = database.begin().await?;
-    if let Some(lock) = database.dialect.lock_submissions() {
-        sqlx::query(lock).execute(&mut *transaction).await?;
-    }
-    let (queued, now) = queued(database, &mut transaction).await?;
-    let mut job = job.clone();
-    (job.created, job.due) = (now, now);
-    job.finished = job.finished.map(|_| now);
-    // A repeated submission gets its earlier job.
-    if let Some(key) = key
-        && let Some(earlier) =
-            idempotency::earlier_use(database, key, &job.owner, &mut transaction).await?
-    {
-        return Ok(earlier);
-    }
-    // Check the capacity, the quotas of the owner and the total.
-    if job.state == State::Queued && i64::from(capacity.depth) <= queued {
-        return Ok(Enqueued::Full);
-    }
-    let quotas = capacity.of_owner;
-    if let Some(quota) = quotas::exceeded(&job, quotas, now, &mut transaction).await? {
-        return Ok(Enqueued::OwnerOverQuota(quota));
-    }
-    if let Some(bytes) = capacity.bytes
-        && bytes < stored_bytes(&mut transaction).await? + job.stored_bytes()
-    {
-        return Ok(Enqueued::OverQuota);
-    }
-    // Insert the job, its key and its notice, and hint at it.
-    rows::insert(&job, &mut transaction).await?;
-    if let Some(key) = key {
-        idempotency::remember(key, &job, &mut transaction).await?;
-    }
-    notices::tell(&job, now, &mut transaction).await?;
-    hints.give(&job, &mut transaction).await?;
-    transaction.commit().await.map_err(unanswered)?;
-    Ok(Enqueued::New(Box::new(job)))
-}
-
-/// Returns the number of queued jobs and the current time.
-async fn queued(
-    database: &Database,
-    transaction: &mut Transaction<'_, Any>,
-) -> StoreResult<(i64, Timestamp)> {
-    let count = "SELECT count(*) AS queued, {now} AS now FROM job WHERE state = 'queued'";
-    let row = sqlx::query(database.sql(count))
-        .fetch_one(&mut **transaction)
-        .await?;
-    Ok((row.try_get("queued")?, rows::now(&row)?))
-}
-
-/// Converts the error of a commit: after a lost connection its outcome is unknown.
-fn unanswered(error: sqlx::Error) -> StoreError {
-    match error.into() {
-        StoreError::Unavailable(text) => StoreError::Unanswered(text),
-        error => error,
-    }
 }

@@ -126,16 +126,29 @@ pub(super) fn now(row: &AnyRow) -> StoreResult<Timestamp> {
 
 /// Reads an event from a row of `SELECT id, state, seq, progress, started, finished, {now} AS now`.
 pub(super) fn event(row: &AnyRow) -> StoreResult<(JobId, Event)> {
-    let text = |column| row.try_get::<String, _>(column).map_err(damaged);
-    let seq: i64 = row.try_get("seq").map_err(damaged)?;
     let until = time(row, "finished")?.map_or_else(|| now(row), Ok)?;
     let event = Event {
-        seq: seq as u64,
-        state: word(&text("state")?)?,
-        progress: parsed(&text("progress")?)?,
+        seq: number(row, "seq")? as u64,
+        state: word(&text(row, "state")?)?,
+        progress: parsed(&text(row, "progress")?)?,
         elapsed_ms: time(row, "started")?.map_or(0, |started| until.since(started)),
     };
     Ok((id(row)?, event))
+}
+
+/// Reads a text from a column of a row.
+pub(super) fn text(row: &AnyRow, column: &str) -> StoreResult<String> {
+    row.try_get(column).map_err(damaged)
+}
+
+/// Reads a text from a column of a row; `None` if it is null.
+fn maybe_text(row: &AnyRow, column: &str) -> StoreResult<Option<String>> {
+    row.try_get(column).map_err(damaged)
+}
+
+/// Reads a number from a column of a row.
+fn number(row: &AnyRow, column: &str) -> StoreResult<i64> {
+    row.try_get(column).map_err(damaged)
 }
 
 /// Reads a time from a column of a row; `None` if it is null.
@@ -146,45 +159,47 @@ pub(super) fn time(row: &AnyRow, column: &str) -> StoreResult<Option<Timestamp>>
 
 /// Reads a job from a row with [`COLUMNS`].
 pub(super) fn job(row: &AnyRow) -> StoreResult<Job> {
-    let text = |column| row.try_get::<String, _>(column).map_err(damaged);
-    let number = |column| row.try_get::<i64, _>(column).map_err(damaged);
-    let maybe = |column| row.try_get::<Option<String>, _>(column).map_err(damaged);
     Ok(Job {
         id: id(row)?,
-        owner: Owner::recorded(text("owner")?),
-        kind: word(&text("kind")?)?,
-        state: word(&text("state")?)?,
-        options: parsed(&text("options")?)?,
-        input: parsed(&text("input")?)?,
-        output: parsed(&text("output")?)?,
-        drawn: parsed(&text("drawn")?)?,
-        verdict: parsed(&text("verdict")?)?,
-        attempt: number("attempt")? as u32,
-        digest: text("digest")?,
-        priority: number("priority")? as i32,
-        trace: maybe("trace")?,
-        metadata: (maybe("metadata")?.map(|json| parsed(&json)).transpose()?).unwrap_or_default(),
-        accept: (maybe("accept")?)
+        owner: Owner::recorded(text(row, "owner")?),
+        kind: word(&text(row, "kind")?)?,
+        state: word(&text(row, "state")?)?,
+        options: parsed(&text(row, "options")?)?,
+        input: parsed(&text(row, "input")?)?,
+        output: parsed(&text(row, "output")?)?,
+        drawn: parsed(&text(row, "drawn")?)?,
+        verdict: parsed(&text(row, "verdict")?)?,
+        attempt: number(row, "attempt")? as u32,
+        digest: text(row, "digest")?,
+        priority: number(row, "priority")? as i32,
+        trace: maybe_text(row, "trace")?,
+        metadata: (maybe_text(row, "metadata")?
+            .map(|json| parsed(&json))
+            .transpose()?)
+        .unwrap_or_default(),
+        accept: (maybe_text(row, "accept")?)
             .map(|gates| gates.parse().map_err(damaged))
             .transpose()?,
-        webhook: (maybe("webhook")?)
+        webhook: (maybe_text(row, "webhook")?)
             .map(|url| url.parse().map_err(damaged))
             .transpose()?,
-        token: number("token")? as Token,
-        worker: maybe("worker")?
+        token: number(row, "token")? as Token,
+        worker: maybe_text(row, "worker")?
             .map(|worker| worker.parse().map_err(damaged))
             .transpose()?,
         lease: time(row, "lease")?,
-        due: Timestamp(number("due")?),
-        lost: number("lost")? as u32,
-        interrupted: number("interrupted")? as u32,
-        cancel: number("cancel")? != 0,
-        finish_early: number("finish_early")? != 0,
-        ephemeral: number("ephemeral")? != 0,
-        seq: number("seq")? as u64,
-        progress: parsed(&text("progress")?)?,
-        failure: maybe("failure")?.map(|json| parsed(&json)).transpose()?,
-        created: Timestamp(number("created")?),
+        due: Timestamp(number(row, "due")?),
+        lost: number(row, "lost")? as u32,
+        interrupted: number(row, "interrupted")? as u32,
+        cancel: number(row, "cancel")? != 0,
+        finish_early: number(row, "finish_early")? != 0,
+        ephemeral: number(row, "ephemeral")? != 0,
+        seq: number(row, "seq")? as u64,
+        progress: parsed(&text(row, "progress")?)?,
+        failure: maybe_text(row, "failure")?
+            .map(|json| parsed(&json))
+            .transpose()?,
+        created: Timestamp(number(row, "created")?),
         started: time(row, "started")?,
         finished: time(row, "finished")?,
     })

@@ -7,12 +7,12 @@ use sqlx::any::AnyRow;
 use sqlx::{Any, Row, Transaction};
 
 use super::database::Database;
-use super::within::within;
-use super::{notices, quotas, rows};
-use crate::jobs::access::Visibility;
+use super::reading::within;
+use super::rows;
+use crate::jobs::access::{Owner, Visibility};
 use crate::jobs::{
-    Changed, Heartbeat, Job, JobId, Reason, Rules, State, StoreError, StoreResult, Sweep,
-    Transition, after,
+    Changed, Heartbeat, Job, JobId, Notice, OwnerQuota, OwnerQuotas, Reason, Rules, SUSPECT, Share,
+    State, StoreError, StoreResult, Sweep, Timestamp, Transition, WorkerId, after,
 };
 
 /// Jobs per transaction of a sweep. Larger transactions lock rows for longer, smaller ones take more commits.
@@ -189,16 +189,230 @@ pub(super) async fn written(
             if let Transition::Ended(_, report, _) = transition
                 && job.state == State::Running
             {
-                quotas::spend(&job.owner, report.cpu_ms, now, transaction).await?;
+                spend(&job.owner, report.cpu_ms, now, transaction).await?;
             }
             if !rows::update(&next, job.token, transaction).await? {
                 return Err(StoreError::Conflict(format!("job {}", job.id)));
             }
             if !job.state.is_final() {
-                notices::tell(&next, now, transaction).await?;
+                tell(&next, now, transaction).await?;
             }
             Ok(Changed::Yes(Box::new(next)))
         }
         Err(refusal) => Ok(Changed::No(Box::new(job), refusal)),
     }
+}
+
+// Assignment of jobs to workers: owners take turns.
+//
+// The next job belongs to the owner with the fewest running jobs, and among those to the one whose last start was
+// longest ago. Priorities order the jobs of one owner, never those of different owners. So an owner who submits a
+// thousand jobs delays nobody else.
+
+/// Condition for queued jobs of at most `$2` bytes that may start. A job whose pause exceeds the longest one (`$1`)
+/// is due, because the clock was set back since. A busy worker (`$3 = 1`) gets no job that was lost with `$4`
+/// workers, and no job at all while such a job has been due for five minutes.
+const DUE: &str = "job.state = 'queued' AND (job.due <= {now} OR {now} + $1 < job.due)
+     AND job.bytes <= $2 AND NOT EXISTS (SELECT id FROM pause)
+     AND ($3 = 0 OR (job.interrupted < $4 AND NOT EXISTS (
+         SELECT suspect.id FROM job AS suspect WHERE suspect.state = 'queued'
+         AND $4 <= suspect.interrupted AND suspect.due <= {now} - 300000)))";
+
+/// Assigns the next job of its share to a worker.
+pub(super) async fn claim(
+    database: &Database,
+    worker: WorkerId,
+    share: Share,
+    rules: &Rules,
+) -> StoreResult<Option<Job>> {
+    let longest_pause = rules.longest_pause().as_millis() as i64;
+    let largest = share.largest.map_or(i64::MAX, |bytes| bytes as i64);
+    // Check without a lock first: most of the time there is no job.
+    let is_any = database.sql(&format!("SELECT id FROM job WHERE {DUE} LIMIT 1"));
+    let is_busy = i64::from(share.is_busy);
+    let query = sqlx::query(is_any)
+        .bind(longest_pause)
+        .bind(largest)
+        .bind(is_busy)
+        .bind(i64::from(SUSPECT));
+    if query.fetch_optional(&database.readers).await?.is_none() {
+        return Ok(None);
+    }
+    let mut transaction = database.begin().await?;
+    // With a limit per owner, only one process at a time may count running jobs.
+    if share.of_owner.is_some()
+        && let Some(lock) = database.dialect.lock_claims()
+    {
+        sqlx::query(lock).execute(&mut *transaction).await?;
+    }
+    // Choose the owner whose turn it is, then the job.
+    let next = database.sql(&format!(
+        "SELECT job.id FROM job
+         LEFT JOIN turn ON turn.owner = job.owner
+         LEFT JOIN (SELECT owner, count(*) AS jobs FROM job WHERE state = 'running'
+                    GROUP BY owner) AS busy ON busy.owner = job.owner
+         WHERE {DUE} AND coalesce(busy.jobs, 0) < $5
+         ORDER BY coalesce(busy.jobs, 0), coalesce(turn.at, 0), job.owner,
+                  job.priority DESC, job.id
+         LIMIT 1 {{free}}"
+    ));
+    let next = sqlx::query(next)
+        .bind(longest_pause)
+        .bind(largest)
+        .bind(is_busy)
+        .bind(i64::from(SUSPECT))
+        .bind(share.of_owner.map_or(i64::MAX, i64::from))
+        .fetch_optional(&mut *transaction)
+        .await?;
+    let Some(next) = next else {
+        return Ok(None);
+    };
+    // Read the whole record and mark it as running.
+    let row = database.sql("SELECT {columns}, {now} AS now FROM job WHERE id = $1");
+    let row = sqlx::query(row)
+        .bind(next.try_get::<String, _>("id")?)
+        .fetch_one(&mut *transaction)
+        .await?;
+    let transition = Transition::Claimed(worker);
+    let Changed::Yes(job) = written(&row, &transition, rules, &mut transaction).await? else {
+        return Ok(None);
+    };
+    take_turn(&job, &mut transaction).await?;
+    transaction.commit().await?;
+    Ok(Some(*job))
+}
+
+/// Moves the owner of a started job to the end of the line.
+async fn take_turn(job: &Job, transaction: &mut Transaction<'_, Any>) -> StoreResult<()> {
+    let last = "INSERT INTO turn (owner, at)
+         VALUES ($1, (SELECT coalesce(max(at), 0) + 1 FROM turn))
+         ON CONFLICT (owner) DO UPDATE SET at = excluded.at";
+    sqlx::query(last)
+        .bind(job.owner.as_str())
+        .execute(&mut **transaction)
+        .await?;
+    Ok(())
+}
+
+/// Pauses or resumes the queue.
+pub(super) async fn set_paused(database: &Database, paused: bool) -> StoreResult<()> {
+    let statement = if paused {
+        "INSERT INTO pause (id, since) VALUES (1, {now}) ON CONFLICT (id) DO NOTHING"
+    } else {
+        "DELETE FROM pause"
+    };
+    sqlx::query(database.sql(statement))
+        .execute(&database.writers)
+        .await?;
+    Ok(())
+}
+
+/// Returns whether the queue is paused.
+pub(super) async fn is_paused(database: &Database) -> StoreResult<bool> {
+    let row = sqlx::query("SELECT id FROM pause")
+        .fetch_optional(&database.readers)
+        .await?;
+    Ok(row.is_some())
+}
+
+// Recording of notices in the database when jobs end.
+
+/// Records a notice if a job has ended and has a webhook.
+pub(super) async fn tell(
+    job: &Job,
+    now: Timestamp,
+    transaction: &mut Transaction<'_, Any>,
+) -> StoreResult<()> {
+    let Some(notice) = Notice::of_end(job) else {
+        return Ok(());
+    };
+    sqlx::query(
+        "INSERT INTO outbox (id, owner, url, body, attempt, due) VALUES ($1, $2, $3, $4, 0, $5)",
+    )
+    .bind(notice.id)
+    .bind(notice.owner.as_str())
+    .bind(notice.webhook.to_string())
+    .bind(notice.body)
+    .bind(now.0)
+    .execute(&mut **transaction)
+    .await?;
+    Ok(())
+}
+
+// Quotas of owners and their use.
+
+/// Milliseconds per day.
+const DAY_MS: i64 = 86_400_000;
+
+/// Returns the quota of its owner that a new job would exceed; `None` if it exceeds none.
+pub(super) async fn exceeded(
+    job: &Job,
+    quotas: OwnerQuotas,
+    now: Timestamp,
+    transaction: &mut Transaction<'_, Any>,
+) -> StoreResult<Option<OwnerQuota>> {
+    let owner = job.owner.as_str();
+    // Check the live jobs, the stored bytes, and the processor time of the day.
+    if let Some(most) = quotas.jobs.filter(|_| job.state == State::Queued) {
+        let live = "SELECT count(*) FROM job
+             WHERE owner = $1 AND $2 = $2 AND state IN ('queued', 'running')";
+        if u64::from(most) <= number_of(owner, live, 0, transaction).await? {
+            return Ok(Some(OwnerQuota::Jobs));
+        }
+    }
+    if let Some(most) = quotas.bytes {
+        let stored = "SELECT CAST(coalesce(sum(bytes), 0) AS BIGINT) FROM job
+             WHERE owner = $1 AND $2 = $2";
+        if most < number_of(owner, stored, 0, transaction).await? + job.stored_bytes() {
+            return Ok(Some(OwnerQuota::Bytes));
+        }
+    }
+    if let Some(most) = quotas.cpu_of_day {
+        let spent = "SELECT cpu_ms FROM spent WHERE owner = $1 AND day = $2";
+        if most.as_millis() as u64 <= number_of(owner, spent, day(now), transaction).await? {
+            return Ok(Some(OwnerQuota::Cpu));
+        }
+    }
+    Ok(None)
+}
+
+/// Returns the number that a statement selects for an owner and a day; 0 if there is no row. A statement that does not
+/// need the day mentions it as `$2 = $2`.
+async fn number_of(
+    owner: &str,
+    statement: &'static str,
+    day: i64,
+    transaction: &mut Transaction<'_, Any>,
+) -> StoreResult<u64> {
+    let query = sqlx::query(statement).bind(owner).bind(day);
+    let row = query.fetch_optional(&mut **transaction).await?;
+    let number = row.map(|row| row.try_get::<i64, _>(0)).transpose()?;
+    Ok(number.unwrap_or_default() as u64)
+}
+
+/// Adds processor time to the use of an owner on this day. Deletes the use before yesterday.
+async fn spend(
+    owner: &Owner,
+    cpu_ms: u64,
+    now: Timestamp,
+    transaction: &mut Transaction<'_, Any>,
+) -> StoreResult<()> {
+    let add = "INSERT INTO spent (owner, day, cpu_ms) VALUES ($1, $2, $3)
+         ON CONFLICT (owner, day) DO UPDATE SET cpu_ms = spent.cpu_ms + excluded.cpu_ms";
+    sqlx::query(add)
+        .bind(owner.as_str())
+        .bind(day(now))
+        .bind(cpu_ms as i64)
+        .execute(&mut **transaction)
+        .await?;
+    sqlx::query("DELETE FROM spent WHERE owner = $1 AND day < $2 - 1")
+        .bind(owner.as_str())
+        .bind(day(now))
+        .execute(&mut **transaction)
+        .await?;
+    Ok(())
+}
+
+fn day(now: Timestamp) -> i64 {
+    now.0.div_euclid(DAY_MS)
 }

@@ -26,11 +26,11 @@ pub(super) async fn identity(database: &Database) -> StoreResult<Option<StoreId>
     let row = sqlx::query("SELECT store FROM identity WHERE id = 1")
         .fetch_optional(&database.readers)
         .await?;
-    let parsed = |row: AnyRow| {
-        let text: String = row.try_get("store").map_err(rows::damaged)?;
-        text.parse().map_err(rows::damaged)
+    let Some(row) = row else {
+        return Ok(None);
     };
-    row.map(parsed).transpose()
+    let id = rows::text(&row, "store")?.parse();
+    id.map(Some).map_err(rows::damaged)
 }
 
 /// Sets the id of the store if it has none. Returns its id.
@@ -83,15 +83,16 @@ pub(super) async fn quarantined(database: &Database) -> StoreResult<Vec<Quaranti
     let found = sqlx::query(database.sql(all))
         .fetch_all(&database.readers)
         .await?;
-    let files = |row: &AnyRow| {
-        let since = Timestamp(row.try_get("since").map_err(rows::damaged)?);
-        Ok(Quarantined {
-            job: rows::id(row)?,
-            bytes: row.try_get::<i64, _>("bytes").map_err(rows::damaged)? as u64,
-            age: Duration::from_millis(rows::now(row)?.since(since)),
-        })
-    };
-    found.iter().map(files).collect()
+    found.iter().map(quarantined_files).collect()
+}
+
+fn quarantined_files(row: &AnyRow) -> StoreResult<Quarantined> {
+    let since = Timestamp(row.try_get("since").map_err(rows::damaged)?);
+    Ok(Quarantined {
+        job: rows::id(row)?,
+        bytes: row.try_get::<i64, _>("bytes").map_err(rows::damaged)? as u64,
+        age: Duration::from_millis(rows::now(row)?.since(since)),
+    })
 }
 
 /// Removes files from quarantine.

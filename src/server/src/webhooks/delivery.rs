@@ -10,7 +10,7 @@ use reqwest::{Client, StatusCode};
 use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 
-use super::guard::{Guard, Reachable, check};
+use super::guard::{AddressGuard, Reachable, check};
 use super::secret::Secrets;
 use crate::jobs::{Notice, Outbox, Timestamp};
 
@@ -60,7 +60,7 @@ pub async fn deliver(outbox: Arc<dyn Outbox>, settings: Settings, stop: Cancella
         .redirect(Policy::none())
         .no_proxy()
         .timeout(PATIENCE)
-        .dns_resolver(Arc::new(Guard(settings.reachable)))
+        .dns_resolver(Arc::new(AddressGuard(settings.reachable)))
         .build();
     let client = match client {
         Ok(client) => client,

@@ -38,9 +38,9 @@ pub fn check(webhook: &Webhook, reachable: Reachable) -> Result<(), NotPublic> {
 
 /// Resolves names to their permitted addresses only. Connections use these addresses, so a name that changes its
 /// meaning a moment later has no effect.
-pub(super) struct Guard(pub Reachable);
+pub(super) struct AddressGuard(pub Reachable);
 
-impl Resolve for Guard {
+impl Resolve for AddressGuard {
     fn resolve(&self, name: Name) -> Resolving {
         let reachable = self.0;
         Box::pin(async move {
@@ -86,19 +86,21 @@ fn is_public_v4(address: Ipv4Addr) -> bool {
 
 fn is_public_v6(address: Ipv6Addr) -> bool {
     let segments = address.segments();
-    let embedded = |high: u16, low: u16| {
-        let [a, b] = high.to_be_bytes();
-        let [c, d] = low.to_be_bytes();
-        is_public_v4(Ipv4Addr::new(a, b, c, d))
-    };
     match segments {
         [0, 0, 0, 0, 0, 0xffff, high, low] | [0x64, 0xff9b, 0, 0, 0, 0, high, low] => {
-            embedded(high, low)
+            is_public_embedded(high, low)
         }
-        [0x2002, high, low, ..] => embedded(high, low),
+        [0x2002, high, low, ..] => is_public_embedded(high, low),
         // Teredo, benchmarks, ORCHID, documentation.
         [0x2001, second, ..] if second < 0x200 || second == 0xdb8 => false,
         // Global unicast, and nothing else.
         [first, ..] => first & 0xe000 == 0x2000,
     }
+}
+
+/// Returns whether the IPv4 address in two segments of an IPv6 address is public.
+fn is_public_embedded(high: u16, low: u16) -> bool {
+    let [a, b] = high.to_be_bytes();
+    let [c, d] = low.to_be_bytes();
+    is_public_v4(Ipv4Addr::new(a, b, c, d))
 }

@@ -13,6 +13,5 @@ mod guard;
 mod secret;
 
 pub use delivery::{Settings, deliver};
-pub use guard::is_public;
-pub use guard::{Reachable, check};
+pub use guard::{Reachable, check, is_public};
 pub use secret::{Secret, SecretError, Secrets};

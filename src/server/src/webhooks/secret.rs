@@ -56,12 +56,11 @@ impl Secrets {
     /// Returns the signatures of a delivery to an owner.
     pub(super) fn sign(&self, owner: &Owner, id: &str, time: i64, body: &str) -> String {
         let time = time.to_string();
-        let sign = |secret: &Secret| {
+        let signatures = self.0.iter().map(|secret| {
             let signed = hmac(&secret.of_owner(owner), &[id, ".", &time, ".", body]);
             format!("v1,{}", STANDARD.encode(signed))
-        };
-        let signatures: Vec<String> = self.0.iter().map(sign).collect();
-        signatures.join(" ")
+        });
+        Vec::from_iter(signatures).join(" ")
     }
 }
 
@@ -76,13 +75,10 @@ impl FromStr for Secrets {
     type Err = SecretError;
 
     fn from_str(text: &str) -> Result<Self, SecretError> {
-        let secret = |text: &str| {
+        let secrets = text.split(',').map(|text| {
             let is_good = LEAST <= text.len() && text.chars().all(|c| c.is_ascii_graphic());
             is_good.then(|| Secret(text.to_owned())).ok_or(SecretError)
-        };
-        text.split(',')
-            .map(secret)
-            .collect::<Result<_, _>>()
-            .map(Self)
+        });
+        secrets.collect::<Result<_, _>>().map(Self)
     }
 }

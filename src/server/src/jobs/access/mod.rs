@@ -11,18 +11,14 @@
 //! Browsers cannot send a header with a WebSocket or an image. A page signs in instead: it gets a key of its own in a
 //! cookie that scripts cannot read. That key expires after some hours, or with the key that created it.
 
-mod caller;
 mod key;
-mod key_id;
-mod key_text;
 mod owner;
 mod ring;
-mod scope;
 
-pub use caller::{Caller, Visibility};
+pub use key::KeyId;
+pub use key::KeyText;
 pub use key::{Key, KeyStore, NewKey};
-pub use key_id::KeyId;
-pub use key_text::KeyText;
 pub use owner::Owner;
+pub use owner::{Scope, Scopes};
+pub use ring::{Caller, Visibility};
 pub use ring::{Denied, KeyRing, Signed};
-pub use scope::{Scope, Scopes};

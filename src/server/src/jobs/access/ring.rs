@@ -1,4 +1,4 @@
-//! Authentication of requests by key, with a short-lived cache.
+//! Callers, and the authentication of requests by key with a short-lived cache.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -6,10 +6,8 @@ use std::time::Duration;
 
 use tokio::time::{Instant, sleep};
 
-use super::caller::Caller;
-use super::key::{Key, KeyStore, NewKey};
-use super::key_id::KeyId;
-use super::key_text::KeyText;
+use super::key::{Key, KeyId, KeyStore, KeyText, NewKey};
+use super::owner::{Owner, Scope, Scopes};
 use crate::jobs::{StoreError, StoreResult, Timestamp};
 
 /// Time for which an answer of the store is cached. A revoked key is accepted for at most that long, as the help of
@@ -136,8 +134,9 @@ impl KeyRing {
     }
 
     async fn note_use(&self, key: &Key) {
-        let ago = |used: Timestamp| u128::from(Timestamp::now().since(used));
-        if key.used.is_some_and(|used| ago(used) < NOTED.as_millis()) {
+        if let Some(used) = key.used
+            && u128::from(Timestamp::now().since(used)) < NOTED.as_millis()
+        {
             return;
         }
         match self.store.note_use(&key.id, NOTED).await {
@@ -206,4 +205,78 @@ impl KeyRing {
 
 fn is_fresh(found: Instant) -> bool {
     found.elapsed() < FRESH
+}
+
+// The identity and the permissions behind a request.
+
+/// Visibility of jobs and sessions. Anything outside it is reported as missing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Visibility {
+    /// Only jobs and sessions of this owner.
+    Own(Owner),
+    /// Everything.
+    All,
+}
+
+impl Visibility {
+    /// Returns whether something of this owner is visible.
+    pub fn covers(&self, owner: &Owner) -> bool {
+        match self {
+            Self::Own(own) => own == owner,
+            Self::All => true,
+        }
+    }
+}
+
+/// An authenticated caller with its scopes.
+#[derive(Clone, Debug)]
+pub struct Caller {
+    owner: Owner,
+    scopes: Scopes,
+    /// Key of the request; `None` if the service requires no keys.
+    pub(super) key: Option<Key>,
+}
+
+impl Caller {
+    /// Returns the caller of a service that requires no keys; it has every scope.
+    pub fn anonymous() -> Self {
+        Self {
+            owner: Owner::anonymous(),
+            scopes: Scopes::all(),
+            key: None,
+        }
+    }
+
+    /// Returns the caller that holds this key.
+    pub(super) fn of(key: Key) -> Self {
+        Self {
+            owner: key.owner.clone(),
+            scopes: key.scopes.clone(),
+            key: Some(key),
+        }
+    }
+
+    /// Returns the owner of everything that the caller creates.
+    pub fn owner(&self) -> &Owner {
+        &self.owner
+    }
+
+    /// Returns the scopes of the caller.
+    pub fn scopes(&self) -> &Scopes {
+        &self.scopes
+    }
+
+    /// Returns the visibility of the caller: everything with the `admin` scope, otherwise its own.
+    pub fn visibility(&self) -> Visibility {
+        if self.scopes.have(Scope::Admin) {
+            Visibility::All
+        } else {
+            Visibility::Own(self.owner.clone())
+        }
+    }
+
+    /// Returns the key of the caller; `None` if the service requires no keys.
+    pub fn key(&self) -> Option<&Key> {
+        self.key.as_ref()
+    }
 }

@@ -1,14 +1,43 @@
-//! Checksums of stored files.
+//! Files of jobs: their keys and checksums, and the temporary folders in which they are made.
 
 use std::fs::File;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use futures_util::{StreamExt, stream};
+use nix::sys::statvfs::statvfs;
 use sha2::{Digest, Sha256};
 
-use super::blobs::Content;
+use super::job::{JobId, Token};
+use super::storage::BlobContent;
 use super::store_error::{StoreError, StoreResult};
+use unwrapd_api::OutputFile;
+
+pub(super) fn input_key(id: JobId, index: usize) -> String {
+    format!("{id}/input/{index}")
+}
+
+/// Returns the folder for the output of one attempt: an outdated attempt never touches the files of its successor. The
+/// token 0, which no attempt has, stands for the files of versions without tokens.
+pub(super) fn output_folder(id: JobId, token: Token) -> String {
+    match token {
+        0 => format!("{id}/output"),
+        _ => format!("{id}/output-{token}"),
+    }
+}
+
+pub(super) fn output_key(id: JobId, token: Token, index: usize) -> String {
+    format!("{}/{index}", output_folder(id, token))
+}
+
+/// Returns the key of a picture that was drawn after the job ended. The key contains the checksum: drawing the same
+/// picture again stores the same file, and a different picture never overwrites it.
+pub(super) fn picture_key(id: JobId, token: Token, file: &OutputFile) -> String {
+    let sha256 = file.sha256.as_deref().unwrap_or_default();
+    format!("{}/{sha256}-{}", output_folder(id, token), file.role)
+}
+
+// Checksums of stored files.
 
 /// Bytes per read. Larger blocks take more memory per file, smaller ones more system calls.
 const BLOCK: usize = 1 << 16;
@@ -22,15 +51,15 @@ fn compared(sha256: &str, expected: &str) -> StoreResult<()> {
 }
 
 /// Reads a local file and compares its checksum, if one is known.
-pub(super) async fn check(path: &Path, expected: Option<&str>) -> StoreResult<()> {
+pub(super) async fn check_sha256(path: &Path, expected: Option<&str>) -> StoreResult<()> {
     match expected {
-        Some(expected) => compared(&of(path).await?, expected),
+        Some(expected) => compared(&sha256_of(path).await?, expected),
         None => Ok(()),
     }
 }
 
 /// Returns the SHA-256 of a local file, in hexadecimal digits.
-pub(super) async fn of(path: &Path) -> StoreResult<String> {
+pub(super) async fn sha256_of(path: &Path) -> StoreResult<String> {
     let path = path.to_owned();
     let read = tokio::task::spawn_blocking(move || of_file(&path)).await;
     Ok(read.map_err(std::io::Error::from)??)
@@ -49,7 +78,7 @@ fn of_file(path: &Path) -> std::io::Result<String> {
 
 /// Passes a stream through and checks its checksum. On a mismatch it ends with an error in place of the last block,
 /// so no reader takes it for complete.
-pub(super) fn checked(content: Content, expected: String) -> Content {
+pub(super) fn checked(content: BlobContent, expected: String) -> BlobContent {
     let state = (content, Sha256::new(), None::<Vec<u8>>, Some(expected));
     let blocks = stream::unfold(
         state,
@@ -76,4 +105,39 @@ pub(super) fn checked(content: Content, expected: String) -> Content {
         },
     );
     blocks.boxed()
+}
+
+// Temporary folders.
+
+/// A folder that is removed with its contents on drop.
+#[derive(Debug)]
+pub struct Scratch(PathBuf);
+
+impl Scratch {
+    /// Creates the folder.
+    pub fn make(path: PathBuf) -> std::io::Result<Self> {
+        std::fs::create_dir(&path)?;
+        Ok(Self(path))
+    }
+
+    /// Returns its path.
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        if let Err(error) = std::fs::remove_dir_all(&self.0) {
+            tracing::warn!(%error, "folder not removed");
+        }
+    }
+}
+
+// Free space of file systems.
+
+/// Returns the number of bytes free for writing on the file system of a path.
+pub fn free_bytes(path: &Path) -> StoreResult<u64> {
+    let system = statvfs(path).map_err(std::io::Error::from)?;
+    Ok(system.blocks_available() * system.fragment_size())
 }
