@@ -7,19 +7,13 @@
 //! killed server leaves no orphans.
 
 mod attempt;
-mod catalog;
-mod drawing;
-mod estimator;
-mod frames;
-mod map_frame;
 mod maps;
-mod quality;
 mod reporter;
 pub mod session;
 mod work;
 
 pub use attempt::{draw, run as compute};
-pub use catalog::Computations;
-pub use estimator::Estimator;
-pub use quality::quality_of;
+pub use reporter::Estimator;
+pub use work::Computations;
 pub use work::Work;
+pub use work::quality_of;

@@ -1,14 +1,15 @@
-//! Maps under way in the compute child, kept and sent only while a client watches.
+//! Maps under way in the compute child: kept and sent while a client watches, or written as files.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
+use std::{fs, io};
 
-use crate::map_frame::{self, ChartKey};
-use unwrapd_api::{MAPS, Message, frame_header};
+use unwrapd_api::{MAPS, Message, OutputFile, frame_header, output_file, sha256};
 use unwrapd_layout::charts::MapUnderway;
+use unwrapd_method::numerics::predicates::orient2d_sign;
 
 /// Minimum time between frames. Ten frames per second look continuous; more would only cost encoding and bandwidth.
 const INTERVAL: Duration = Duration::from_millis(100);
@@ -62,12 +63,17 @@ impl Maps {
     /// Keeps a map if a client watches, and sends a frame if one is due. Without watchers this costs two loads.
     pub fn take(&self, surface: usize, map: &MapUnderway) {
         let until = self.watched.load(Ordering::Relaxed);
-        let is_watched = || (self.start.elapsed().as_millis() as u64) < until;
-        if until == 0 || !self.is_asked.load(Ordering::Relaxed) && !is_watched() {
+        if until == 0 {
             return;
         }
-        let key = map_frame::key(surface, map);
-        let encoded = map_frame::encoded(key, map);
+        // The clock is read only if no client waits for a frame.
+        if !self.is_asked.load(Ordering::Relaxed)
+            && until <= self.start.elapsed().as_millis() as u64
+        {
+            return;
+        }
+        let key = key(surface, map);
+        let encoded = encoded(key, map);
         let mut pending = self.pending();
         pending.replace(key, encoded);
         self.tell(&mut pending);
@@ -94,9 +100,9 @@ impl Maps {
         self.is_asked.store(false, Ordering::Release);
         // Skip a frame that cannot be written, as slow watchers do.
         let partial = self.folder.join("maps.partial");
-        let written = std::fs::write(&partial, frame);
+        let written = fs::write(&partial, frame);
         if written
-            .and_then(|()| std::fs::rename(&partial, self.folder.join(MAPS)))
+            .and_then(|()| fs::rename(&partial, self.folder.join(MAPS)))
             .is_ok()
         {
             Message::Maps.tell();
@@ -112,5 +118,156 @@ impl PendingMaps {
             self.bytes += map.len();
             self.maps.insert(key, map);
         }
+    }
+}
+
+// Binary format of maps under way, as watchers of a job receive them; little-endian.
+//
+// ```text
+// frame   0  u8   3                          map   0  u32  surface          28  u32  0; 1 for a plan
+//         1  7 zeros                               4  u32  first face       32  f64  unit
+//         8  u64  number                           8  u32  iteration        40  f64  energy
+//        16  maps                                 12  u32  faces            48  f64  smallest face
+//                                                 16  u32  faces that follow
+//                                                 20  u32  flips
+//                                                 24  u32  bytes of a coordinate: 4, 8
+//                                                 56  faces u32; u and v of three corners each, f32 or f64
+// ```
+//
+// Faces are those of the welded surface in cutting order. If there are too many to draw, only every 2ⁿ-th one
+// follows. Seams of large charts are planned on a simplified mesh, and each face of a plan stands for one near it.
+
+/// Maximum number of faces drawn of a map. In f32 they take 2.8 MB, a third of a second at the rate limit of frames.
+const MOST_FACES: usize = 100_000;
+
+/// Identity of a chart: its surface and its first face. Later maps of the chart have the same key.
+pub(crate) type ChartKey = [u32; 2];
+
+/// Returns the key of the chart that a map belongs to.
+fn key(surface: usize, map: &MapUnderway) -> ChartKey {
+    [surface as u32, map.faces().next().unwrap_or(0)]
+}
+
+/// Encodes a map. Rounds coordinates to f32 unless that would flip a face; `flips` counts the encoded numbers.
+pub(crate) fn encoded([surface, first]: ChartKey, map: &MapUnderway) -> Vec<u8> {
+    // Choose the precision.
+    let points: &[[f64; 2]] = map.x.as_chunks().0;
+    let rounded: Vec<[f64; 2]> = points
+        .iter()
+        .map(|p| p.map(|x| f64::from(x as f32)))
+        .collect();
+    let triangles = &map.chart.disk.triangles;
+    let is_exact = flips(triangles, &rounded) > 0;
+    let (points, width) = if is_exact {
+        (points, 8)
+    } else {
+        (&*rounded, 4)
+    };
+    // Choose the faces to draw.
+    let step = triangles.len().div_ceil(MOST_FACES).next_power_of_two() as u32;
+    let drawn: Vec<(u32, &[u32; 3])> = (map.faces().zip(triangles))
+        .filter(|(face, _)| face % step == 0)
+        .collect();
+
+    // Write the header, then faces and coordinates.
+    let mut bytes = Vec::with_capacity(56 + drawn.len() * (4 + 6 * width));
+    let counts = [
+        surface,
+        first,
+        map.iterate.iteration as u32,
+        triangles.len() as u32,
+        drawn.len() as u32,
+        flips(triangles, points),
+        width as u32,
+        u32::from(map.planned_for.is_some()),
+    ];
+    bytes.extend(counts.iter().flat_map(|x| x.to_le_bytes()));
+    let numbers = [map.unit(), map.iterate.energy, map.iterate.smallest];
+    bytes.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
+    bytes.extend(drawn.iter().flat_map(|(face, _)| face.to_le_bytes()));
+    let corners = drawn.iter().flat_map(|(_, triangle)| *triangle);
+    let coordinates = corners.flat_map(|&v| points[v as usize]);
+    if is_exact {
+        bytes.extend(coordinates.flat_map(f64::to_le_bytes));
+    } else {
+        bytes.extend(coordinates.flat_map(|x| (x as f32).to_le_bytes()));
+    }
+    bytes
+}
+
+/// Counts the triangles that are not positively oriented, exactly.
+fn flips(triangles: &[[u32; 3]], points: &[[f64; 2]]) -> u32 {
+    let flipped = triangles.iter().filter(|t| {
+        let [a, b, c] = t.map(|v| points[v as usize]);
+        orient2d_sign(a, b, c) <= 0
+    });
+    flipped.count() as u32
+}
+
+// Maps of single iterations, written as files while the solver runs.
+
+/// Maximum bytes of a job's frames. No frame is written once this is reached. It equals the default limit of an
+/// upload, and like that it bounds the disk space of a job.
+const MOST_FILE_BYTES: u64 = 256 << 20;
+
+/// Frames of an attempt.
+pub(crate) struct IterationFiles {
+    folder: PathBuf,
+    /// Iteration, size in bytes and checksum of each frame.
+    written: Vec<(usize, u64, String)>,
+    failure: Option<io::Error>,
+}
+
+impl IterationFiles {
+    /// Starts without frames.
+    pub fn new(folder: &Path) -> Self {
+        Self {
+            folder: folder.to_path_buf(),
+            written: Vec::new(),
+            failure: None,
+        }
+    }
+
+    /// Writes a frame unless the limit is reached.
+    pub fn add(&mut self, number: usize, file: &dyn Fn() -> Vec<u8>) {
+        let bytes: u64 = self.written.iter().map(|(_, bytes, _)| bytes).sum();
+        if self.failure.is_some() || MOST_FILE_BYTES <= bytes {
+            return;
+        }
+        let file = file();
+        match fs::write(self.path(number), &file) {
+            Ok(()) => {
+                let bytes = file.len() as u64;
+                self.written.push((number, bytes, sha256(&file)));
+            }
+            Err(error) => self.failure = Some(error),
+        }
+    }
+
+    /// Appends the frames to the output files, the first of them being the result.
+    pub fn into_output(mut self, output: &mut Vec<OutputFile>) -> io::Result<()> {
+        if let Some(error) = self.failure.take() {
+            return Err(error);
+        }
+        let result = output.first().map_or("", |file| file.name.as_str());
+        let extension = result.rsplit('.').next().unwrap_or_default().to_owned();
+        for (number, bytes, sha256) in std::mem::take(&mut self.written) {
+            fs::rename(
+                self.path(number),
+                self.folder.join(output_file(output.len())),
+            )?;
+            let name = format!("frame-{number:05}.{extension}");
+            output.push(OutputFile {
+                role: format!("files/{name}"),
+                name,
+                bytes,
+                sha256: Some(sha256),
+            });
+        }
+        Ok(())
+    }
+
+    fn path(&self, number: usize) -> PathBuf {
+        self.folder.join(format!("frame-{number}"))
     }
 }

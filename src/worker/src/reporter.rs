@@ -1,4 +1,4 @@
-//! Messages of the compute child to the server.
+//! Messages of the compute child to the server, with estimates of its progress.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -7,9 +7,7 @@ use std::time::{Duration, Instant};
 use nix::sys::resource::{UsageWho, getrusage};
 use nix::sys::time::TimeValLike;
 
-use crate::estimator::Estimator;
-use crate::frames::Frames;
-use crate::maps::Maps;
+use crate::maps::{IterationFiles, Maps};
 use unwrapd_api::{Message, Progress};
 use unwrapd_layout::charts::MapUnderway;
 use unwrapd_method::solver::Control;
@@ -26,7 +24,7 @@ pub(crate) struct Reporter {
     start: Instant,
     finish: Arc<AtomicBool>,
     sent: Arc<Mutex<SentProgress>>,
-    frames: Mutex<Frames>,
+    frames: Mutex<IterationFiles>,
     maps: Arc<Maps>,
 }
 
@@ -42,7 +40,7 @@ impl Reporter {
     /// Reports that the child is ready, and starts the thread that sends estimates.
     pub(crate) fn start(
         finish: Arc<AtomicBool>,
-        frames: Frames,
+        frames: IterationFiles,
         maps: Arc<Maps>,
     ) -> std::io::Result<Self> {
         Message::Ready.tell();
@@ -75,7 +73,7 @@ impl Reporter {
     }
 
     /// Returns the frames that were written.
-    pub(crate) fn into_frames(self) -> Frames {
+    pub(crate) fn into_frames(self) -> IterationFiles {
         let frames = self.frames.into_inner();
         frames.unwrap_or_else(PoisonError::into_inner)
     }
@@ -150,4 +148,52 @@ impl Observer for Reporter {
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+// Estimated progress between two reports.
+
+/// Fraction of the speed so far at which the estimate advances between reports, so that a report rarely finds it
+/// ahead. A larger fraction overtakes the next report more often, a smaller one lags further behind.
+const SPEED_SHARE: f64 = 0.5;
+
+/// Maximum lead of the estimate over the last report. A larger lead shows progress for longer without a report, but
+/// stands still for longer if it was wrong.
+const MOST_AHEAD: f64 = 0.05;
+
+/// Highest share that the estimate reaches by speed alone: only a report may say that the work is done.
+const MOST: f64 = 0.99;
+
+/// Minimum gain of every estimate, as a fraction of the remaining work. It keeps the displayed share moving in a long
+/// silence: at two estimates per second, it takes a tenth of the rest in about 50 s.
+const LEAST_GAIN: f64 = 1e-3;
+
+/// Share of the work that is done: reported, or estimated from the speed so far. It never falls, and every estimate
+/// exceeds the previous one.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Estimator {
+    reported: f64,
+    at: Duration,
+    shown: f64,
+}
+
+impl Estimator {
+    /// Returns the share after a report, at a time since the work began. A report that repeats the last one counts as
+    /// silence.
+    pub fn reported(&mut self, share: f64, now: Duration) -> f64 {
+        if self.reported < share {
+            (self.reported, self.at) = (share, now);
+        }
+        self.shown = self.shown.max(share);
+        self.shown
+    }
+
+    /// Returns the estimated share without a new report.
+    pub fn estimated(&mut self, now: Duration) -> f64 {
+        let speed = self.reported / self.at.as_secs_f64().max(f64::MIN_POSITIVE);
+        let silence = now.saturating_sub(self.at).as_secs_f64();
+        let ahead = (SPEED_SHARE * speed * silence).min(MOST_AHEAD);
+        let least = self.shown + LEAST_GAIN * (1.0 - self.shown);
+        self.shown = least.max((self.reported + ahead).min(MOST));
+        self.shown
+    }
 }

@@ -1,19 +1,28 @@
-//! Kinds of jobs: their options, their pipeline functions, their output files.
+//! Kinds of jobs: their options, their pipeline functions, their output files; and the catalog of them.
+
+use std::collections::BTreeSet;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
+use utoipa::ToSchema;
+use utoipa::openapi::{RefOr, Schema};
 
-use crate::quality::quality_of;
-use unwrapd_api::{Kind, Limits, Pictures, Quality, Upload, Verdict, Warning};
+use unwrapd_api::{
+    Catalog, Content, Failure, Format, Kind, Limits, Pictures, Quality, RefusedOptions, Upload,
+    Verdict, Warning,
+};
+use unwrapd_deform::ProblemFile;
+use unwrapd_files::document::{format_of, references};
+use unwrapd_files::io::format_of_content;
 use unwrapd_pipeline::{
-    self as pipeline, AtlasPicture, CommandOptions, DeformOptions, Deformed, EditOptions, Editing,
-    MeasureOptions, Observer, Options, PipelineError, RepackOptions, SolveOptions, VerifyOptions,
-    WarpOptions,
+    self as pipeline, AtlasPicture, CommandOptions, DeformOptions, DeformReport, Deformed,
+    EditOptions, EditReport, Editing, MeasureOptions, Observer, Options, PipelineError,
+    RepackOptions, Report, SolveOptions, Verified, VerifyOptions, WarpOptions, WarpReport,
 };
 
 /// Result of a job.
-pub(crate) struct Made {
+pub(crate) struct JobResult {
     /// Role, name and content of each file.
     pub files: Vec<(String, String, Vec<u8>)>,
     /// Source of the pictures of an atlas, and its UVs.
@@ -29,7 +38,7 @@ pub struct Work {
 }
 
 type RunComputation = dyn FnOnce(&Upload, Limits, &dyn Observer) -> WorkResult + Send;
-type WorkResult = Result<Made, PipelineError>;
+type WorkResult = Result<JobResult, PipelineError>;
 
 impl Work {
     /// Parses and checks the options of a kind; absent options have their defaults.
@@ -54,11 +63,10 @@ impl Work {
     where
         O: CommandOptions + DeserializeOwned + Serialize + Send + 'static,
     {
-        let refused = |error: serde_json::Error| PipelineError::InvalidOptions(error.to_string());
-        let mut options: O = serde_json::from_value(options).map_err(refused)?;
+        let mut options: O = serde_json::from_value(options).map_err(|e| invalid_options(&e))?;
         options.check()?;
         Ok(Self {
-            options: serde_json::to_value(&options).map_err(refused)?,
+            options: serde_json::to_value(&options).map_err(|e| invalid_options(&e))?,
             run: Box::new(move |upload, limits, observer| {
                 options.caller_mut().limits = limits;
                 run(upload, &options, observer)
@@ -82,6 +90,10 @@ impl Work {
     }
 }
 
+fn invalid_options(error: &serde_json::Error) -> PipelineError {
+    PipelineError::InvalidOptions(error.to_string())
+}
+
 fn unwrap(upload: &Upload, options: &Options, observer: &dyn Observer) -> WorkResult {
     pipeline::unwrap_document(upload, options, observer).map(atlas)
 }
@@ -91,9 +103,9 @@ fn repack(upload: &Upload, options: &RepackOptions, observer: &dyn Observer) -> 
 }
 
 /// Returns the result for an atlas with its report.
-fn atlas(outcome: pipeline::Outcome) -> Made {
+fn atlas(outcome: pipeline::Outcome) -> JobResult {
     let report = &outcome.report;
-    let made = Made::new(outcome.files);
+    let made = JobResult::new(outcome.files);
     let groups = report.groups.iter();
     let mut bounds = groups.filter_map(|group| Some(group.atlas.as_ref()?.bound.as_ref()?.kept));
     let within_bound = bounds.next().map(|first| first && bounds.all(|kept| kept));
@@ -110,7 +122,7 @@ fn measure(upload: &Upload, options: &MeasureOptions, _: &dyn Observer) -> WorkR
         certified: None,
         ..quality_of(&report)
     };
-    Ok(Made::new(Vec::new()).reported(&report, quality, &report.warnings))
+    Ok(JobResult::new(Vec::new()).reported(&report, quality, &report.warnings))
 }
 
 fn verify(upload: &Upload, options: &VerifyOptions, _: &dyn Observer) -> WorkResult {
@@ -119,7 +131,7 @@ fn verify(upload: &Upload, options: &VerifyOptions, _: &dyn Observer) -> WorkRes
     let lacking = lacking.map(|words| Warning::new("not_proven", (*words).to_owned()));
     let warnings: Vec<Warning> = verified.warnings.iter().cloned().chain(lacking).collect();
     let quality = Quality::proven(verified.certified);
-    Ok(Made::new(Vec::new()).reported(&verified, quality, &warnings))
+    Ok(JobResult::new(Vec::new()).reported(&verified, quality, &warnings))
 }
 
 fn solve(upload: &Upload, options: &SolveOptions, observer: &dyn Observer) -> WorkResult {
@@ -130,9 +142,10 @@ fn deform(upload: &Upload, options: &DeformOptions, observer: &dyn Observer) -> 
     pipeline::deform_file(upload, options, observer).map(body)
 }
 
-fn body(deformed: Deformed) -> Made {
+fn body(deformed: Deformed) -> JobResult {
     let report = &deformed.report;
-    let mut made = Made::new(deformed.files).reported(report, Quality::default(), &report.warnings);
+    let mut made =
+        JobResult::new(deformed.files).reported(report, Quality::default(), &report.warnings);
     made.add("files/trace.csv", "trace.csv", deformed.trace.into_bytes());
     made
 }
@@ -140,7 +153,7 @@ fn body(deformed: Deformed) -> Made {
 fn warp(upload: &Upload, options: &WarpOptions, observer: &dyn Observer) -> WorkResult {
     let warped = pipeline::warp_file(upload, options, observer)?;
     let report = &warped.report;
-    Ok(Made::new(warped.files).reported(
+    Ok(JobResult::new(warped.files).reported(
         report,
         Quality::proven(report.certified),
         &report.warnings,
@@ -163,25 +176,26 @@ fn edit(
 ) -> WorkResult {
     let edited = pipeline::edit_document(upload, editing, options, observer)?;
     let report = &edited.report;
-    Ok(Made::new(edited.files).reported(
+    Ok(JobResult::new(edited.files).reported(
         report,
         Quality::proven(report.certified),
         &report.warnings,
     ))
 }
 
-impl Made {
+impl JobResult {
     /// Creates a result from the main file and the files that belong to it.
     fn new(files: Vec<(String, Vec<u8>)>) -> Self {
-        let with_role = |(index, (name, bytes)): (usize, (String, Vec<u8>))| {
+        let files = files.into_iter().enumerate();
+        let files = files.map(|(index, (name, bytes))| {
             let role = match index {
                 0 => "result".to_owned(),
                 _ => format!("files/{name}"),
             };
             (role, name, bytes)
-        };
+        });
         Self {
-            files: files.into_iter().enumerate().map(with_role).collect(),
+            files: files.collect(),
             atlas: None,
             verdict: Verdict::default(),
         }
@@ -224,4 +238,76 @@ impl Made {
         };
         self
     }
+}
+
+// Quality figures of an atlas.
+
+/// Returns the quality figures of an atlas from its report.
+pub fn quality_of(report: &Report) -> Quality {
+    let measures = report.groups.iter().map(|group| &group.measures);
+    let distortions = measures.clone().map(|of| &of.distortion);
+    Quality {
+        certified: Some(report.certified),
+        charts: Some(measures.map(|of| of.seams.charts as u64).sum()),
+        distortion: (distortions.clone())
+            .filter_map(|of| of.sym_dirichlet_mean)
+            .reduce(f64::max),
+        stretch: (distortions)
+            .filter_map(|of| of.stretch_p99)
+            .reduce(f64::max),
+    }
+}
+
+// The catalog of this crate's computations.
+
+/// Catalog of everything that jobs and sessions can compute.
+#[derive(Debug)]
+pub struct Computations;
+
+impl Catalog for Computations {
+    fn complete(&self, kind: Kind, options: Value) -> Result<Value, RefusedOptions> {
+        match Work::new(kind, options) {
+            Ok(work) => Ok(work.into_options()),
+            Err(error) => Err(RefusedOptions {
+                failure: Failure::new(error.code(), error.to_string()),
+                column: error.column(),
+            }),
+        }
+    }
+
+    fn format(&self, head: &[u8], size: u64, content: Content) -> Option<Format> {
+        format_of_content(head, size, content)
+    }
+
+    fn references(&self, upload: &Upload) -> BTreeSet<String> {
+        references(upload)
+    }
+
+    fn format_of(&self, upload: &Upload) -> Option<Format> {
+        format_of(upload)
+    }
+
+    fn schemas(&self) -> Vec<(String, RefOr<Schema>)> {
+        let mut schemas = Vec::new();
+        add::<Options>(&mut schemas);
+        add::<MeasureOptions>(&mut schemas);
+        add::<VerifyOptions>(&mut schemas);
+        add::<SolveOptions>(&mut schemas);
+        add::<DeformOptions>(&mut schemas);
+        add::<WarpOptions>(&mut schemas);
+        add::<EditOptions>(&mut schemas);
+        add::<RepackOptions>(&mut schemas);
+        add::<Report>(&mut schemas);
+        add::<Verified>(&mut schemas);
+        add::<DeformReport>(&mut schemas);
+        add::<WarpReport>(&mut schemas);
+        add::<EditReport>(&mut schemas);
+        add::<ProblemFile>(&mut schemas);
+        schemas
+    }
+}
+
+fn add<T: ToSchema>(schemas: &mut Vec<(String, RefOr<Schema>)>) {
+    schemas.push((T::name().into_owned(), T::schema()));
+    T::schemas(schemas);
 }

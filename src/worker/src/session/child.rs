@@ -9,8 +9,8 @@ use std::sync::mpsc::{Receiver, sync_channel};
 use serde::Serialize;
 use serde_json::Value;
 
+use super::editing::Message;
 use super::live_session::LiveSession;
-use super::message::Message;
 use crate::attempt::contain;
 use unwrapd_api::pipe::{self, BAKE, BAKED, FAILED, FRAME, MESH, REPLY};
 use unwrapd_api::{Failure, START, TASK, Task, read_json, read_upload};

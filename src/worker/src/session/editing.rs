@@ -1,24 +1,23 @@
-//! Bodies and UVs under live editing, with handles that clients name.
+//! Maps under live editing, with handles that clients name, and the messages about them.
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::frame::{Drawn, Elements};
-use super::message::{Command, Named};
+use super::frame::{Drawn, FrameElements};
 use unwrapd_api::Failure;
 use unwrapd_deform::{Editable, Editor, HandleId, Model};
 use unwrapd_method::barrier::BarrierKind;
 use unwrapd_method::solver::Stage;
 
 /// A map under live editing: commands of clients, and all that a frame tells of the map.
-pub(super) trait Editing: Send {
+pub(super) trait LiveEditing: Send {
     /// Executes a command of a client.
     fn execute(&mut self, command: &Command) -> Result<(), Failure>;
     /// Returns the handles with their names, in the order in which they were added.
-    fn handles(&self) -> Vec<Named>;
+    fn handles(&self) -> Vec<NamedHandle>;
     /// Performs one iteration unless the map is settled.
     fn step(&mut self) -> Stage;
     /// Returns the stage of the handles.
@@ -36,7 +35,7 @@ pub(super) trait View {
     /// Returns the minimum ratio of an element's size to its size at rest, for vertices at these positions.
     fn smallest(&self, positions: &[f64]) -> f64;
     /// Returns the elements that are guaranteed to keep their orientation.
-    fn elements(&self) -> Elements<'_>;
+    fn elements(&self) -> FrameElements<'_>;
     /// Returns the data that a client needs once.
     fn drawn(&self) -> Drawn<'_>;
     /// Returns the coordinates of a [start file](unwrapd_api::START).
@@ -99,7 +98,7 @@ impl<E: Edited> NamedHandles<E> {
     }
 }
 
-impl<E: Edited> Editing for NamedHandles<E> {
+impl<E: Edited> LiveEditing for NamedHandles<E> {
     fn execute(&mut self, command: &Command) -> Result<(), Failure> {
         match command {
             Command::Add { name, handle } => return self.add(*name, handle.clone()),
@@ -131,12 +130,12 @@ impl<E: Edited> Editing for NamedHandles<E> {
         Ok(())
     }
 
-    fn handles(&self) -> Vec<Named> {
+    fn handles(&self) -> Vec<NamedHandle> {
         let handles = self.edited.editor().handles();
         let named = handles.filter_map(|(id, handle)| {
             let name = *self.names.get(&id)?;
             let handle = serde_json::to_value(handle).unwrap_or_default();
-            Some(Named { name, handle })
+            Some(NamedHandle { name, handle })
         });
         named.collect()
     }
@@ -167,4 +166,99 @@ pub(super) fn check_model(model: &Model) -> Result<(), Failure> {
         return Err(Failure::new("bad_parameter", detail));
     }
     Ok(())
+}
+
+// Messages of clients to a session, and its replies.
+
+/// A message of a client.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct Message {
+    /// The client's number of the message. A frame has that of the last message that it contains.
+    pub n: u32,
+    /// Command of the message.
+    #[serde(flatten)]
+    pub command: Command,
+}
+
+/// Command of a client.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Command {
+    /// Add a handle, or replace the handle with this name.
+    Add {
+        /// The client's name for the handle.
+        name: u32,
+        /// Handle in the format of the job's options.
+        handle: Value,
+    },
+    /// Move the target of a handle.
+    Move {
+        /// Name of the handle.
+        name: u32,
+        /// Coordinates of the target.
+        to: Vec<f64>,
+    },
+    /// Remove a handle.
+    Remove {
+        /// Name of the handle.
+        name: u32,
+    },
+    /// Replace energy and barrier; absent settings have their defaults.
+    Settings(Model),
+    /// Save map and handles, as before a drag.
+    Remember {},
+    /// Restore what was saved last.
+    Undo {},
+    /// Revert an undo.
+    Redo {},
+    /// Restore the initial map, without handles.
+    Reset {},
+    /// List the handles.
+    List {},
+}
+
+/// Reply to a message.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Reply {
+    /// Number of the message.
+    pub n: u32,
+    /// Iterations of the session before the message took effect.
+    pub step: u32,
+    /// Set if a later move of the same handle superseded this one, which had no effect.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub superseded: bool,
+    /// Current handles, after a command that changes all of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub handles: Option<Vec<NamedHandle>>,
+    /// Reason why the command had no effect.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<Failure>,
+}
+
+/// A named handle.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NamedHandle {
+    /// The client's name for the handle.
+    pub name: u32,
+    /// Handle in the format of the job's options.
+    pub handle: Value,
+}
+
+impl Message {
+    /// Parses a message. On failure returns its number, or 0 if even that cannot be read.
+    pub(super) fn read(json: &[u8]) -> Result<Self, (u32, Failure)> {
+        serde_json::from_slice(json).map_err(|error| {
+            let n = serde_json::from_slice::<Value>(json).ok();
+            let n = n.and_then(|value| value["n"].as_u64()).unwrap_or_default();
+            (n as u32, Failure::new("invalid_message", error.to_string()))
+        })
+    }
+
+    /// Returns the name of the handle if the message is a move.
+    pub(super) fn moved(&self) -> Option<u32> {
+        match self.command {
+            Command::Move { name, .. } => Some(name),
+            _ => None,
+        }
+    }
 }

@@ -27,7 +27,7 @@ const MESH: u8 = 1;
 const FRAME: u8 = 2;
 
 /// Elements. Triangles may have required signs of their areas, 0 for any; without signs all must be positive.
-pub(super) enum Elements<'a> {
+pub(super) enum FrameElements<'a> {
     Triangles(&'a [[u32; 3]], Option<Vec<i8>>),
     Tetrahedra(&'a [[u32; 4]]),
 }
@@ -45,7 +45,7 @@ pub(super) struct Drawn<'a> {
 }
 
 /// Header of a frame.
-pub(super) struct Header {
+pub(super) struct FrameHeader {
     pub stage: Stage,
     pub step: u32,
     pub message: u32,
@@ -53,7 +53,7 @@ pub(super) struct Header {
     pub smallest: f64,
 }
 
-impl<'a> Elements<'a> {
+impl<'a> FrameElements<'a> {
     /// Returns the elements of a body, which must all be positive.
     pub fn of_body(body: &'a Body) -> Self {
         match &body.elements {
@@ -74,20 +74,20 @@ impl<'a> Elements<'a> {
         let flips = match self {
             Self::Triangles(triangles, signs) => {
                 let points: &[[f64; 2]] = x.as_chunks().0;
-                let is_flipped = |(index, t): &(usize, &[u32; 3])| {
+                let flipped = triangles.iter().enumerate().filter(|(index, t)| {
                     let [a, b, c] = t.map(|v| points[v as usize]);
                     let sign = signs.as_ref().map_or(1, |signs| signs[*index]);
                     sign != 0 && orient2d_sign(a, b, c) != sign
-                };
-                triangles.iter().enumerate().filter(is_flipped).count()
+                });
+                flipped.count()
             }
             Self::Tetrahedra(tets) => {
                 let points: &[[f64; 3]] = x.as_chunks().0;
-                let is_flipped = |t: &&[u32; 4]| {
+                let flipped = tets.iter().filter(|t| {
                     let [a, b, c, d] = t.map(|v| points[v as usize]);
                     orient3d_sign(a, b, c, d) <= 0
-                };
-                tets.iter().filter(is_flipped).count()
+                });
+                flipped.count()
             }
         };
         flips as u32
@@ -95,7 +95,7 @@ impl<'a> Elements<'a> {
 }
 
 /// Encodes a frame. Rounds coordinates to f32 unless that would flip an element; `flips` counts the encoded numbers.
-pub(super) fn frame(header: &Header, elements: &Elements, x: &[f64]) -> Vec<u8> {
+pub(super) fn frame(header: &FrameHeader, elements: &FrameElements, x: &[f64]) -> Vec<u8> {
     // Choose the precision, and count flips on the coordinates that are sent.
     let rounded: Vec<f64> = x.iter().map(|&x| f64::from(x as f32)).collect();
     let mut flips = elements.flips(&rounded);
@@ -129,10 +129,10 @@ pub(super) fn frame(header: &Header, elements: &Elements, x: &[f64]) -> Vec<u8> 
 }
 
 /// Encodes a mesh.
-pub(super) fn mesh(drawn: &Drawn, elements: &Elements) -> Vec<u8> {
+pub(super) fn mesh(drawn: &Drawn, elements: &FrameElements) -> Vec<u8> {
     let (corners, n_corners): (&[u32], usize) = match elements {
-        Elements::Triangles(triangles, _) => (triangles.as_flattened(), 3),
-        Elements::Tetrahedra(tets) => (tets.as_flattened(), 4),
+        FrameElements::Triangles(triangles, _) => (triangles.as_flattened(), 3),
+        FrameElements::Tetrahedra(tets) => (tets.as_flattened(), 4),
     };
     let dim = elements.dim();
     let skin: (&[_], &[_]) = match drawn.skin {

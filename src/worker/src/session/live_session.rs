@@ -1,23 +1,25 @@
-//! The state of a session: messages in, frames out.
+//! The state of a session, on a body, a picture or UVs: messages in, frames out.
 
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
-use super::body::{BodyView, HandleFormat};
-use super::editing::{Editing, NamedHandles, check_model};
-use super::frame::{self, Header};
-use super::message::{Command, Message, Reply};
-use super::uvs::UvView;
+use super::editing::{
+    Command, Edited, LiveEditing, Message, NamedHandles, Reply, View, check_model, parsed,
+};
+use super::frame::{self, Drawn, FrameElements, FrameHeader};
 use unwrapd_api::{Failure, Kind, Limits, Upload};
+use unwrapd_deform::uv::{Anchor, EditError, LiveUvs, UvSession};
+use unwrapd_deform::warp::PictureHandle;
+use unwrapd_deform::{Handle, LiveBody, ProblemError, Session};
 use unwrapd_method::solver::Stage;
 use unwrapd_pipeline::{
-    self as pipeline, CommandOptions, DeformOptions, EditOptions, PipelineError, WarpOptions,
-    open_body, open_picture, open_uvs,
+    self as pipeline, CommandOptions, DeformOptions, EditOptions, PipelineError, SessionBody,
+    WarpOptions, open_body, open_picture, open_uvs,
 };
 
 /// State of a session. It depends only on the input, the messages, and the iterations that these precede.
 pub struct LiveSession {
-    editing: Box<dyn Editing>,
+    editing: Box<dyn LiveEditing>,
     step: u32,
     message: u32,
 }
@@ -34,7 +36,7 @@ impl LiveSession {
         upload: &Upload,
         limits: Limits,
     ) -> Result<Self, Failure> {
-        let (editing, handles): (Box<dyn Editing>, Value) = match kind {
+        let (editing, handles): (Box<dyn LiveEditing>, Value) = match kind {
             Kind::Deform => {
                 let options: DeformOptions = read(options, limits)?;
                 check_model(&options.model)?;
@@ -83,7 +85,7 @@ impl LiveSession {
     pub fn frame(&self) -> Vec<u8> {
         let view = self.editing.view();
         let positions = view.positions();
-        let header = Header {
+        let header = FrameHeader {
             stage: self.editing.stage(),
             step: self.step,
             message: self.message,
@@ -160,7 +162,7 @@ fn uvs(
     editing: pipeline::Editing,
     options: &Value,
     limits: Limits,
-) -> Result<(Box<dyn Editing>, Value), Failure> {
+) -> Result<(Box<dyn LiveEditing>, Value), Failure> {
     let options: EditOptions = read(options, limits)?;
     check_model(&options.model)?;
     let session = open_uvs(upload, editing, &options).map_err(|e| failure(&e))?;
@@ -172,12 +174,185 @@ fn read<O: CommandOptions + DeserializeOwned>(
     options: &Value,
     limits: Limits,
 ) -> Result<O, Failure> {
-    let refused = |error: serde_json::Error| Failure::new("invalid_options", error.to_string());
-    let mut options: O = serde_json::from_value(options.clone()).map_err(refused)?;
+    let mut options: O = serde_json::from_value(options.clone())
+        .map_err(|error| Failure::new("invalid_options", error.to_string()))?;
     options.caller_mut().limits = limits;
     Ok(options)
 }
 
 fn failure(error: &PipelineError) -> Failure {
     Failure::new(error.code(), error.to_string())
+}
+
+// Live editing of a body or a picture.
+
+/// Format of handles.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum HandleFormat {
+    /// Vertices, places and discs.
+    Body,
+    /// Places only, because the body is a cage.
+    Cage,
+    /// Pixels.
+    Picture,
+}
+
+/// A body or a picture under live editing.
+pub(super) struct BodyView {
+    held: SessionBody,
+    format: HandleFormat,
+    /// Determinant of each element at rest.
+    rest: Vec<f64>,
+    /// Handles that no client added: a fixed border.
+    border: Vec<Handle>,
+}
+
+impl BodyView {
+    /// Wraps a body whose only handles are its fixed border.
+    pub fn new(held: SessionBody, format: HandleFormat) -> Self {
+        let border = held.session.handles().map(|(_, handle)| handle.clone());
+        Self {
+            rest: held.body.determinants(),
+            border: border.collect(),
+            held,
+            format,
+        }
+    }
+}
+
+impl Edited for BodyView {
+    type Map = LiveBody;
+
+    fn editor(&self) -> &Session {
+        &self.held.session
+    }
+
+    fn editor_mut(&mut self) -> &mut Session {
+        &mut self.held.session
+    }
+
+    fn read(&self, name: u32, handle: Value) -> Result<Handle, Failure> {
+        match self.format {
+            HandleFormat::Body => parsed(handle),
+            HandleFormat::Picture => {
+                let PictureHandle { at, to } = parsed(handle)?;
+                let (at, to) = (at.to_vec(), to.to_vec());
+                Ok(Handle::Point { at, to })
+            }
+            HandleFormat::Cage => match parsed(handle)? {
+                Handle::Vertex { .. } => {
+                    let handle = name as usize;
+                    Err(Self::failure(&ProblemError::VertexOfCage { handle }))
+                }
+                handle => Ok(handle),
+            },
+        }
+    }
+
+    fn failure(error: &ProblemError) -> Failure {
+        Failure::new(error.code(), error.to_string())
+    }
+
+    fn reset(&mut self) {
+        self.held.session.reset();
+        for handle in &self.border {
+            // A body at rest held where it is: nothing contradicts that.
+            let _ = self.held.session.add(handle.clone());
+        }
+    }
+}
+
+impl View for BodyView {
+    fn energy(&self) -> f64 {
+        self.held.session.summary().energy_last
+    }
+
+    fn positions(&self) -> Vec<f64> {
+        self.held.session.positions()
+    }
+
+    fn smallest(&self, positions: &[f64]) -> f64 {
+        let now = self.held.body.determinants_at(positions);
+        let ratios = now.iter().zip(&self.rest).map(|(now, rest)| now / rest);
+        ratios.fold(f64::INFINITY, f64::min)
+    }
+
+    fn elements(&self) -> FrameElements<'_> {
+        FrameElements::of_body(&self.held.body)
+    }
+
+    fn drawn(&self) -> Drawn<'_> {
+        Drawn {
+            rest: self.held.body.rest.clone(),
+            triangles: &self.held.triangles,
+            skin: self.held.skin.as_ref(),
+            picture: self.held.picture,
+        }
+    }
+
+    fn start(&self) -> Vec<f64> {
+        self.positions()
+    }
+}
+
+// Live editing of UVs.
+
+/// UVs under live editing.
+pub(super) struct UvView(pub UvSession);
+
+impl Edited for UvView {
+    type Map = LiveUvs;
+
+    fn editor(&self) -> &UvSession {
+        &self.0
+    }
+
+    fn editor_mut(&mut self) -> &mut UvSession {
+        &mut self.0
+    }
+
+    fn read(&self, _: u32, handle: Value) -> Result<Anchor, Failure> {
+        parsed(handle)
+    }
+
+    fn failure(error: &EditError) -> Failure {
+        Failure::new(error.code(), error.to_string())
+    }
+
+    fn reset(&mut self) {
+        self.0.reset();
+    }
+}
+
+impl View for UvView {
+    fn energy(&self) -> f64 {
+        self.0.energy()
+    }
+
+    fn positions(&self) -> Vec<f64> {
+        self.0.vertex_uvs().into_flattened()
+    }
+
+    fn smallest(&self, _: &[f64]) -> f64 {
+        self.0.smallest()
+    }
+
+    fn elements(&self) -> FrameElements<'_> {
+        let signs = self.0.kept_signs();
+        FrameElements::Triangles(self.0.faces(), Some(signs))
+    }
+
+    fn drawn(&self) -> Drawn<'_> {
+        Drawn {
+            rest: self.positions(),
+            triangles: self.0.faces(),
+            skin: None,
+            picture: None,
+        }
+    }
+
+    fn start(&self) -> Vec<f64> {
+        let corners = self.0.uvs().into_flattened();
+        corners.into_flattened()
+    }
 }

@@ -4,14 +4,11 @@
 //! after each iteration, so the frames can be reproduced from input and messages. [`Editor`](unwrapd_deform::Editor) has
 //! the editing protocol; here handles get the names of clients.
 
-mod body;
 mod child;
 mod editing;
 mod frame;
 mod live_session;
-mod message;
-mod uvs;
 
 pub use child::run;
+pub use editing::{Command, Message, Reply};
 pub use live_session::LiveSession;
-pub use message::{Command, Message, Reply};
