@@ -18,37 +18,20 @@
 //!
 //! The work itself is done by a [`Worker`]: a child process ([`Local`]), or a service ([`Remote`]).
 
-mod asset;
-mod folder;
-mod list_error;
-mod local;
-mod manifest;
-mod one;
-mod order;
+mod assets;
 mod place;
 mod record;
-mod regular;
 mod remote;
-mod row;
+mod rows;
 mod run;
 mod shard;
-mod summary;
-mod trouble;
 mod worker;
 
-pub use asset::Asset;
-pub use folder::{Listing, assets_in};
-pub use list_error::ListError;
-pub use local::Local;
-pub use manifest::assets_of;
-pub use order::Scratch;
-pub use order::{Fate, Order};
-pub use place::Place;
+pub use assets::{Asset, FolderListing, ListError, assets_in, assets_of};
+pub use place::{MOST_BYTES, Place, read_bounded, read_regular};
 pub use record::Record;
-pub use regular::{MOST_BYTES, read_bounded, read_regular};
 pub use remote::{Remote, RemoteError};
-pub use row::{Figures, Row, Status};
-pub use run::{Seen, recorded, run};
+pub use rows::{Figures, Row, Status, Totals, csv};
+pub use run::{Fate, Order, RunScratch, Seen, recorded, run};
 pub use shard::{Shard, ShardChoice, ShardError, array_variable};
-pub use summary::{Totals, csv};
-pub use worker::{Extra, Task, Worker};
+pub use worker::{Extra, Local, Task, Worker};

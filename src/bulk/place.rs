@@ -1,11 +1,11 @@
-//! The output folder.
+//! The output folder, and reading of regular files.
 
-use super::asset::Asset;
-use std::fs::File;
-use std::io::Write;
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
-use std::{fs, io};
+
+use super::assets::Asset;
 
 /// Age above which an unfinished file was left by a killed process. Files are written in seconds, but the clocks of
 /// machines that share the folder may differ by hours.
@@ -104,4 +104,57 @@ fn written(part: &Path, content: &[u8]) -> io::Result<()> {
     let mut file = File::create_new(part)?;
     file.write_all(content)?;
     file.sync_all()
+}
+
+// Reading of regular files of bounded size.
+
+/// Maximum size of a file in bytes: 4 GiB, since a GLB stores its length as a 32-bit number.
+pub const MOST_BYTES: u64 = 1 << 32;
+
+/// Reads a regular file, or the target of a link to one.
+///
+/// A pipe may never have a writer, and a device may never end, so neither is opened.
+///
+/// # Errors
+/// Fails if it cannot be read, is not a regular file, or has more than [`MOST_BYTES`].
+pub fn read_regular(path: &Path) -> io::Result<Vec<u8>> {
+    check(&fs::metadata(path)?)?;
+    let file = File::open(path)?;
+    // Another file may have taken the name since.
+    check(&file.metadata()?)?;
+    read_bounded(file, MOST_BYTES)
+}
+
+/// Reads a stream to its end.
+///
+/// # Errors
+/// Fails if it cannot be read, or has more bytes than `most`.
+pub fn read_bounded(stream: impl Read, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    stream
+        .take(most.saturating_add(1))
+        .read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        return Err(too_large(most));
+    }
+    Ok(bytes)
+}
+
+fn check(file: &fs::Metadata) -> io::Result<()> {
+    if file.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    if !file.is_file() {
+        let text = "not a regular file but a pipe, socket or device";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, text));
+    }
+    if file.len() > MOST_BYTES {
+        return Err(too_large(MOST_BYTES));
+    }
+    Ok(())
+}
+
+fn too_large(most: u64) -> io::Error {
+    let text = format!("larger than {} MiB", most >> 20);
+    io::Error::new(io::ErrorKind::FileTooLarge, text)
 }

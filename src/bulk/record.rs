@@ -1,16 +1,14 @@
-//! Records of assets for later runs.
+//! Records of assets for later runs, and failures outside of the work itself.
 
-use std::fs;
-use std::io;
 use std::path::PathBuf;
+use std::{fs, io};
 
 use serde::{Deserialize, Serialize};
 
-use super::asset::Asset;
-use super::place::Place;
-use super::regular::read_regular;
-use super::row::{Row, Status};
-use super::trouble::Trouble;
+use super::assets::Asset;
+use super::place::{Place, read_regular};
+use super::rows::{Row, Status};
+use unwrapd_api::Failure;
 
 /// Outcome for an asset, and the digest that it holds for. It is written after the files that it lists.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -60,10 +58,9 @@ impl Record {
 
     /// Returns whether all the files exist with the recorded sizes.
     pub(super) fn is_whole(&self, place: &Place) -> bool {
-        let is_there = |(path, bytes): &(PathBuf, u64)| {
-            fs::metadata(place.path(path)).is_ok_and(|of| of.len() == *bytes)
-        };
-        self.files.iter().all(is_there)
+        self.files
+            .iter()
+            .all(|(path, bytes)| fs::metadata(place.path(path)).is_ok_and(|of| of.len() == *bytes))
     }
 
     /// Returns whether a retry may succeed because the failure was temporary.
@@ -102,4 +99,61 @@ impl Record {
 /// Returns whether a code means that the work itself failed.
 fn is_of_work(code: &str) -> bool {
     code != "storage_full" && Trouble::of(code).is_none_or(|it| it == Trouble::Cancelled)
+}
+
+// Failures outside of the work itself. The other codes of a summary are those of the service.
+
+/// Reason for a missing output although the work may have been done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Trouble {
+    /// The job was cancelled.
+    Cancelled,
+    /// The input or a folder on its path cannot be read.
+    InputUnreadable,
+    /// A file to be written exists and belongs to another output.
+    OutputConflict,
+    /// A file cannot be written.
+    OutputUnwritable,
+    /// The service does not respond, or not properly.
+    ServerUnavailable,
+}
+
+impl Trouble {
+    /// Returns its code in summaries.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Cancelled => "cancelled",
+            Self::InputUnreadable => "input_unreadable",
+            Self::OutputConflict => "output_conflict",
+            Self::OutputUnwritable => "output_unwritable",
+            Self::ServerUnavailable => "server_unavailable",
+        }
+    }
+
+    /// Returns the failure of an asset.
+    pub fn with(self, detail: impl Into<String>) -> Failure {
+        Failure::new(self.word(), detail)
+    }
+
+    /// Returns the variant with this code.
+    pub fn of(code: &str) -> Option<Self> {
+        let all = [
+            Self::Cancelled,
+            Self::InputUnreadable,
+            Self::OutputConflict,
+            Self::OutputUnwritable,
+            Self::ServerUnavailable,
+        ];
+        all.into_iter().find(|trouble| trouble.word() == code)
+    }
+}
+
+/// Returns the failure of a file that could not be written.
+pub(super) fn unwritten(error: &io::Error) -> Failure {
+    match error.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            Failure::new("storage_full", error.to_string())
+        }
+        _ => Trouble::OutputUnwritable.with(error.to_string()),
+    }
 }

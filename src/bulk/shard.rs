@@ -121,16 +121,12 @@ impl FromStr for ShardChoice {
     type Err = ShardError;
 
     fn from_str(text: &str) -> Result<Self, ShardError> {
-        let number = |text: &str| match text.parse() {
-            Ok(number @ 1..) => Ok(number),
-            _ => Err(ShardError::Number(text.to_owned())),
-        };
         match text.split_once('/') {
             None if text == "auto" => Ok(Self::Auto(None)),
             None => Err(ShardError::Form(text.to_owned())),
             Some(("auto", count)) => Ok(Self::Auto(Some(number(count)?))),
             Some((index, count)) => {
-                let (index, count): (u64, u64) = (number(index)?, number(count)?);
+                let (index, count) = (number(index)?, number(count)?);
                 if count < index {
                     return Err(ShardError::Beyond { index, count });
                 }
@@ -138,6 +134,13 @@ impl FromStr for ShardChoice {
                 Ok(Self::Fixed(Shard { index, count }))
             }
         }
+    }
+}
+
+fn number(text: &str) -> Result<u64, ShardError> {
+    match text.parse() {
+        Ok(number @ 1..) => Ok(number),
+        _ => Err(ShardError::Number(text.to_owned())),
     }
 }
 
@@ -149,11 +152,6 @@ impl ShardChoice {
             Self::Fixed(shard) => return Ok(shard),
             Self::Auto(given) => given,
         };
-        let number = |name: &'static str| match variable(name).map(|value| (value.parse(), value)) {
-            None => Ok(None),
-            Some((Ok(number), _)) => Ok(Some(number)),
-            Some((Err(_), value)) => Err(ShardError::Variable { name, value }),
-        };
         for Scheduler {
             index: name,
             count,
@@ -161,14 +159,18 @@ impl ShardChoice {
         } in SCHEDULERS
         {
             // Use the first scheduler that provides an index.
-            let Some(index) = number(name)? else {
+            let Some(index) = number_in(&variable, name)? else {
                 continue;
             };
-            let told = count.map(number).transpose()?.flatten();
+            let told = match count {
+                Some(name) => number_in(&variable, name)?,
+                None => None,
+            };
             // If an array has gaps or does not begin at 0, its number of tasks is not the number of shards.
-            let is_whole = match range.map(|names| names.map(number)) {
+            let is_whole = match range {
                 Some([least, greatest]) => {
-                    least? == Some(0) && greatest?.map(|greatest: u64| greatest + 1) == told
+                    number_in(&variable, least)? == Some(0)
+                        && number_in(&variable, greatest)?.map(|greatest| greatest + 1) == told
                 }
                 None => true,
             };
@@ -180,5 +182,19 @@ impl ShardChoice {
             return Ok(Shard { index, count });
         }
         Err(ShardError::NoIndex)
+    }
+}
+
+/// Returns the number in an environment variable; `None` if it is not set.
+fn number_in(
+    variable: impl Fn(&str) -> Option<String>,
+    name: &'static str,
+) -> Result<Option<u64>, ShardError> {
+    let Some(value) = variable(name) else {
+        return Ok(None);
+    };
+    match value.parse() {
+        Ok(number) => Ok(Some(number)),
+        Err(_) => Err(ShardError::Variable { name, value }),
     }
 }

@@ -1,10 +1,11 @@
-//! Interface of the workers that process assets.
+//! Interface of the workers that process assets, and the one that computes on this machine.
 
 use std::path::Path;
 use std::time::Duration;
 
-use unwrapd_api::Failure;
+use unwrapd_api::{Failure, Kind};
 use unwrapd_files::document::Upload;
+use unwrapd_server::jobs::Contained;
 
 /// File that can be written beside an output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,4 +61,31 @@ pub trait Worker: Send + Sync + 'static {
     /// Unwraps an asset, and returns the roles of its output files. Leaves the n-th one in the task's folder as
     /// [`output_file`](unwrapd_api::output_file)`(n)`. Dropping the future stops the work.
     fn work(&self, task: Task<'_>) -> impl Future<Output = Result<Vec<String>, Failure>> + Send;
+}
+
+// Worker that computes in child processes on this machine.
+
+/// Unwraps each asset in a child process.
+#[derive(Clone, Debug)]
+pub struct Local {
+    /// Settings of the child processes.
+    pub contained: Contained,
+    /// Options of unwrapping.
+    pub options: serde_json::Value,
+}
+
+impl Worker for Local {
+    fn version(&self) -> &'static str {
+        env!("CARGO_PKG_VERSION")
+    }
+
+    fn time_limit(&self) -> Option<Duration> {
+        Some(self.contained.time)
+    }
+
+    async fn work(&self, task: Task<'_>) -> Result<Vec<String>, Failure> {
+        let (kind, options) = (Kind::Unwrap, &self.options);
+        let made = (self.contained).run(kind, options, task.upload, task.folder);
+        Ok(made.await?.into_iter().map(|file| file.role).collect())
+    }
 }

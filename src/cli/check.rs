@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-use super::console::{print, print_json};
-use super::failure::Failure;
+use super::console::{CommandFailure, print, print_json};
 use super::process::blobs_url;
 use super::store_args::StoreArgs;
 use unwrapd_server::jobs::{
@@ -57,19 +56,22 @@ struct UnknownFiles {
 const DAY_SECONDS: f64 = 86_400.0;
 
 /// Runs the command.
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), CommandFailure> {
     let runtime = super::batch::runtime()?;
     runtime.block_on(check(args))
 }
 
-async fn check(args: &Args) -> Result<(), Failure> {
+async fn check(args: &Args) -> Result<(), CommandFailure> {
     // Open the store.
     let data = &args.store.data;
     if args.store.database.is_none() && !data.exists() {
-        return Err(Failure::other(format!("there is no {}", data.display())));
+        return Err(CommandFailure::other(format!(
+            "there is no {}",
+            data.display()
+        )));
     }
     let store = args.store.opened().await?;
-    let url = blobs_url(data, args.blobs.as_deref()).map_err(Failure::other)?;
+    let url = blobs_url(data, args.blobs.as_deref()).map_err(CommandFailure::other)?;
     let blobs = blobs_at(&url).map_err(|error| failed(&error))?;
     // Compare, print, and fail if anything was found.
     let found = compared(args, &store, blobs.as_ref()).await;
@@ -83,7 +85,7 @@ async fn check(args: &Args) -> Result<(), Failure> {
     if printed.missing.is_empty() && printed.damaged.is_empty() && printed.unknown.is_empty() {
         return Ok(());
     }
-    Err(Failure::other(format!(
+    Err(CommandFailure::other(format!(
         "{} files missing, {} damaged, files of {} jobs without a record",
         printed.missing.len(),
         printed.damaged.len(),
@@ -91,8 +93,8 @@ async fn check(args: &Args) -> Result<(), Failure> {
     )))
 }
 
-fn failed(error: &StoreError) -> Failure {
-    Failure::other(error.to_string())
+fn failed(error: &StoreError) -> CommandFailure {
+    CommandFailure::other(error.to_string())
 }
 
 async fn compared(
@@ -117,10 +119,13 @@ async fn compared(
 
 impl PrintedCheck {
     fn of(found: &Inspection, quarantined: &[Quarantined]) -> Self {
-        let lost = |loss| {
-            let lost = found.lost.iter().filter(move |file| file.loss == loss);
-            lost.map(|file| file.key.clone()).collect()
-        };
+        let (mut missing, mut damaged) = (Vec::new(), Vec::new());
+        for file in &found.lost {
+            match file.loss {
+                Loss::Missing => missing.push(file.key.clone()),
+                Loss::Damaged => damaged.push(file.key.clone()),
+            }
+        }
         let unknown = found.unknown.iter().map(|(job, bytes)| {
             let quarantine = quarantined.iter().find(|files| files.job == *job);
             UnknownFiles {
@@ -132,8 +137,8 @@ impl PrintedCheck {
         Self {
             jobs: found.jobs,
             files: found.files,
-            missing: lost(Loss::Missing),
-            damaged: lost(Loss::Damaged),
+            missing,
+            damaged,
             unknown: unknown.collect(),
         }
     }

@@ -1,14 +1,17 @@
-//! The commands as clap knows them.
+//! The commands as clap knows them, and what is derived from that: completion scripts and manual pages.
 
 use std::ffi::OsString;
+use std::io::{self, Write};
 
-use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap_complete::Shell;
+use clap_mangen::Man;
 
+use super::console::{self, CommandFailure};
 use super::{
-    batch, check, completions, config, console, deform, drain, edit_uv, health, keys, man, measure,
-    queue, repack, serve, solve, submit, unwrap_args, verify, warp, webhook_secret, worker,
+    batch, check, config, deform, drain, edit_uv, keys, measure, queue, serve, unwrap, webhook,
+    worker,
 };
 use unwrapd_api::options::as_typed;
 
@@ -29,11 +32,11 @@ Exit statuses:
 #[command(name = "unwrapd", version, about, max_term_width = 100, after_help = EXIT_STATUSES)]
 struct Cli {
     #[command(subcommand)]
-    command: Command,
+    command: CliCommand,
 }
 
 #[derive(Subcommand)]
-pub(super) enum Command {
+pub(super) enum CliCommand {
     /// Unwrap a mesh: UVs without flipped or degenerate triangles
     ///
     /// Exit status 0 means certified: it is proven that no triangle is flipped, degenerate or
@@ -45,7 +48,7 @@ pub(super) enum Command {
     /// Exit status 7 means that not all textures and colors were resampled as `rebake` asks. An atlas that is complete when
     /// `time_budget` is over ends with 0; its report says `ended_early`. Other statuses: 2 usage error, 3 unusable input, 1 any
     /// other error. Distortion above the bound of `quality` is only a warning.
-    Unwrap(Box<unwrap_args::Args>),
+    Unwrap(Box<unwrap::UnwrapArgs>),
     /// Unwrap many meshes: a folder, a list, or a shard of either
     ///
     /// Outputs mirror the input directory. Each is complete or absent. A run skips what an earlier
@@ -65,7 +68,7 @@ pub(super) enum Command {
     /// waits as long as it is asked to, and gives up after ten minutes without an answer.
     ///
     /// Outputs, shards, summary and exit statuses are those of `batch`.
-    Submit(Box<submit::Args>),
+    Submit(Box<batch::SubmitArgs>),
     /// Measure the UVs of a file: distortion, seams, packing, overlaps
     Measure(measure::Args),
     /// Prove that the UVs of a file have no flipped or degenerate face: exit 0 if so, 4 if not
@@ -78,14 +81,14 @@ pub(super) enum Command {
     /// shares an atlas follows from the materials or from `group_by`. That holds for files of
     /// version 0.1.0, too, whose records could name the only charts to judge. With `texcoord`, the
     /// record is ignored.
-    Verify(verify::Args),
+    Verify(measure::VerifyArgs),
     /// Pack the UV islands of all meshes into one atlas without changing their shapes
     ///
     /// Islands are only turned by quarters, shifted, and scaled by one common factor. Their defects
     /// remain: islands without area keep their shape and have a place, too. The exit status is 4, not certified, if a triangle is flipped, degenerate or
     /// overlapping, a chart is mirrored, or the padding is not kept. OUT is still written, and a
     /// warning names the defects.
-    Repack(repack::Args),
+    Repack(unwrap::RepackArgs),
     /// Pull UVs by anchors without flipping a face
     ///
     /// The whole UV set is judged after the edit. Exit status 4 means that OUT was written but is
@@ -96,9 +99,9 @@ pub(super) enum Command {
     /// Deform a mesh, an outline or surfaces in a cage by handles without inverting an element
     Deform(Box<deform::Args>),
     /// Solve a problem file: pull handles to targets without inverting an element
-    Solve(solve::Args),
+    Solve(deform::SolveArgs),
     /// Warp a picture by handles without folding it
-    Warp(warp::Args),
+    Warp(deform::WarpArgs),
     /// Run the HTTP service
     ///
     /// It ends on SIGTERM or SIGINT. Every option can also be set by the environment variable that
@@ -136,7 +139,7 @@ pub(super) enum Command {
     /// is not ready meanwhile. Others that share its database go on.
     Drain(drain::Args),
     /// Print the secret by which an owner checks the webhooks of the service
-    WebhookSecret(webhook_secret::Args),
+    WebhookSecret(webhook::SecretArgs),
     /// Print what is in force for `serve`, and where each value comes from
     ///
     /// It takes the options of `serve`, on the command line and in the environment. The source of a
@@ -146,15 +149,15 @@ pub(super) enum Command {
     /// Print the OpenAPI document of the service
     Openapi,
     /// Check whether a running service is ready: exit 0 if so, 1 if not
-    Health(health::Args),
+    Health(drain::HealthArgs),
     /// Print a completion script for a shell
-    Completions(completions::Args),
+    Completions(CompletionsArgs),
     /// Print the manual page of the program or of a command
-    Man(man::Args),
+    Man(ManArgs),
 }
 
 /// Parses the command line. Exits the process on a usage error, or after printing help.
-pub(super) fn typed(arguments: Vec<OsString>) -> (Command, ArgMatches) {
+pub(super) fn typed(arguments: Vec<OsString>) -> (CliCommand, ArgMatches) {
     let short = command().mut_subcommands(|command| command.mut_args(hidden_if_special));
     let matches = short.try_get_matches_from(arguments);
     let mut matches = matches.unwrap_or_else(|error| refuse(error));
@@ -194,8 +197,8 @@ fn as_people_type(command: clap::Command) -> clap::Command {
     let ids = command.get_arguments().map(clap::Arg::get_id);
     let ids: Vec<String> = ids.map(ToString::to_string).collect();
     let is_option = |name: &str| ids.iter().any(|id| id == name);
-    let about = |text: &StyledStr| as_typed(&text.to_string(), is_option);
-    let long = command.get_long_about().map(about);
+    let long = command.get_long_about();
+    let long = long.map(|text| as_typed(&text.to_string(), is_option));
     let command =
         command.mut_args(|option| with_typed_names(with_negative_numbers(option), is_option));
     let command = long.into_iter().fold(command, clap::Command::long_about);
@@ -203,11 +206,8 @@ fn as_people_type(command: clap::Command) -> clap::Command {
 }
 
 fn with_typed_names(option: clap::Arg, is_option: impl Fn(&str) -> bool) -> clap::Arg {
-    let typed = |help: &StyledStr| as_typed(&help.to_string(), &is_option);
-    let (short, long) = (
-        option.get_help().map(typed),
-        option.get_long_help().map(typed),
-    );
+    let help = [option.get_help(), option.get_long_help()];
+    let [short, long] = help.map(|help| Some(as_typed(&help?.to_string(), &is_option)));
     let option = short.into_iter().fold(option, clap::Arg::help);
     long.into_iter().fold(option, clap::Arg::long_help)
 }
@@ -223,4 +223,50 @@ const SHORT: &str = "Files and messages";
 fn hidden_if_special(option: clap::Arg) -> clap::Arg {
     let is_special = option.get_help_heading().is_some_and(|it| it != SHORT);
     option.hide_short_help(is_special)
+}
+
+// `unwrapd completions`: shell completion scripts.
+
+/// Prints a completion script for a shell.
+#[derive(clap::Args)]
+pub(super) struct CompletionsArgs {
+    /// The shell
+    shell: Shell,
+}
+
+/// Runs `completions` of a program.
+pub(super) fn print_completions(args: &CompletionsArgs, mut program: clap::Command) {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut program, "unwrapd", &mut script);
+    // The reader may have closed the pipe, as with any output.
+    let _ = io::stdout().write_all(&script);
+}
+
+// `unwrapd man`: manual pages.
+
+/// Prints the manual page of the program or of a command.
+#[derive(clap::Args)]
+pub(super) struct ManArgs {
+    /// The command [default: the manual page of the program, which lists all commands]
+    command: Option<String>,
+}
+
+/// Runs `man` of a program.
+pub(super) fn print_manual(
+    args: &ManArgs,
+    mut program: clap::Command,
+) -> Result<(), CommandFailure> {
+    program.build();
+    let page = match &args.command {
+        None => &program,
+        Some(name) => program.find_subcommand(name).ok_or_else(|| {
+            CommandFailure::usage(format!("unknown command {name}: see unwrapd --help"))
+        })?,
+    };
+    let mut text = Vec::new();
+    let rendered = Man::new(page.clone()).render(&mut text);
+    rendered.map_err(|error| CommandFailure::other(error.to_string()))?;
+    // The reader may have closed the pipe, as with any output.
+    let _ = io::stdout().write_all(&text);
+    Ok(())
 }

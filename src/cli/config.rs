@@ -6,8 +6,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches};
 use serde::Serialize;
 
-use super::console::{print, print_json, warn_of};
-use super::failure::Failure;
+use super::console::{CommandFailure, print, print_json, warn_of};
 use super::serve;
 
 /// Prefix of all environment variables of the program.
@@ -47,7 +46,11 @@ struct SettingRow {
 }
 
 /// Runs the command; `typed` are the matches of its arguments.
-pub(super) fn run(args: &Args, program: &clap::Command, typed: &ArgMatches) -> Result<(), Failure> {
+pub(super) fn run(
+    args: &Args,
+    program: &clap::Command,
+    typed: &ArgMatches,
+) -> Result<(), CommandFailure> {
     // Collect the options of `serve` and the variables of S3.
     let serve = program.find_subcommand("serve");
     let derived = args.serve.derived();

@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::console::{json, print_json, warn};
-use super::failure::Failure;
-use super::format::output_format;
-use super::input::{Mapped, read_file, read_upload};
-use super::output::{Files, Outputs, Target, caller};
+use super::console::{CommandFailure, json, print_json, warn};
+use super::deform::print_pull;
+use super::files::{
+    Mapped, OutputFiles, OutputTarget, Outputs, caller, output_format, read_file, read_upload,
+};
 use super::progress::Display;
-use super::warp::print_pull;
 use unwrapd_api::options::help_of;
 use unwrapd_deform::uv::parse_anchors;
 use unwrapd_files::document::OutputFormat;
@@ -41,25 +40,25 @@ struct Common {
     #[command(flatten)]
     mapped: Mapped,
     #[command(flatten)]
-    target: Target,
+    target: OutputTarget,
     #[command(flatten)]
-    files: Files<OutputFormat>,
+    files: OutputFiles<OutputFormat>,
     #[command(flatten)]
     options: EditOptions,
 }
 
 /// Runs `edit-uv`.
-pub(super) fn edit(args: &EditArgs) -> Result<(), Failure> {
+pub(super) fn edit(args: &EditArgs) -> Result<(), CommandFailure> {
     run(&args.common, &args.anchors, Editing::Map)
 }
 
 /// Runs `texture-map`.
-pub(super) fn texture_map(args: &TextureArgs) -> Result<(), Failure> {
+pub(super) fn texture_map(args: &TextureArgs) -> Result<(), CommandFailure> {
     run(&args.common, &args.points, Editing::Texture)
 }
 
 /// Runs an edit; exits with 4 if the UV set is not proven to be bijective, with 5 if targets cannot be reached.
-fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
+fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), CommandFailure> {
     // Check options and paths before the work.
     let (input, to) = (&args.mapped.input, &args.target.output);
     let mut options = EditOptions {
@@ -67,7 +66,7 @@ fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
         caller: caller(to),
         ..args.options.clone()
     };
-    options.check().map_err(Failure::of_options)?;
+    options.check().map_err(CommandFailure::of_options)?;
     let (report, output) = (&args.files.report, &args.files.output);
     let outputs = Outputs::check(to, &[report], &[input, anchors], output)?;
     // Read the inputs and edit.
@@ -90,9 +89,9 @@ fn run(args: &Common, anchors: &Path, editing: Editing) -> Result<(), Failure> {
     written.tell();
     if !edited.report.certified {
         let lacking = edited.report.lacking.join(", ");
-        return Err(Failure::uncertified(format!(
+        return Err(CommandFailure::uncertified(format!(
             "not certified, but written: {lacking}"
         )));
     }
-    Failure::unless_complete(edited.report.completion)
+    CommandFailure::unless_complete(edited.report.completion)
 }

@@ -4,11 +4,10 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use super::console::{print, print_json, warn_of};
-use super::failure::Failure;
+use super::console::{CommandFailure, print, print_json, warn_of};
 use super::store_args::StoreArgs;
-use unwrapd_server::jobs::Timestamp;
 use unwrapd_server::jobs::access::{Key, KeyId, KeyStore, KeyText, NewKey, Owner, Scopes};
+use unwrapd_server::jobs::{StoreError, Timestamp};
 
 /// Maximum length of a note in characters, so that the list keeps one line per key.
 const MOST_OF_NAME: usize = 100;
@@ -110,7 +109,7 @@ fn name(text: &str) -> Result<String, String> {
 }
 
 /// Runs the command.
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), CommandFailure> {
     let runtime = super::batch::runtime()?;
     runtime.block_on(async {
         match &args.action {
@@ -122,9 +121,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     })
 }
 
-async fn create(args: &Create) -> Result<(), Failure> {
-    let failed = |error| Failure::other(format!("the key was not made: {error}"));
-    let text = KeyText::fresh().map_err(failed)?;
+async fn create(args: &Create) -> Result<(), CommandFailure> {
+    let text = KeyText::fresh().map_err(|error| not_made(&error))?;
     let new = NewKey {
         id: text.id().clone(),
         digest: text.digest(),
@@ -135,25 +133,29 @@ async fn create(args: &Create) -> Result<(), Failure> {
         parent: None,
     };
     let store = args.store.opened().await?;
-    store.add_key(&new).await.map_err(failed)?;
+    let added = store.add_key(&new).await;
+    added.map_err(|error| not_made(&error))?;
     warn_of("this is the only time that the key is shown");
     print(text.reveal());
     Ok(())
 }
 
+fn not_made(error: &StoreError) -> CommandFailure {
+    CommandFailure::other(format!("the key was not made: {error}"))
+}
+
 /// Minimum number of hexadecimal digits of a secret: 256 bits, as in generated keys.
 const SECRET_DIGITS: usize = 64;
 
-async fn add(args: &Add) -> Result<(), Failure> {
+async fn add(args: &Add) -> Result<(), CommandFailure> {
     // Check the form of the key, including the length of its secret.
     let text = args.key.trim();
-    let is_long = |text: &str| {
-        let secret = text.rsplit('_').next().unwrap_or_default();
-        SECRET_DIGITS <= secret.len() && secret.bytes().all(|byte| byte.is_ascii_hexdigit())
-    };
-    let key = KeyText::parse(text).filter(|_| is_long(text));
+    let secret = text.rsplit('_').next().unwrap_or_default();
+    let is_long =
+        SECRET_DIGITS <= secret.len() && secret.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let key = KeyText::parse(text).filter(|_| is_long);
     let key = key.ok_or_else(|| {
-        Failure::usage(
+        CommandFailure::usage(
             "the key must be uw_ID_SECRET, with 16 and 64 hexadecimal digits in lower case",
         )
     })?;
@@ -171,23 +173,26 @@ async fn add(args: &Add) -> Result<(), Failure> {
     let added = store.add_key(&new).await;
     // The error is ignored at first: the key may exist already, or another process may have been faster.
     let keys = store.keys().await;
-    let keys = keys.map_err(|error| Failure::other(format!("no keys read: {error}")))?;
+    let keys = keys.map_err(|error| CommandFailure::other(format!("no keys read: {error}")))?;
     match (keys.iter().find(|known| known.id == new.id), added) {
-        (Some(known), _) if !key.has_digest(&known.digest) => Err(Failure::other(format!(
+        (Some(known), _) if !key.has_digest(&known.digest) => Err(CommandFailure::other(format!(
             "there is another key {} with another secret",
             new.id
         ))),
-        (Some(known), _) if known.revoked.is_some() => {
-            Err(Failure::other(format!("the key {} is revoked", new.id)))
-        }
-        (None, Err(error)) => Err(Failure::other(format!("the key was not added: {error}"))),
+        (Some(known), _) if known.revoked.is_some() => Err(CommandFailure::other(format!(
+            "the key {} is revoked",
+            new.id
+        ))),
+        (None, Err(error)) => Err(CommandFailure::other(format!(
+            "the key was not added: {error}"
+        ))),
         _ => Ok(()),
     }
 }
 
-async fn list(args: &List) -> Result<(), Failure> {
+async fn list(args: &List) -> Result<(), CommandFailure> {
     let keys = args.store.present().await?.keys().await;
-    let keys = keys.map_err(|error| Failure::other(format!("no keys read: {error}")))?;
+    let keys = keys.map_err(|error| CommandFailure::other(format!("no keys read: {error}")))?;
     let rows: Vec<KeyRow> = keys.iter().map(KeyRow::of).collect();
     if args.json {
         return print_json(&rows);
@@ -199,17 +204,19 @@ async fn list(args: &List) -> Result<(), Failure> {
     Ok(())
 }
 
-async fn revoke(args: &Revoke) -> Result<(), Failure> {
+async fn revoke(args: &Revoke) -> Result<(), CommandFailure> {
     let store = args.store.present().await;
     let store = store.map_err(|failure| failure.about(format_args!("no key {}", args.id)))?;
     let revoked = store.revoke(&args.id).await;
     match revoked {
         Ok(true) => Ok(()),
-        Ok(false) => Err(Failure::other(format!(
+        Ok(false) => Err(CommandFailure::other(format!(
             "no key {} that is not revoked",
             args.id
         ))),
-        Err(error) => Err(Failure::other(format!("the key was not revoked: {error}"))),
+        Err(error) => Err(CommandFailure::other(format!(
+            "the key was not revoked: {error}"
+        ))),
     }
 }
 
@@ -250,7 +257,6 @@ impl KeyRow {
     }
 
     fn line(&self) -> String {
-        let time = |time: Option<Timestamp>| time.map_or("-".to_owned(), |it| it.to_string());
         let Self {
             id,
             state,
@@ -259,7 +265,8 @@ impl KeyRow {
             name,
             ..
         } = self;
-        let times = [Some(self.created), self.expires, self.used].map(time);
+        let times = [Some(self.created), self.expires, self.used];
+        let times = times.map(|time| time.map_or("-".to_owned(), |it| it.to_string()));
         let times = times.join("\t");
         format!("{id}\t{state}\t{owner}\t{scopes}\t{times}\t{name}")
     }

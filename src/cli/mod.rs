@@ -1,64 +1,39 @@
-//! The commands: each subcommand is one file that fills settings structs and calls the library.
+//! The commands: each file has one subcommand, or several that are alike, which fill settings structs and call the library.
 //!
 //! Exit statuses: 0 success; 2 usage error; 3 unusable input; 4 not certified (with a file), or no
 //! valid result within the limits (without one); 5 targets that cannot be reached (with a file);
 //! 6 ended early (with a file); 7 partly done (with a file); 1 any other error.
 //!
-//! Before the work starts, the library checks the options, and `output` checks that every file can
-//! be written. Each input is opened once (`input`).
+//! Before the work starts, the library checks the options, and `files` checks that every file can
+//! be written. Each input is opened once.
 #![doc = include_str!("guide.md")]
 
-mod acceptance;
 mod batch;
-mod bulk_args;
-mod bulk_display;
 mod check;
 mod command;
-mod completions;
 mod config;
 mod console;
 mod deform;
 mod drain;
 mod edit_uv;
-mod escaping;
-mod exposure_args;
-mod failure;
-mod format;
-mod health;
-mod input;
+mod files;
 mod keys;
-mod listen;
-mod local_call;
-mod man;
 mod measure;
-mod output;
-mod owner_args;
 mod process;
 mod progress;
 mod queue;
-mod records;
-mod repack;
 mod serve;
-mod solve;
 mod store_args;
-mod submit;
-mod table;
 mod unwrap;
-mod unwrap_args;
-mod verify;
-mod warp;
-mod watch_args;
-mod webhook_args;
-mod webhook_secret;
-mod work_args;
+mod webhook;
 mod worker;
 
 use std::ffi::OsString;
 use std::path::Path;
 
 use clap::ArgMatches;
-use command::Command;
-use failure::Failure;
+use command::CliCommand;
+use console::CommandFailure;
 
 use unwrapd_server::jobs::Program;
 
@@ -94,44 +69,46 @@ fn input(typed: &ArgMatches) -> Option<String> {
 }
 
 fn run_typed(
-    command: Command,
+    command: CliCommand,
     typed: &ArgMatches,
     program: std::io::Result<Program>,
-) -> Result<(), Failure> {
+) -> Result<(), CommandFailure> {
     match command {
-        Command::Unwrap(args) => unwrap::run(&args),
-        Command::Measure(args) => measure::run(&args),
-        Command::Verify(args) => verify::run(&args),
-        Command::Repack(args) => repack::run(&args),
-        Command::EditUv(args) => edit_uv::edit(&args),
-        Command::TextureMap(args) => edit_uv::texture_map(&args),
-        Command::Deform(args) => deform::run(&args),
-        Command::Solve(args) => solve::run(&args),
-        Command::Warp(args) => warp::run(&args),
-        Command::Batch(args) => batch::run(&args, own(program)?),
-        Command::Submit(args) => submit::run(&args),
-        Command::Serve(args) => serve::run(&args, own(program)?).map_err(Failure::other),
-        Command::Worker(args) => worker::run(&args, own(program)?).map_err(Failure::other),
-        Command::Keys(args) => keys::run(&args),
-        Command::Queue(args) => queue::run(&args),
-        Command::Check(args) => check::run(&args),
-        Command::Drain(args) => drain::run(&args),
-        Command::WebhookSecret(args) => webhook_secret::run(&args),
-        Command::Config(args) => config::run(&args, &command::command(), typed),
-        Command::Openapi => {
+        CliCommand::Unwrap(args) => unwrap::run(&args),
+        CliCommand::Measure(args) => measure::run(&args),
+        CliCommand::Verify(args) => measure::verify(&args),
+        CliCommand::Repack(args) => unwrap::repack(&args),
+        CliCommand::EditUv(args) => edit_uv::edit(&args),
+        CliCommand::TextureMap(args) => edit_uv::texture_map(&args),
+        CliCommand::Deform(args) => deform::run(&args),
+        CliCommand::Solve(args) => deform::solve(&args),
+        CliCommand::Warp(args) => deform::warp(&args),
+        CliCommand::Batch(args) => batch::run(&args, own(program)?),
+        CliCommand::Submit(args) => batch::submit(&args),
+        CliCommand::Serve(args) => serve::run(&args, own(program)?).map_err(CommandFailure::other),
+        CliCommand::Worker(args) => {
+            worker::run(&args, own(program)?).map_err(CommandFailure::other)
+        }
+        CliCommand::Keys(args) => keys::run(&args),
+        CliCommand::Queue(args) => queue::run(&args),
+        CliCommand::Check(args) => check::run(&args),
+        CliCommand::Drain(args) => drain::run(&args),
+        CliCommand::WebhookSecret(args) => webhook::print_secret(&args),
+        CliCommand::Config(args) => config::run(&args, &command::command(), typed),
+        CliCommand::Openapi => {
             console::print(unwrapd_server::http::openapi(&unwrapd_worker::Computations));
             Ok(())
         }
-        Command::Health(args) => health::run(&args).map_err(Failure::other),
-        Command::Completions(args) => {
-            completions::run(&args, command::command());
+        CliCommand::Health(args) => drain::health(&args).map_err(CommandFailure::other),
+        CliCommand::Completions(args) => {
+            command::print_completions(&args, command::command());
             Ok(())
         }
-        Command::Man(args) => man::run(&args, command::command()),
+        CliCommand::Man(args) => command::print_manual(&args, command::command()),
     }
 }
 
 /// Returns the program of children.
-fn own(program: std::io::Result<Program>) -> Result<Program, Failure> {
-    program.map_err(|error| Failure::other(format!("no children can be started: {error}")))
+fn own(program: std::io::Result<Program>) -> Result<Program, CommandFailure> {
+    program.map_err(|error| CommandFailure::other(format!("no children can be started: {error}")))
 }

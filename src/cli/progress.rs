@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::failure::Failure;
-use super::output::{Talk, write_whole};
+use super::console::CommandFailure;
+use super::files::{Talk, write_whole};
 use unwrapd_method::solver::Control;
 use unwrapd_pipeline::{Observer, Progress, Stage};
 
@@ -28,7 +28,7 @@ pub(super) struct Display {
 struct FrameFiles {
     folder: PathBuf,
     extension: String,
-    failure: Mutex<Option<Failure>>,
+    failure: Mutex<Option<CommandFailure>>,
 }
 
 impl Display {
@@ -64,7 +64,7 @@ impl Display {
     }
 
     /// Removes the bar. Fails if a frame could not be written.
-    pub(super) fn finish(self) -> Result<(), Failure> {
+    pub(super) fn finish(self) -> Result<(), CommandFailure> {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }

@@ -2,11 +2,10 @@
 
 use serde::Serialize;
 
-use super::console::{print, print_json};
-use super::failure::Failure;
+use super::console::{CommandFailure, print, print_json};
 use super::store_args::StoreArgs;
 use unwrapd_server::jobs::access::{Owner, Visibility};
-use unwrapd_server::jobs::{JobStore, Listing, State, StoreError, retry_failed};
+use unwrapd_server::jobs::{JobStore, Listing, StoreError, retry_failed};
 use unwrapd_server::store::RecordStore;
 
 /// The arguments of `queue`.
@@ -58,7 +57,7 @@ struct PrintedQueue {
 }
 
 /// Runs the command.
-pub(super) fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), CommandFailure> {
     let runtime = super::batch::runtime()?;
     runtime.block_on(async {
         match &args.action {
@@ -70,12 +69,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     })
 }
 
-async fn set_paused(args: &StoreArgs, paused: bool) -> Result<(), Failure> {
+async fn set_paused(args: &StoreArgs, paused: bool) -> Result<(), CommandFailure> {
     let set = args.present().await?.set_paused(paused).await;
-    set.map_err(|error| Failure::other(format!("nothing was changed: {error}")))
+    set.map_err(|error| CommandFailure::other(format!("nothing was changed: {error}")))
 }
 
-async fn retry(args: &Retry) -> Result<(), Failure> {
+async fn retry(args: &Retry) -> Result<(), CommandFailure> {
     let store = args.store.opened().await?;
     let mut listing = Listing {
         owner: args.owner.clone(),
@@ -85,8 +84,9 @@ async fn retry(args: &Retry) -> Result<(), Failure> {
     loop {
         let code = args.code.as_deref();
         let retried = retry_failed(&store, &Visibility::All, listing.clone(), code).await;
-        let retried = retried
-            .map_err(|error| Failure::other(format!("{count} jobs tried again, then: {error}")))?;
+        let retried = retried.map_err(|error| {
+            CommandFailure::other(format!("{count} jobs tried again, then: {error}"))
+        })?;
         count += retried.jobs.len();
         if retried.next.is_none() {
             break;
@@ -97,10 +97,11 @@ async fn retry(args: &Retry) -> Result<(), Failure> {
     Ok(())
 }
 
-async fn status(args: &QueueStatus) -> Result<(), Failure> {
+async fn status(args: &QueueStatus) -> Result<(), CommandFailure> {
     let store = args.store.present().await?;
     let printed = printed(&store).await;
-    let printed = printed.map_err(|error| Failure::other(format!("no jobs read: {error}")))?;
+    let printed =
+        printed.map_err(|error| CommandFailure::other(format!("no jobs read: {error}")))?;
     if args.json {
         return print_json(&printed);
     }
@@ -115,10 +116,12 @@ async fn status(args: &QueueStatus) -> Result<(), Failure> {
 
 async fn printed(store: &RecordStore) -> Result<PrintedQueue, StoreError> {
     let queue = store.queue().await?;
-    let count = |(state, count): (State, u64)| (state.word().to_owned(), count.into());
+
     Ok(PrintedQueue {
         paused: store.is_paused().await?,
         oldest_queued_seconds: queue.oldest_wait.as_secs_f64(),
-        jobs: queue.counts.into_iter().map(count).collect(),
+        jobs: (queue.counts.into_iter())
+            .map(|(state, count)| (state.word().to_owned(), count.into()))
+            .collect(),
     })
 }

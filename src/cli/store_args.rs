@@ -1,6 +1,6 @@
 //! Arguments for the location of records.
 
-use super::failure::Failure;
+use super::console::CommandFailure;
 use nix::sys::stat::{Mode, umask};
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use std::fs::{DirBuilder, Metadata, OpenOptions, Permissions};
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use unwrapd_server::jobs::Rules;
 use unwrapd_server::store::RecordStore;
 
-/// Where records are.
+/// Location of records.
 #[derive(clap::Args)]
 pub(super) struct StoreArgs {
     /// Folder for what this process keeps; created if missing. Without `database`, that is
@@ -45,18 +45,18 @@ impl StoreArgs {
     }
 
     /// Opens the database, and creates it if needed.
-    pub async fn opened(&self) -> Result<RecordStore, Failure> {
-        self.make_folder().map_err(Failure::other)?;
-        let url = self.database_url().map_err(Failure::other)?;
+    pub async fn opened(&self) -> Result<RecordStore, CommandFailure> {
+        self.make_folder().map_err(CommandFailure::other)?;
+        let url = self.database_url().map_err(CommandFailure::other)?;
         let store = RecordStore::open(&url, Rules::default()).await;
-        store.map_err(|error| Failure::other(format!("cannot use the database: {error}")))
+        store.map_err(|error| CommandFailure::other(format!("cannot use the database: {error}")))
     }
 
     /// Opens the database. Fails if it does not exist.
-    pub async fn present(&self) -> Result<RecordStore, Failure> {
+    pub async fn present(&self) -> Result<RecordStore, CommandFailure> {
         let file = self.data.join("unwrapd.sqlite");
         if self.database.is_none() && !file.exists() {
-            return Err(Failure::other(format!(
+            return Err(CommandFailure::other(format!(
                 "there is no database {}: name the folder of the service with --data",
                 file.display()
             )));
@@ -123,15 +123,14 @@ const STICKY: u32 = 0o1000;
 /// write.
 fn make_private(folder: &Path, has_database: DatabaseAddress) -> Result<(), String> {
     // Create the folder.
-    let failed = |error: std::io::Error| format!("cannot create {}: {error}", folder.display());
     let mut builder = DirBuilder::new();
     builder.recursive(true).mode(0o700);
-    builder.create(folder).map_err(failed)?;
+    let found = (builder.create(folder))
+        .and_then(|()| folder.metadata())
+        .map_err(|error| format!("cannot create {}: {error}", folder.display()))?;
     // Find out whether a group shares it, and deny access to everybody else.
-    let found = folder.metadata().map_err(failed)?;
-    let is_own = |data: &Metadata| is_owner(data.uid());
-    let is_of_group =
-        found.mode() & SETGID != 0 || (!is_own(&found) && found.mode() & GROUP_WRITES != 0);
+    let is_own = is_owner(found.uid());
+    let is_of_group = found.mode() & SETGID != 0 || (!is_own && found.mode() & GROUP_WRITES != 0);
     let denied = if is_of_group {
         OTHERS
     } else {
@@ -146,7 +145,7 @@ fn make_private(folder: &Path, has_database: DatabaseAddress) -> Result<(), Stri
     // Tighten the folder and our files in it.
     if found.mode() & denied != 0 {
         // A sticky folder, such as /tmp, is meant for all users.
-        if is_own(&found) && found.mode() & STICKY == 0 {
+        if is_own && found.mode() & STICKY == 0 {
             tighten(folder, &found, denied);
         } else {
             let folder = folder.display();
@@ -160,7 +159,7 @@ fn make_private(folder: &Path, has_database: DatabaseAddress) -> Result<(), Stri
         let Ok(data) = path.symlink_metadata() else {
             continue;
         };
-        if is_own(&data) && !data.is_symlink() && data.mode() & denied != 0 {
+        if is_owner(data.uid()) && !data.is_symlink() && data.mode() & denied != 0 {
             tighten(&path, &data, denied);
         }
     }

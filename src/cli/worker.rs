@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use super::process;
-use super::watch_args::measured;
-use super::work_args::WorkArgs;
+use super::process::{self, WorkArgs, measured};
 use unwrapd_server::jobs::Program;
 
 /// The arguments of `worker`. Each has an environment variable.

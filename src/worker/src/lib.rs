@@ -14,6 +14,4 @@ mod work;
 
 pub use attempt::{draw, run as compute};
 pub use reporter::Estimator;
-pub use work::Computations;
-pub use work::Work;
-pub use work::quality_of;
+pub use work::{Computations, Work, quality_of};

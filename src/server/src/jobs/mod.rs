@@ -57,40 +57,22 @@ mod submit;
 mod timestamp;
 mod transition;
 
-pub use child::Contained;
-pub use child::Program;
-pub use child::{read_stderr, spawn};
-pub use files::Scratch;
-pub use files::free_bytes;
-pub use handling::Digest;
-pub use handling::Handling;
-pub use handling::{Gate, GateError, Gates};
-pub use handling::{Metadata, MetadataError};
-pub use handling::{Webhook, WebhookError};
-pub use inspection::{Inspection, Loss, LostFile, inspect, purge, repair};
-pub use inspection::{adopt, shared_identity};
-pub use job::State;
-pub use job::{Event, ProgressReport};
-pub use job::{Job, JobId};
-pub use job::{Rules, SUSPECT, Token, WorkerId};
-pub use pictures::Undrawn;
-pub use queue::NextMaps;
-pub use queue::Subscription;
-pub use queue::{Ended, Jobs};
-pub use settings::{Deployment, Settings};
-pub use storage::StoreId;
-pub use storage::{BlobContent, Blobs};
-pub use storage::{Capacity, OwnerQuota, OwnerQuotas};
-pub use storage::{
-    Census, Changed, Enqueued, Heartbeat, IdempotencyKey, JobStore, Quarantined, Queue, Reason,
-    Share, Sweep,
+pub use child::{Contained, Program, read_stderr, spawn};
+pub use files::{Scratch, free_bytes};
+pub use handling::{
+    Digest, Gate, GateError, Gates, Handling, Metadata, MetadataError, Webhook, WebhookError,
 };
-pub use storage::{Listing, Order};
-pub use storage::{Notice, Outbox};
+pub use inspection::{Inspection, Loss, LostFile, adopt, inspect, purge, repair, shared_identity};
+pub use job::{Event, Job, JobId, ProgressReport, Rules, SUSPECT, State, Token, WorkerId};
+pub use pictures::Undrawn;
+pub use queue::{Ended, Jobs, NextMaps, Subscription};
+pub use settings::{Deployment, Settings};
+pub use storage::{
+    BlobContent, Blobs, Capacity, Census, Changed, Enqueued, Heartbeat, IdempotencyKey, JobStore,
+    Listing, Notice, Order, Outbox, OwnerQuota, OwnerQuotas, Quarantined, Queue, Reason, Share,
+    StoreId, Sweep,
+};
 pub use store_error::{StoreError, StoreResult};
-pub use submit::Usage;
-pub use submit::{Retried, retry_failed};
-pub use submit::{Submission, SubmitError, Submitted};
-pub use timestamp::Timestamp;
-pub use timestamp::{Steadiness, SteadyClock};
+pub use submit::{Retried, Submission, SubmitError, Submitted, Usage, retry_failed};
+pub use timestamp::{Steadiness, SteadyClock, Timestamp};
 pub use transition::{Command, Ending, Refusal, Transition, after};

@@ -15,10 +15,6 @@ mod key;
 mod owner;
 mod ring;
 
-pub use key::KeyId;
-pub use key::KeyText;
-pub use key::{Key, KeyStore, NewKey};
-pub use owner::Owner;
-pub use owner::{Scope, Scopes};
-pub use ring::{Caller, Visibility};
-pub use ring::{Denied, KeyRing, Signed};
+pub use key::{Key, KeyId, KeyStore, KeyText, NewKey};
+pub use owner::{Owner, Scope, Scopes};
+pub use ring::{Caller, Denied, KeyRing, Signed, Visibility};

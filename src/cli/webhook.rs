@@ -1,7 +1,9 @@
-//! Arguments for webhooks.
+//! Webhooks: arguments of `serve`, and `unwrapd webhook-secret`.
 
 use clap::builder::BoolishValueParser;
 
+use super::console::{CommandFailure, print};
+use unwrapd_server::jobs::access::Owner;
 use unwrapd_server::webhooks::{Reachable, Secrets, Settings};
 
 /// Webhooks that announce the ends of jobs.
@@ -42,4 +44,31 @@ impl WebhookArgs {
             Reachable::Public
         }
     }
+}
+
+// `unwrapd webhook-secret`: the secret with which an owner verifies deliveries.
+
+/// The arguments of `webhook-secret`.
+#[derive(clap::Args)]
+pub(super) struct SecretArgs {
+    /// Owner of the jobs [default: that of jobs made without a key]
+    #[arg(long, value_name = "NAME")]
+    owner: Option<Owner>,
+    /// Secret of the service
+    #[arg(
+        long,
+        value_name = "SECRET",
+        env = "UNWRAPD_WEBHOOK_SECRET",
+        hide_env_values = true
+    )]
+    webhook_secret: Secrets,
+}
+
+/// Runs the command.
+pub(super) fn print_secret(args: &SecretArgs) -> Result<(), CommandFailure> {
+    let owner = args.owner.clone().unwrap_or_default();
+    let secret = args.webhook_secret.present();
+    let secret = secret.ok_or_else(|| CommandFailure::usage("there is no secret"))?;
+    print(secret.told_to(&owner));
+    Ok(())
 }
