@@ -65,12 +65,12 @@ impl Cancellation {
 }
 
 /// Observer of a call, with its start time and its token.
-struct Link {
+struct NodeCall {
     begin: Instant,
     cancellation: Cancellation,
 }
 
-impl Observer for Link {
+impl Observer for NodeCall {
     /// Unwinds out of the library once the call is cancelled: an early end would still pack and judge a result.
     fn progress(&self, _: &Progress) -> Control {
         if !self.cancellation.is_cancelled.load(Ordering::Relaxed) {
@@ -93,7 +93,7 @@ pub fn run<T>(
     cancellation: Cancellation,
     work: impl FnOnce(&dyn Observer) -> Result<T, PipelineError>,
 ) -> Result<T, Failure> {
-    let link = Link {
+    let link = NodeCall {
         begin: Instant::now(),
         cancellation,
     };

@@ -50,11 +50,14 @@ fn corners<const N: usize>(
     triangles: &[[u32; 3]],
     of_vertices: &[[f64; N]],
 ) -> Result<Vec<[[f64; N]; 3]>, Failure> {
-    let at = |v: u32| of_vertices.get(v as usize).copied();
-    let found = triangles
-        .iter()
-        .map(|triangle| Some([at(triangle[0])?, at(triangle[1])?, at(triangle[2])?]));
-    (found.collect::<Option<_>>()).ok_or_else(|| Failure::internal("a vertex has no UV or normal"))
+    let mut corners = Vec::with_capacity(triangles.len());
+    for triangle in triangles {
+        let [Some(&a), Some(&b), Some(&c)] = triangle.map(|v| of_vertices.get(v as usize)) else {
+            return Err(Failure::internal("a vertex has no UV or normal"));
+        };
+        corners.push([a, b, c]);
+    }
+    Ok(corners)
 }
 
 /// A mesh in which every vertex has one UV.

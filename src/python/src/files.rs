@@ -1,22 +1,22 @@
-//! Files as bytes.
+//! Files as bytes, and options by the names and types of the command line and the service.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use serde::Serialize;
+
+use crate::call::{internal, invalid_options, run};
+use unwrapd::deform::Model;
 use unwrapd::document::{Upload, with_references};
+use unwrapd::options::{Object, OptionSet};
 use unwrapd::pipeline::{
     self, CommandOptions, MeasureOptions, Observer, Options, Outcome, PipelineError, RepackOptions,
-    VerifyOptions,
+    SolveOptions, VerifyOptions,
 };
-
-use crate::call::run;
-use crate::error::internal;
-use crate::options::parsed;
-use unwrapd::options::OptionSet;
 
 /// A file with the files to which it refers: those passed with it, and those in a folder.
 #[derive(FromPyObject)]
@@ -60,7 +60,7 @@ pub fn references<'py>(py: Python<'py>, file: File<'py>) -> Vec<(String, Bound<'
 }
 
 /// Written files by name, the main one first, and the report.
-type Written<'py> = (Vec<(String, Bound<'py, PyBytes>)>, String);
+type PyWritten<'py> = (Vec<(String, Bound<'py, PyBytes>)>, String);
 
 /// Unwraps every mesh of a file.
 #[pyfunction]
@@ -70,7 +70,7 @@ pub fn unwrap_document<'py>(
     options: &str,
     stem: Option<String>,
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<Written<'py>> {
+) -> PyResult<PyWritten<'py>> {
     written::<Options>(
         py,
         file,
@@ -88,7 +88,7 @@ pub fn repack_document<'py>(
     options: &str,
     stem: Option<String>,
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<Written<'py>> {
+) -> PyResult<PyWritten<'py>> {
     written::<RepackOptions>(
         py,
         file,
@@ -124,7 +124,7 @@ fn written<'py, O: OptionSet + CommandOptions + Send + 'static>(
     (options, stem): (&str, Option<String>),
     progress: Option<Bound<'py, PyAny>>,
     make: fn(&Upload, &O, &dyn Observer) -> Result<Outcome, PipelineError>,
-) -> PyResult<Written<'py>> {
+) -> PyResult<PyWritten<'py>> {
     let (upload, mut options) = (file.upload(), parsed::<O>(py, options)?);
     options.caller_mut().stem = stem;
     let outcome = run(py, progress.as_ref(), move |observer| {
@@ -138,4 +138,28 @@ fn written<'py, O: OptionSet + CommandOptions + Send + 'static>(
 /// Returns a report as JSON.
 pub fn json<T: Serialize>(py: Python<'_>, report: &T) -> PyResult<String> {
     serde_json::to_string(report).map_err(|error| internal(py, &error.to_string()))
+}
+
+// Options, by the names and types of the command line and the service.
+
+/// Returns the names of a function's options.
+#[pyfunction]
+pub fn option_names(function: &str) -> PyResult<Vec<&'static str>> {
+    match function {
+        "unwrap" => Ok(Options::names()),
+        "repack" => Ok(RepackOptions::names()),
+        "measure" => Ok(MeasureOptions::names()),
+        "verify" => Ok(VerifyOptions::names()),
+        "Problem" => Ok(Model::names()),
+        "solve" => Ok(SolveOptions::names()),
+        _ => Err(PyValueError::new_err(format!("no function {function:?}"))),
+    }
+}
+
+/// Parses the options in a JSON object; the caller has checked their names.
+pub fn parsed<O: OptionSet>(py: Python<'_>, json: &str) -> PyResult<O> {
+    let object: Result<Object, _> = serde_json::from_str(json);
+    (object.map_err(|error| error.to_string()))
+        .and_then(|mut object| O::taken_from(&mut object))
+        .map_err(|text| invalid_options(py, text))
 }

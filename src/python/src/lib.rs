@@ -9,20 +9,16 @@
     reason = "what Python hands over belongs to the call"
 )]
 
-mod arrays;
-mod bake;
-mod body;
 mod call;
-#[cfg(unix)]
-mod command;
-mod error;
 mod files;
-mod iterates;
 mod meshes;
-mod options;
-mod pool;
 mod problem;
 mod session;
+
+#[cfg(unix)]
+use std::ffi::OsString;
+#[cfg(unix)]
+use std::path::PathBuf;
 
 use pyo3::prelude::*;
 
@@ -30,28 +26,52 @@ use pyo3::prelude::*;
 #[pymodule(name = "_native")]
 mod unwrapd_native {
     #[pymodule_export]
-    use super::bake::bake;
+    use super::call::PyProgress;
     #[pymodule_export]
-    use super::call::Progress;
-    #[cfg(unix)]
+    use super::call::Shown;
     #[pymodule_export]
-    use super::command::run_command;
+    use super::files::option_names;
     #[pymodule_export]
     use super::files::{
         measure_document, references, repack_document, unwrap_document, verify_document,
     };
     #[pymodule_export]
-    use super::iterates::Shown;
+    use super::meshes::bake;
     #[pymodule_export]
     use super::meshes::{measure, repack, unwrap, verify};
     #[pymodule_export]
-    use super::options::option_names;
+    use super::problem::PyProblem;
+    #[cfg(unix)]
     #[pymodule_export]
-    use super::problem::Problem;
+    use super::run_command;
     #[pymodule_export]
-    use super::session::Session;
+    use super::session::PySession;
 
     #[pymodule_export]
     #[allow(non_upper_case_globals, reason = "Python's name for it")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
+}
+
+/// Runs a command line and returns its exit code. Children of the command are started as `python launcher…`; `engine`
+/// is this extension.
+#[cfg(unix)]
+#[pyfunction]
+pub fn run_command(
+    py: Python<'_>,
+    arguments: Vec<OsString>,
+    python: PathBuf,
+    launcher: Vec<OsString>,
+    engine: PathBuf,
+) -> u8 {
+    let program = unwrapd::jobs::Program {
+        file: python,
+        arguments: launcher,
+        engine,
+    };
+    py.detach(|| {
+        let code = unwrapd::cli::run(arguments, Ok(program));
+        // Python does not flush Rust's buffer at the end of the process. A reader may have closed the pipe.
+        let _ = std::io::Write::flush(&mut std::io::stdout());
+        code
+    })
 }

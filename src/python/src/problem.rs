@@ -2,27 +2,29 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{
+    PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods,
+};
 use pyo3::prelude::*;
-use unwrapd::deform::{self, Bound as Held, Handle, Model, Potential, ProblemError, Units, bind};
+
+use crate::call::{IterateQuestion, refused, run_shown};
+use crate::files::{json, parsed};
+use crate::meshes::rows;
+use unwrapd::deform::{
+    self, Body, Bound as Held, Handle, Model, Potential, ProblemError, Units, bind,
+};
+use unwrapd::mesh::{PlanarMesh, TetMesh};
 use unwrapd::pipeline::{SolveOptions, solve_problem};
 
-use crate::body::body;
-use crate::call::run_shown;
-use crate::error::refused;
-use crate::files::json;
-use crate::iterates::Question;
-use crate::options::parsed;
-
 /// A body with an energy and a barrier, without handles. Positions are flat arrays of float64.
-#[pyclass(frozen, module = "unwrapd._native")]
-pub struct Problem {
+#[pyclass(frozen, name = "Problem", module = "unwrapd._native")]
+pub struct PyProblem {
     problem: deform::Problem,
     potential: Mutex<Potential>,
 }
 
 /// A sparse matrix by rows: data, columns, and the start of each row.
-type Matrix<'py> = (
+type PyMatrix<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<usize>>,
     Bound<'py, PyArray1<usize>>,
@@ -32,7 +34,7 @@ type Matrix<'py> = (
 type Column<'py> = (&'static str, Bound<'py, PyArray2<f64>>);
 
 #[pymethods]
-impl Problem {
+impl PyProblem {
     #[new]
     fn new(
         py: Python<'_>,
@@ -89,7 +91,7 @@ impl Problem {
         &self,
         py: Python<'py>,
         x: PyReadonlyArray1<'py, f64>,
-    ) -> PyResult<Matrix<'py>> {
+    ) -> PyResult<PyMatrix<'py>> {
         let x = x.as_slice()?;
         let hessian = py.detach(|| self.potential().hessian(x));
         let hessian = hessian.map_err(|error| refused(py, error))?;
@@ -109,15 +111,13 @@ impl Problem {
         let x = x.as_slice()?;
         let checked = self.problem.body.check(x);
         checked.map_err(|error| refused(py, error))?;
-        let cells = self.problem.cells(x);
-        let table = |values: Vec<f64>, width: usize| {
-            let n_rows = values.len() / width;
-            PyArray1::from_vec(py, values).reshape([n_rows, width])
-        };
-        cells
-            .into_iter()
-            .map(|cell| Ok((cell.name, table(cell.values, cell.components)?)))
-            .collect()
+        let mut columns = Vec::new();
+        for cell in self.problem.cells(x) {
+            let shape = [cell.values.len() / cell.components, cell.components];
+            let values = PyArray1::from_vec(py, cell.values).reshape(shape)?;
+            columns.push((cell.name, values));
+        }
+        Ok(columns)
     }
 
     /// Pulls handles to their targets; returns positions, and the report as JSON.
@@ -133,7 +133,7 @@ impl Problem {
         let dim = problem.body.dim();
         let show = callback
             .as_ref()
-            .map(|callback| move |question: Question| question.put(py, dim, callback));
+            .map(|callback| move |question: IterateQuestion| question.put(py, dim, callback));
         let show = show.as_ref().map(|show| show as &dyn Fn(_) -> _);
         let (solution, report) = run_shown(py, None, show, move |observer, watch| {
             solve_problem(&problem, &options, observer, watch)
@@ -142,7 +142,7 @@ impl Problem {
     }
 }
 
-impl Problem {
+impl PyProblem {
     fn potential(&self) -> MutexGuard<'_, Potential> {
         self.potential
             .lock()
@@ -169,7 +169,7 @@ impl Problem {
 }
 
 fn problem(
-    body: deform::Body,
+    body: Body,
     start: Option<&[f64]>,
     model: &Model,
     is_normalized: bool,
@@ -184,4 +184,30 @@ fn problem(
     }
     let potential = problem.potential()?;
     Ok((problem, potential))
+}
+
+// Bodies from arrays.
+
+/// Creates a body of triangles of the plane, of triangles of space laid flat one by one, or of tetrahedra, depending on
+/// the shapes of the arrays. Triangles laid flat rest at `start`, their places in the plane.
+pub fn body(
+    py: Python<'_>,
+    vertices: &PyReadonlyArray2<'_, f64>,
+    elements: &PyReadonlyArray2<'_, u32>,
+    start: Option<&[f64]>,
+) -> PyResult<Body> {
+    let (positions, corners) = (vertices.as_slice()?, elements.as_slice()?);
+    let made = match (vertices.shape()[1], elements.shape()[1]) {
+        (2, _) => PlanarMesh::new(rows(positions), rows(corners)).map(|mesh| Body::from(&mesh)),
+        (_, 3) => Body::flattened(&rows(positions), &rows(corners)),
+        _ => TetMesh::new(rows(positions), rows(corners)).map(|mesh| Body::from(&mesh)),
+    };
+    let mut body = made.map_err(|error| refused(py, ProblemError::from(error)))?;
+    if let Some(start) = start {
+        body.check(start).map_err(|error| refused(py, error))?;
+        if vertices.shape()[1] > body.dim() {
+            body.rest = start.to_vec();
+        }
+    }
+    Ok(body)
 }

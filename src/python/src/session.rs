@@ -1,25 +1,25 @@
-//! Bodies that are pulled interactively.
+//! Bodies that are pulled interactively, on threads that stay between the calls of an object.
 
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
 use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
-use unwrapd::deform::{self, Handle, HandleId, Model, ProblemError};
-use unwrapd::solver::Stage;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::body::body;
-use crate::error::{exception, refused};
-use crate::files::json;
-use crate::options::parsed;
-use crate::pool::Pool;
+use crate::call::{exception, refused};
+use crate::files::{json, parsed};
+use crate::problem::body;
+use unwrapd::deform::{self, Handle, HandleId, Model, ProblemError};
+use unwrapd::pipeline::PipelineError;
+use unwrapd::solver::Stage;
 
 /// Time that a session works between two checks for signals: short enough that Ctrl-C seems immediate.
 const SLICE: Duration = Duration::from_millis(20);
 
 /// A session of the library. Positions are flat arrays of float64.
-#[pyclass(module = "unwrapd._native")]
-pub struct Session {
+#[pyclass(name = "Session", module = "unwrapd._native")]
+pub struct PySession {
     inner: deform::Session,
     pool: Pool,
     dim: usize,
@@ -28,7 +28,7 @@ pub struct Session {
 }
 
 #[pymethods]
-impl Session {
+impl PySession {
     #[new]
     fn new(
         py: Python<'_>,
@@ -96,10 +96,11 @@ impl Session {
         let begin = Instant::now();
         while self.inner.stage() == Stage::Moving && begin.elapsed().as_secs_f64() < seconds {
             let slice = Instant::now();
-            let in_time = |_: &deform::Session| {
-                slice.elapsed() < SLICE && begin.elapsed().as_secs_f64() < seconds
-            };
-            pooled(py, &mut self.pool, || self.inner.step_while(in_time))?;
+            pooled(py, &mut self.pool, || {
+                self.inner.step_while(|_: &deform::Session| {
+                    slice.elapsed() < SLICE && begin.elapsed().as_secs_f64() < seconds
+                })
+            })?;
             py.check_signals()?;
         }
         Ok(word(self.inner.stage()))
@@ -148,7 +149,7 @@ impl Session {
     }
 }
 
-impl Session {
+impl PySession {
     fn id(&self, number: u32) -> Result<HandleId, ProblemError> {
         let id = self.ids.get(number as usize);
         id.copied()
@@ -172,4 +173,52 @@ fn word(stage: Stage) -> &'static str {
         Stage::Settled => "settled",
         Stage::Unreachable => "unreachable",
     }
+}
+
+// Threads that stay between the calls of an object.
+
+/// Threads of this process, created at their first use. A forked process does not inherit them and creates its own.
+pub struct Pool {
+    threads: Option<NonZeroUsize>,
+    made: Option<MadePool>,
+}
+
+struct MadePool {
+    process: u32,
+    pool: ThreadPool,
+}
+
+impl Pool {
+    /// Creates a pool of at most this number of threads; without a number, one per core.
+    pub fn new(threads: Option<NonZeroUsize>) -> Self {
+        Self {
+            threads,
+            made: None,
+        }
+    }
+
+    /// Runs work on the threads.
+    pub fn run<T: Send>(&mut self, work: impl FnOnce() -> T + Send) -> Result<T, PipelineError> {
+        let process = std::process::id();
+        if let Some(lost) = self.made.take_if(|made| made.process != process) {
+            // Dropping the pool might wait for threads that do not exist in this process.
+            std::mem::forget(lost.pool);
+        }
+        let made = match &mut self.made {
+            Some(made) => made,
+            none => none.insert(MadePool {
+                process,
+                pool: fresh(self.threads)?,
+            }),
+        };
+        Ok(made.pool.install(work))
+    }
+}
+
+/// Starts the threads.
+fn fresh(threads: Option<NonZeroUsize>) -> Result<ThreadPool, PipelineError> {
+    ThreadPoolBuilder::new()
+        .num_threads(threads.map_or(0, NonZeroUsize::get))
+        .build()
+        .map_err(|error| PipelineError::Threads(error.to_string()))
 }

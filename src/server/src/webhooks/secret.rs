@@ -56,11 +56,13 @@ impl Secrets {
     /// Returns the signatures of a delivery to an owner.
     pub(super) fn sign(&self, owner: &Owner, id: &str, time: i64, body: &str) -> String {
         let time = time.to_string();
-        let signatures = self.0.iter().map(|secret| {
-            let signed = hmac(&secret.of_owner(owner), &[id, ".", &time, ".", body]);
-            format!("v1,{}", STANDARD.encode(signed))
-        });
-        Vec::from_iter(signatures).join(" ")
+        let signatures: Vec<String> = (self.0.iter())
+            .map(|secret| {
+                let signed = hmac(&secret.of_owner(owner), &[id, ".", &time, ".", body]);
+                format!("v1,{}", STANDARD.encode(signed))
+            })
+            .collect();
+        signatures.join(" ")
     }
 }
 
