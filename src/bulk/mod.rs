@@ -5,7 +5,7 @@
 //!
 //! - **Complete or absent.** A file is written under another name, synced, and renamed into place, the main output
 //!   last.
-//! - **Nothing twice.** After its files an asset gets a [`Record`] in `DIR/.unwrapd`, which contains the digest of
+//! - **Nothing twice.** After its files an asset gets a [`AssetRecord`] in `DIR/.unwrapd`, which contains the digest of
 //!   input, options and version. A run keeps assets that have a record of their digest and all their files. A kill
 //!   between the files and the record costs that asset's time again, and changes nothing.
 //! - **No coordination.** Each asset has a record of its own, so shards share nothing. Two processes that do the same
@@ -16,7 +16,7 @@
 //! The summary is made from the rows of a run, including kept ones. So a run without a shard after all shards does
 //! what is missing and summarizes everything.
 //!
-//! The work itself is done by a [`Worker`]: a child process ([`Local`]), or a service ([`Remote`]).
+//! The work itself is done by a [`Worker`]: a child process ([`LocalWorker`]), or a service ([`RemoteWorker`]).
 
 mod assets;
 mod place;
@@ -28,10 +28,10 @@ mod shard;
 mod worker;
 
 pub use assets::{Asset, FolderListing, ListError, assets_in, assets_of};
-pub use place::{MOST_BYTES, Place, read_bounded, read_regular};
-pub use record::Record;
-pub use remote::{Remote, RemoteError};
-pub use rows::{Figures, Row, Status, Totals, csv};
-pub use run::{Fate, Order, RunScratch, Seen, recorded, run};
+pub use place::{MOST_BYTES, OutputFolder, read_bounded, read_regular};
+pub use record::AssetRecord;
+pub use remote::{RemoteError, RemoteWorker};
+pub use rows::{AssetStatus, Figures, SummaryRow, Totals, csv};
+pub use run::{Fate, RunOrder, RunScratch, Seen, recorded, run};
 pub use shard::{Shard, ShardChoice, ShardError, array_variable};
-pub use worker::{Extra, Local, Task, Worker};
+pub use worker::{AssetTask, Extra, LocalWorker, Worker};

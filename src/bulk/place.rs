@@ -13,11 +13,11 @@ const PART_AGE: Duration = Duration::from_hours(24);
 
 /// An output folder, with the state of runs in `.unwrapd`.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub struct OutputFolder {
     root: PathBuf,
 }
 
-impl Place {
+impl OutputFolder {
     /// Opens a folder, and creates it if needed. Removes unfinished files that a killed process left a day ago.
     ///
     /// # Errors

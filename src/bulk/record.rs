@@ -6,13 +6,13 @@ use std::{fs, io};
 use serde::{Deserialize, Serialize};
 
 use super::assets::Asset;
-use super::place::{Place, read_regular};
-use super::rows::{Row, Status};
+use super::place::{OutputFolder, read_regular};
+use super::rows::{AssetStatus, SummaryRow};
 use unwrapd_api::Failure;
 
 /// Outcome for an asset, and the digest that it holds for. It is written after the files that it lists.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Record {
+pub struct AssetRecord {
     /// Digest of input, options and version.
     pub(super) digest: String,
     /// Number of earlier failures with this digest.
@@ -25,7 +25,7 @@ pub struct Record {
     pub(super) files: Vec<(PathBuf, u64)>,
     /// Outcome.
     #[serde(flatten)]
-    pub(super) row: Row,
+    pub(super) row: SummaryRow,
 }
 
 /// Codes of temporary failures: they are not about the input and its options, so another run may succeed.
@@ -44,20 +44,23 @@ const PASSING: [&str; 12] = [
     "worker_lost",
 ];
 
-impl Record {
+impl AssetRecord {
     /// Loads the record of an asset; `None` if there is no readable one.
-    pub(super) fn load(place: &Place, asset: &Asset) -> Option<Self> {
-        let bytes = read_regular(&place.path(&Place::record(asset))).ok()?;
+    pub(super) fn load(place: &OutputFolder, asset: &Asset) -> Option<Self> {
+        let bytes = read_regular(&place.path(&OutputFolder::record(asset))).ok()?;
         serde_json::from_slice(&bytes).ok()
     }
 
     /// Writes the record.
-    pub(super) fn store(&self, place: &Place, asset: &Asset) -> io::Result<()> {
-        place.write(&Place::record(asset), &serde_json::to_vec_pretty(self)?)
+    pub(super) fn store(&self, place: &OutputFolder, asset: &Asset) -> io::Result<()> {
+        place.write(
+            &OutputFolder::record(asset),
+            &serde_json::to_vec_pretty(self)?,
+        )
     }
 
     /// Returns whether all the files exist with the recorded sizes.
-    pub(super) fn is_whole(&self, place: &Place) -> bool {
+    pub(super) fn is_whole(&self, place: &OutputFolder) -> bool {
         self.files
             .iter()
             .all(|(path, bytes)| fs::metadata(place.path(path)).is_ok_and(|of| of.len() == *bytes))
@@ -66,10 +69,10 @@ impl Record {
     /// Returns whether a retry may succeed because the failure was temporary.
     pub(super) fn may_pass(&self) -> bool {
         match &self.row.status {
-            Status::Failed { code, .. } => {
+            AssetStatus::Failed { code, .. } => {
                 PASSING.contains(&code.as_str()) || Trouble::of(code).is_some()
             }
-            Status::Written(_) | Status::Missing => false,
+            AssetStatus::Written(_) | AssetStatus::Missing => false,
         }
     }
 
@@ -79,20 +82,20 @@ impl Record {
             .time_limit
             .zip(time_limit)
             .is_some_and(|(had, has)| had < has);
-        matches!(&self.row.status, Status::Written(figures) if figures.ended_early) && has_more
+        matches!(&self.row.status, AssetStatus::Written(figures) if figures.ended_early) && has_more
     }
 
     /// Returns the number of the next attempt. Failures before or after the work itself do not count.
     pub(super) fn next_attempt(&self) -> u32 {
         match &self.row.status {
-            Status::Failed { code, .. } if is_of_work(code) => self.attempt + 1,
+            AssetStatus::Failed { code, .. } if is_of_work(code) => self.attempt + 1,
             _ => self.attempt,
         }
     }
 
     /// Returns whether it ended without an output.
     pub(super) fn has_failed(&self) -> bool {
-        !matches!(self.row.status, Status::Written(_))
+        !matches!(self.row.status, AssetStatus::Written(_))
     }
 }
 

@@ -13,7 +13,7 @@ use reqwest::{Client as HttpClient, Method, RequestBuilder, Response, StatusCode
 use serde::Deserialize;
 
 use super::record::Trouble;
-use super::worker::{Extra, Task, Worker};
+use super::worker::{AssetTask, Extra, Worker};
 use unwrapd_api::{Failure, output_file};
 use unwrapd_files::document::Upload;
 
@@ -22,7 +22,7 @@ use unwrapd_files::document::Upload;
 const WAIT_SECONDS: u8 = 30;
 
 /// Unwraps each asset as a job of a service.
-pub struct Remote {
+pub struct RemoteWorker {
     client: Client,
     /// Options of unwrapping as JSON.
     options: String,
@@ -34,7 +34,7 @@ pub struct Remote {
     pub is_fresh: bool,
 }
 
-impl Remote {
+impl RemoteWorker {
     /// Connects to the service at an address, which may include a path, with a key.
     ///
     /// # Errors
@@ -57,7 +57,7 @@ impl Remote {
     }
 
     /// Submits the job of an asset. Returns a new job, or the one that an earlier submission created.
-    async fn submitted(&self, task: &Task<'_>) -> Result<RemoteJob, Failure> {
+    async fn submitted(&self, task: &AssetTask<'_>) -> Result<RemoteJob, Failure> {
         let url = self.client.url(&["v1", "jobs"]);
         // A run that refuses copies must not find the job of a run that accepts them.
         let suffix = if self.is_fresh { "-fresh" } else { "" };
@@ -105,7 +105,7 @@ impl Remote {
     }
 }
 
-impl Worker for Remote {
+impl Worker for RemoteWorker {
     fn version(&self) -> &str {
         &self.version
     }
@@ -115,7 +115,7 @@ impl Worker for Remote {
         None
     }
 
-    async fn work(&self, task: Task<'_>) -> Result<Vec<String>, Failure> {
+    async fn work(&self, task: AssetTask<'_>) -> Result<Vec<String>, Failure> {
         let job = self.ended(self.submitted(&task).await?).await?;
         match job.state {
             RemoteState::Succeeded => {}

@@ -8,7 +8,7 @@ use unwrapd_server::jobs::Gates;
 
 /// Outcome for an asset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub struct SummaryRow {
     /// Name of the input.
     pub input: String,
     /// Path of the output within the output folder.
@@ -17,13 +17,13 @@ pub struct Row {
     pub seconds: f64,
     /// Outcome.
     #[serde(flatten)]
-    pub status: Status,
+    pub status: AssetStatus,
 }
 
 /// Status of a processed asset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "status", rename_all = "snake_case")]
-pub enum Status {
+pub enum AssetStatus {
     /// It has an output.
     Written(Figures),
     /// It has no output, for this reason.
@@ -60,9 +60,9 @@ pub struct Figures {
     pub partly_done: bool,
 }
 
-impl Row {
+impl SummaryRow {
     /// Creates the row of an asset.
-    pub(super) fn new(asset: &Asset, seconds: f64, status: Status) -> Self {
+    pub(super) fn new(asset: &Asset, seconds: f64, status: AssetStatus) -> Self {
         Self {
             input: asset.name.clone(),
             output: asset.output.to_string_lossy().into_owned(),
@@ -74,13 +74,13 @@ impl Row {
     /// Returns whether the asset passes all gates. One without an output passes none.
     pub fn is_accepted(&self, gates: &Gates) -> bool {
         match &self.status {
-            Status::Written(figures) => gates.accept(&figures.quality(), self.seconds),
-            Status::Failed { .. } | Status::Missing => false,
+            AssetStatus::Written(figures) => gates.accept(&figures.quality(), self.seconds),
+            AssetStatus::Failed { .. } | AssetStatus::Missing => false,
         }
     }
 }
 
-impl From<Failure> for Status {
+impl From<Failure> for AssetStatus {
     fn from(Failure { code, detail }: Failure) -> Self {
         Self::Failed { code, detail }
     }
@@ -188,19 +188,19 @@ pub struct Totals {
 
 impl Totals {
     /// Counts rows.
-    pub fn of(rows: &[Row], gates: &Gates) -> Self {
+    pub fn of(rows: &[SummaryRow], gates: &Gates) -> Self {
         let mut totals = Self {
             assets: rows.len(),
             ..Self::default()
         };
         for row in rows {
             match &row.status {
-                Status::Written(figures) => {
+                AssetStatus::Written(figures) => {
                     totals.written += 1;
                     totals.partly_done += usize::from(figures.partly_done);
                 }
-                Status::Failed { .. } => totals.failed += 1,
-                Status::Missing => totals.missing += 1,
+                AssetStatus::Failed { .. } => totals.failed += 1,
+                AssetStatus::Missing => totals.missing += 1,
             }
             totals.accepted += usize::from(row.is_accepted(gates));
         }
@@ -212,7 +212,7 @@ impl Totals {
 ///
 /// # Errors
 /// Does not fail in practice, because it writes to memory.
-pub fn csv(rows: &[Row], gates: &Gates) -> std::io::Result<Vec<u8>> {
+pub fn csv(rows: &[SummaryRow], gates: &Gates) -> std::io::Result<Vec<u8>> {
     let mut table = csv::Writer::from_writer(Vec::new());
     table.write_record(HEADER)?;
     for row in rows {
@@ -235,11 +235,11 @@ fn shown(text: &str) -> String {
 }
 
 /// Formats the cells of a row, in the order of the columns.
-fn cells(row: &Row, gates: &Gates) -> [String; 14] {
+fn cells(row: &SummaryRow, gates: &Gates) -> [String; 14] {
     let (status, code, detail) = match &row.status {
-        Status::Written(_) => ("written", "", ""),
-        Status::Failed { code, detail } => ("failed", &**code, &**detail),
-        Status::Missing => ("missing", "", ""),
+        AssetStatus::Written(_) => ("written", "", ""),
+        AssetStatus::Failed { code, detail } => ("failed", &**code, &**detail),
+        AssetStatus::Missing => ("missing", "", ""),
     };
     let [
         certified,
@@ -250,7 +250,7 @@ fn cells(row: &Row, gates: &Gates) -> [String; 14] {
         warnings,
         partly_done,
     ] = match &row.status {
-        Status::Written(it) => [
+        AssetStatus::Written(it) => [
             it.certified.to_string(),
             it.faces.to_string(),
             it.charts.to_string(),
@@ -259,7 +259,7 @@ fn cells(row: &Row, gates: &Gates) -> [String; 14] {
             it.warnings.to_string(),
             it.partly_done.to_string(),
         ],
-        Status::Failed { .. } | Status::Missing => Default::default(),
+        AssetStatus::Failed { .. } | AssetStatus::Missing => Default::default(),
     };
     [
         shown(&row.input),

@@ -11,29 +11,29 @@ use std::time::Instant;
 use tokio::task::{JoinError, JoinSet, block_in_place};
 
 use super::assets::{Asset, is_inside};
-use super::place::{Place, read_regular};
-use super::record::{Record, Trouble, unwritten};
-use super::rows::{Figures, Row, Status};
-use super::worker::{Extra, Task, Worker};
+use super::place::{OutputFolder, read_regular};
+use super::record::{AssetRecord, Trouble, unwritten};
+use super::rows::{AssetStatus, Figures, SummaryRow};
+use super::worker::{AssetTask, Extra, Worker};
 use unwrapd_api::{Failure, output_file};
 use unwrapd_files::document::{Upload, with_references};
 use unwrapd_pipeline::{Options, Workers};
 use unwrapd_server::jobs::Digest;
 
 /// Callback for every row as it is produced.
-pub type Seen<'a> = &'a mut (dyn FnMut(&Row, Fate) + Send);
+pub type Seen<'a> = &'a mut (dyn FnMut(&SummaryRow, Fate) + Send);
 
 /// Runs an order. Returns the rows in the order of the assets, or `None` if `stop` completed first: then all work has
 /// stopped, and unfinished work is not recorded.
 pub async fn run<W: Worker>(
-    order: Order,
+    order: RunOrder,
     worker: W,
     seen: Seen<'_>,
     stop: impl Future<Output = ()>,
-) -> Option<Vec<Row>> {
+) -> Option<Vec<SummaryRow>> {
     let mut stop = pin!(stop);
     let (order, worker) = (Arc::new(order), Arc::new(worker));
-    let mut rows: Vec<Option<Row>> = vec![None; order.assets.len()];
+    let mut rows: Vec<Option<SummaryRow>> = vec![None; order.assets.len()];
     let mut waiting = 0..order.assets.len();
     let mut running = JoinSet::new();
     let mut places = HashMap::new();
@@ -60,7 +60,7 @@ pub async fn run<W: Worker>(
         // Turn a panic into a row, and report the row.
         let (id, (row, fate)) = ended.unwrap_or_else(|error| {
             let asset = &order.assets[places[&error.id()]];
-            let row = Row::new(asset, 0.0, broken(&error).into());
+            let row = SummaryRow::new(asset, 0.0, broken(&error).into());
             (error.id(), (row, Fate::Done))
         });
         seen(&row, fate);
@@ -70,13 +70,13 @@ pub async fn run<W: Worker>(
 }
 
 /// Returns the rows that earlier runs have recorded.
-pub fn recorded(assets: &[Asset], place: &Place) -> Vec<Row> {
+pub fn recorded(assets: &[Asset], place: &OutputFolder) -> Vec<SummaryRow> {
     let mut rows = Vec::new();
     for asset in assets {
-        let record = Record::load(place, asset).filter(|record| record.is_whole(place));
+        let record = AssetRecord::load(place, asset).filter(|record| record.is_whole(place));
         rows.push(match record {
-            Some(Record { row, .. }) => Row::new(asset, row.seconds, row.status),
-            None => Row::new(asset, 0.0, Status::Missing),
+            Some(AssetRecord { row, .. }) => SummaryRow::new(asset, row.seconds, row.status),
+            None => SummaryRow::new(asset, 0.0, AssetStatus::Missing),
         });
     }
     rows
@@ -90,32 +90,36 @@ fn broken(error: &JoinError) -> Failure {
 // One asset of a run: read, looked up, processed, published, recorded.
 
 /// Processes an asset unless an earlier run did. Returns its row.
-pub(super) async fn process<W: Worker>(order: &Order, worker: &W, index: usize) -> (Row, Fate) {
+pub(super) async fn process<W: Worker>(
+    order: &RunOrder,
+    worker: &W,
+    index: usize,
+) -> (SummaryRow, Fate) {
     let (begin, asset) = (Instant::now(), &order.assets[index]);
     // Read the input and look for a record of the same work.
     let upload = match block_in_place(|| read(asset)) {
         Ok(upload) => upload,
         Err(error) => {
             let failure = Trouble::InputUnreadable.with(error.to_string());
-            return (Row::new(asset, 0.0, failure.into()), Fate::Done);
+            return (SummaryRow::new(asset, 0.0, failure.into()), Fate::Done);
         }
     };
     let digest = block_in_place(|| order.recipe.with(&upload));
     let time_limit = worker.time_limit().map(|limit| limit.as_secs_f64());
-    let old = Record::load(&order.place, asset);
+    let old = AssetRecord::load(&order.place, asset);
     let same = old.as_ref().filter(|old| old.digest == digest);
     if let Some(same) = same.filter(|same| same.is_whole(&order.place))
         && !(same.may_pass() || same.was_cut_short(time_limit))
         && !(order.retries && same.has_failed())
     {
         // The record may be from a run in which the input had another name.
-        let Row {
+        let SummaryRow {
             seconds, status, ..
         } = same.row.clone();
-        return (Row::new(asset, seconds, status), Fate::Kept);
+        return (SummaryRow::new(asset, seconds, status), Fate::Kept);
     }
     // Do the work, and record how it ended.
-    let attempt = same.map_or(0, Record::next_attempt);
+    let attempt = same.map_or(0, AssetRecord::next_attempt);
     let old = old.as_ref();
     let work = AssetWork {
         order,
@@ -127,15 +131,15 @@ pub(super) async fn process<W: Worker>(order: &Order, worker: &W, index: usize) 
     };
     let made = work.publish(worker).await;
     let (status, files) = match made {
-        Ok((figures, files)) => (Status::Written(figures), files),
+        Ok((figures, files)) => (AssetStatus::Written(figures), files),
         Err(failure) => (failure.into(), Vec::new()),
     };
-    let mut record = Record {
+    let mut record = AssetRecord {
         digest,
         attempt,
         time_limit,
         files,
-        row: Row::new(asset, begin.elapsed().as_secs_f64(), status),
+        row: SummaryRow::new(asset, begin.elapsed().as_secs_f64(), status),
     };
     if let Err(error) = block_in_place(|| settle(order, asset, &record, old)) {
         record.row.status = unwritten(&error).into();
@@ -145,7 +149,7 @@ pub(super) async fn process<W: Worker>(order: &Order, worker: &W, index: usize) 
 
 /// Work on an asset that no earlier run did.
 struct AssetWork<'a> {
-    order: &'a Order,
+    order: &'a RunOrder,
     /// Index of the asset.
     index: usize,
     upload: &'a Upload,
@@ -154,7 +158,7 @@ struct AssetWork<'a> {
     /// Number of earlier failures with this digest.
     attempt: u32,
     /// Record of an earlier run, of whatever input.
-    old: Option<&'a Record>,
+    old: Option<&'a AssetRecord>,
 }
 
 impl AssetWork<'_> {
@@ -162,7 +166,7 @@ impl AssetWork<'_> {
     async fn publish<W: Worker>(&self, worker: &W) -> Result<Published, Failure> {
         let folder = self.order.scratch.folder(self.index);
         let folder = folder.map_err(|error| unwritten(&error))?;
-        let task = Task {
+        let task = AssetTask {
             upload: self.upload,
             digest: self.digest,
             attempt: self.attempt,
@@ -179,7 +183,12 @@ impl AssetWork<'_> {
 }
 
 /// Records how an asset ended. If it failed, removes an output of another input or other options.
-fn settle(order: &Order, asset: &Asset, record: &Record, old: Option<&Record>) -> io::Result<()> {
+fn settle(
+    order: &RunOrder,
+    asset: &Asset,
+    record: &AssetRecord,
+    old: Option<&AssetRecord>,
+) -> io::Result<()> {
     let is_outdated = old.is_some_and(|old| old.digest != record.digest && !old.has_failed());
     if is_outdated && record.has_failed() {
         order.place.remove(&asset.output)?;
@@ -211,14 +220,14 @@ type Published = (Figures, Vec<(PathBuf, u64)>);
 
 /// Moves the files made for an asset into place, the main output last.
 fn published(
-    order: &Order,
+    order: &RunOrder,
     asset: &Asset,
     folder: &Path,
     made: &[String],
-    old: Option<&Record>,
+    old: Option<&AssetRecord>,
 ) -> Result<Published, Failure> {
     // Remove the record first: it vouches for files that change from here on.
-    let forgotten = order.place.remove(&Place::record(asset));
+    let forgotten = order.place.remove(&OutputFolder::record(asset));
     forgotten.map_err(|error| unwritten(&error))?;
     let mut figures = None;
     let mut files = Vec::new();
@@ -244,7 +253,7 @@ fn published(
 
 /// Writes a file, unless it already has this content. A file with different content may belong to another asset:
 /// several outputs can share a picture.
-fn put(place: &Place, path: &Path, content: &[u8], is_own: bool) -> Result<(), Failure> {
+fn put(place: &OutputFolder, path: &Path, content: &[u8], is_own: bool) -> Result<(), Failure> {
     match read_regular(&place.path(path)) {
         Ok(there) if there == content => Ok(()),
         Ok(_) if !is_own => {
@@ -269,7 +278,7 @@ fn is_named_like(path: &Path, output: &Path) -> bool {
 }
 
 /// Returns the path of a file within the output folder; `None` if it was not requested.
-fn destination(order: &Order, asset: &Asset, role: &str) -> Result<Option<PathBuf>, Failure> {
+fn destination(order: &RunOrder, asset: &Asset, role: &str) -> Result<Option<PathBuf>, Failure> {
     if role == "result" {
         return Ok(Some(asset.output.clone()));
     }
@@ -288,11 +297,11 @@ fn destination(order: &Order, asset: &Asset, role: &str) -> Result<Option<PathBu
 // Settings of a run.
 
 /// Settings of a run.
-pub struct Order {
+pub struct RunOrder {
     /// Assets of this shard.
     pub assets: Vec<Asset>,
     /// Output folder.
-    pub place: Place,
+    pub place: OutputFolder,
     /// Folder for temporary files.
     pub scratch: RunScratch,
     /// Files to write beside outputs.
@@ -313,14 +322,14 @@ pub enum Fate {
     Done,
 }
 
-impl Order {
+impl RunOrder {
     /// Creates a run of one asset at a time, by a worker of this version.
     ///
     /// # Errors
     /// Fails if the scratch folder cannot be created, or the options cannot be written as JSON.
     pub fn new(
         assets: Vec<Asset>,
-        place: Place,
+        place: OutputFolder,
         version: &str,
         options: &Options,
         extras: Vec<Extra>,

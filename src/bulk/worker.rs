@@ -39,7 +39,7 @@ impl Extra {
 }
 
 /// An asset to process.
-pub struct Task<'a> {
+pub struct AssetTask<'a> {
     /// Its files.
     pub upload: &'a Upload,
     /// Digest of the files, the options and the version.
@@ -60,21 +60,24 @@ pub trait Worker: Send + Sync + 'static {
 
     /// Unwraps an asset, and returns the roles of its output files. Leaves the n-th one in the task's folder as
     /// [`output_file`](unwrapd_api::output_file)`(n)`. Dropping the future stops the work.
-    fn work(&self, task: Task<'_>) -> impl Future<Output = Result<Vec<String>, Failure>> + Send;
+    fn work(
+        &self,
+        task: AssetTask<'_>,
+    ) -> impl Future<Output = Result<Vec<String>, Failure>> + Send;
 }
 
 // Worker that computes in child processes on this machine.
 
 /// Unwraps each asset in a child process.
 #[derive(Clone, Debug)]
-pub struct Local {
+pub struct LocalWorker {
     /// Settings of the child processes.
     pub contained: Contained,
     /// Options of unwrapping.
     pub options: serde_json::Value,
 }
 
-impl Worker for Local {
+impl Worker for LocalWorker {
     fn version(&self) -> &'static str {
         env!("CARGO_PKG_VERSION")
     }
@@ -83,7 +86,7 @@ impl Worker for Local {
         Some(self.contained.time)
     }
 
-    async fn work(&self, task: Task<'_>) -> Result<Vec<String>, Failure> {
+    async fn work(&self, task: AssetTask<'_>) -> Result<Vec<String>, Failure> {
         let (kind, options) = (Kind::Unwrap, &self.options);
         let made = (self.contained).run(kind, options, task.upload, task.folder);
         Ok(made.await?.into_iter().map(|file| file.role).collect())

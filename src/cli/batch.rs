@@ -12,8 +12,8 @@ use super::console::{self, CommandFailure, LineTarget, one_line, print_json, say
 use super::files::{folder, read_file};
 use super::process::{JOB_MEMORY, cores, machine_memory, seconds};
 use crate::bulk::{
-    self, Asset, Extra, Fate, Figures, Local, Order, Place, Remote, Row, ShardChoice, Status,
-    Totals, Worker, array_variable,
+    self, Asset, AssetStatus, Extra, Fate, Figures, LocalWorker, OutputFolder, RemoteWorker,
+    RunOrder, ShardChoice, SummaryRow, Totals, Worker, array_variable,
 };
 use unwrapd_api::Pictures;
 use unwrapd_api::options::help_of;
@@ -67,7 +67,7 @@ impl Args {
 /// Runs the command.
 pub(super) fn run(args: &Args, program: Program) -> Result<(), CommandFailure> {
     let options = args.bulk.options()?;
-    let worker = Local {
+    let worker = LocalWorker {
         contained: args.contained(&args.bulk.extras(), program),
         options: serde_json::to_value(&options)
             .map_err(|error| CommandFailure::other(error.to_string()))?,
@@ -94,7 +94,7 @@ fn run_with<W: Worker>(
     let options = args.options()?;
     let BulkWork { assets, summary } = args.work()?;
     let to = &args.output;
-    let place = Place::open(to).map_err(|error| {
+    let place = OutputFolder::open(to).map_err(|error| {
         CommandFailure::other(format!("cannot write to {}: {error}", to.display()))
     })?;
     let mut display = BulkDisplay::new(assets.len(), &args.accept, args.quiet);
@@ -102,7 +102,7 @@ fn run_with<W: Worker>(
     let rows = if args.summary_only {
         bulk::recorded(&assets, &place)
     } else {
-        let order = Order::new(
+        let order = RunOrder::new(
             assets,
             place.clone(),
             worker.version(),
@@ -118,7 +118,7 @@ fn run_with<W: Worker>(
             let rows = bulk::run(
                 order,
                 worker,
-                &mut |row: &Row, fate| display.see(row, fate),
+                &mut |row: &SummaryRow, fate| display.see(row, fate),
                 stop_signal()?,
             )
             .await;
@@ -136,8 +136,8 @@ fn run_with<W: Worker>(
 /// Writes the summary, and fails if assets are not accepted.
 fn conclude(
     args: &BulkArgs,
-    place: &Place,
-    rows: &[Row],
+    place: &OutputFolder,
+    rows: &[SummaryRow],
     totals: &Totals,
     summary: &str,
 ) -> Result<(), CommandFailure> {
@@ -367,13 +367,14 @@ impl<'a> BulkDisplay<'a> {
     }
 
     /// Shows a finished asset.
-    pub(super) fn see(&mut self, row: &Row, fate: Fate) {
+    pub(super) fn see(&mut self, row: &SummaryRow, fate: Fate) {
         // Count the asset.
         match fate {
             Fate::Kept => self.n_kept += 1,
             Fate::Done => self.n_done += 1,
         }
-        self.n_made += usize::from(fate == Fate::Done && matches!(row.status, Status::Written(_)));
+        self.n_made +=
+            usize::from(fate == Fate::Done && matches!(row.status, AssetStatus::Written(_)));
         // Print a line: on a terminal only for rejected assets, since the bar shows the others.
         let is_accepted = row.is_accepted(self.gates);
         let is_told = match fate {
@@ -421,10 +422,10 @@ impl<'a> BulkDisplay<'a> {
     }
 }
 
-fn text_of(row: &Row) -> String {
+fn text_of(row: &SummaryRow) -> String {
     let name = &row.input;
     match &row.status {
-        Status::Written(Figures {
+        AssetStatus::Written(Figures {
             certified, charts, ..
         }) => {
             let verdict = if *certified {
@@ -434,8 +435,8 @@ fn text_of(row: &Row) -> String {
             };
             format!("{name}: {charts} charts, {verdict}, {:.2} s", row.seconds)
         }
-        Status::Failed { code, detail } => format!("{name}: {detail} ({code})"),
-        Status::Missing => format!("{name}: missing"),
+        AssetStatus::Failed { code, detail } => format!("{name}: {detail} ({code})"),
+        AssetStatus::Missing => format!("{name}: missing"),
     }
 }
 
@@ -474,7 +475,7 @@ pub(super) fn submit(args: &SubmitArgs) -> Result<(), CommandFailure> {
     let options = serde_json::to_value(args.bulk.options()?);
     let options = options.map_err(|error| CommandFailure::other(error.to_string()))?;
     let runtime = runtime()?;
-    let remote = Remote::connect(
+    let remote = RemoteWorker::connect(
         &args.server,
         args.key.as_deref(),
         &options,

@@ -4,7 +4,7 @@ use clap::builder::BoolishValueParser;
 
 use super::console::{CommandFailure, print};
 use unwrapd_server::jobs::access::Owner;
-use unwrapd_server::webhooks::{Reachable, Secrets, Settings};
+use unwrapd_server::webhooks::{DeliverySettings, Reachable, Secrets};
 
 /// Webhooks that announce the ends of jobs.
 #[derive(clap::Args)]
@@ -30,8 +30,8 @@ pub(super) struct WebhookArgs {
 
 impl WebhookArgs {
     /// Returns the settings of deliveries; `None` without a secret.
-    pub(super) fn settings(&self) -> Option<Settings> {
-        Some(Settings {
+    pub(super) fn settings(&self) -> Option<DeliverySettings> {
+        Some(DeliverySettings {
             secrets: self.webhook_secret.clone()?,
             reachable: self.reachable(),
         })

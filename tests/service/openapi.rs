@@ -97,7 +97,7 @@ fn produced_codes() -> BTreeSet<String> {
 
 /// The words of the service's own codes, by their variants.
 fn own_codes() -> BTreeMap<String, String> {
-    let path = places::repository("src/server/src/http/code.rs");
+    let path = places::repository("src/server/src/http/problem.rs");
     let text = std::fs::read_to_string(path).expect("text");
     let rows = text.split("\ncodes! {\n").nth(1).expect("a table");
     let rows = rows.lines().filter(|line| line.contains(" => ("));

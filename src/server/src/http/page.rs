@@ -14,11 +14,11 @@ use super::download::names;
 use super::extract::PathName;
 use super::problem::{Code, Problem};
 
-static INDEX: Asset = Asset::new(
+static INDEX: StaticAsset = StaticAsset::new(
     "text/html; charset=utf-8",
     include_bytes!("page/dist/index.html"),
 );
-static DOCS: Asset = Asset::new(
+static DOCS: StaticAsset = StaticAsset::new(
     "text/html; charset=utf-8",
     include_bytes!("page/dist/docs.html"),
 );
@@ -28,34 +28,34 @@ const STYLE: &str = "text/css; charset=utf-8";
 const TEXT: &str = "text/plain; charset=utf-8";
 
 /// Assets of the pages by name.
-static ASSETS: [(&str, Asset); 7] = [
+static ASSETS: [(&str, StaticAsset); 7] = [
     (
         "page.js",
-        Asset::new(SCRIPT, include_bytes!("page/dist/page.js")),
+        StaticAsset::new(SCRIPT, include_bytes!("page/dist/page.js")),
     ),
     (
         "worker.js",
-        Asset::new(SCRIPT, include_bytes!("page/dist/worker.js")),
+        StaticAsset::new(SCRIPT, include_bytes!("page/dist/worker.js")),
     ),
     (
         "docs.js",
-        Asset::new(SCRIPT, include_bytes!("page/dist/docs.js")),
+        StaticAsset::new(SCRIPT, include_bytes!("page/dist/docs.js")),
     ),
     (
         "page.css",
-        Asset::new(STYLE, include_bytes!("page/dist/page.css")),
+        StaticAsset::new(STYLE, include_bytes!("page/dist/page.css")),
     ),
     (
         "docs.css",
-        Asset::new(STYLE, include_bytes!("page/dist/docs.css")),
+        StaticAsset::new(STYLE, include_bytes!("page/dist/docs.css")),
     ),
     (
         "viewer.txt",
-        Asset::new(TEXT, include_bytes!("page/dist/viewer.txt")),
+        StaticAsset::new(TEXT, include_bytes!("page/dist/viewer.txt")),
     ),
     (
         "sample.ply",
-        Asset::new(
+        StaticAsset::new(
             "application/octet-stream",
             include_bytes!("page/sample.ply"),
         ),
@@ -92,7 +92,7 @@ const FOR_GOOD: &str = "public, max-age=31536000, immutable";
 const ASK: &str = "no-cache";
 
 /// A file of the binary with its derived data.
-pub(super) struct Asset {
+pub(super) struct StaticAsset {
     content_type: &'static str,
     content: &'static [u8],
     made: OnceLock<PreparedAsset>,
@@ -105,7 +105,7 @@ struct PreparedAsset {
     gzip: Vec<u8>,
 }
 
-impl Asset {
+impl StaticAsset {
     pub const fn new(content_type: &'static str, content: &'static [u8]) -> Self {
         Self {
             content_type,
@@ -129,7 +129,11 @@ impl Asset {
 }
 
 /// Responds with the file, or that it is unchanged. A query `v=` with the present version allows caching for good.
-pub(super) fn answer(asset: &'static Asset, query: Option<&str>, headers: &HeaderMap) -> Response {
+pub(super) fn answer(
+    asset: &'static StaticAsset,
+    query: Option<&str>,
+    headers: &HeaderMap,
+) -> Response {
     // Choose the representation and its entity tag.
     let made = asset.made();
     let is_compressed = !made.gzip.is_empty() && accepts_gzip(headers);

@@ -16,7 +16,7 @@ use utoipa_axum::routes;
 
 use super::app::{App, Shared};
 use super::openapi::{document, preamble};
-use super::page::{self, Asset};
+use super::page::{self, StaticAsset};
 use super::problem::{Code, Problem};
 use super::{
     admission, jobs, observation, operation, origins, results, sessions, synchronous, watch,
@@ -145,10 +145,10 @@ pub fn openapi(catalog: &dyn Catalog) -> String {
     )
 )]
 pub(super) async fn openapi_document(State(app): Shared, headers: HeaderMap) -> Response {
-    static DOCUMENT: OnceLock<Asset> = OnceLock::new();
+    static DOCUMENT: OnceLock<StaticAsset> = OnceLock::new();
     let asset = DOCUMENT.get_or_init(|| {
         let text = openapi(app.jobs.settings().catalog);
-        Asset::new("application/json", text.leak().as_bytes())
+        StaticAsset::new("application/json", text.leak().as_bytes())
     });
     page::answer(asset, None, &headers)
 }

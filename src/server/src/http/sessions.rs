@@ -25,7 +25,7 @@ use super::upload::{self, accepts};
 use super::view::JobView;
 use crate::jobs::access::Caller;
 use crate::jobs::{Handling, Job, JobId, Scratch, State as JobState, Submitted};
-use crate::sessions::{Baked, NewSession, Session, SessionEnd, Unopened};
+use crate::sessions::{Baked, NewSession, OpenSession, SessionEnd, Unopened};
 use unwrapd_api::{Failure, InputFile, Kind};
 
 /// A live session.
@@ -77,7 +77,7 @@ fn path(app: &App, id: JobId) -> String {
     format!("{}/v1/sessions/{id}", app.settings.base_path)
 }
 
-fn view(app: &App, session: &Session) -> SessionView {
+fn view(app: &App, session: &OpenSession) -> SessionView {
     let path = path(app, session.id);
     SessionView {
         id: session.id.to_string(),
@@ -99,7 +99,7 @@ fn view(app: &App, session: &Session) -> SessionView {
 }
 
 /// Extractor of the session in the path, if it is visible to the caller.
-pub(super) struct PathSession(pub Arc<Session>);
+pub(super) struct PathSession(pub Arc<OpenSession>);
 
 impl FromRequestParts<Arc<App>> for PathSession {
     type Rejection = Problem;
@@ -407,7 +407,7 @@ pub(super) async fn pull_session(
 }
 
 /// Relays until the session, the connection or the client's key ends.
-async fn relay(socket: WebSocket, session: Arc<Session>, app: Arc<App>, caller: Caller) {
+async fn relay(socket: WebSocket, session: Arc<OpenSession>, app: Arc<App>, caller: Caller) {
     let (mut sink, mut stream) = socket.split();
     let code = tokio::select! {
         code = hear(&mut stream, &session) => code.map(|code| (code, String::new())),
@@ -425,7 +425,7 @@ async fn relay(socket: WebSocket, session: Arc<Session>, app: Arc<App>, caller: 
 }
 
 /// Passes messages to the session until one cannot be read. Returns the close code; `None` if the client is gone.
-async fn hear(stream: &mut SplitStream<WebSocket>, session: &Session) -> Option<u16> {
+async fn hear(stream: &mut SplitStream<WebSocket>, session: &OpenSession) -> Option<u16> {
     loop {
         let said = match stream.next().await? {
             Err(error) => return refusal(error),
@@ -444,7 +444,7 @@ async fn hear(stream: &mut SplitStream<WebSocket>, session: &Session) -> Option<
 /// is gone.
 async fn tell(
     sink: &mut SplitSink<WebSocket, Message>,
-    session: &Session,
+    session: &OpenSession,
 ) -> Option<(u16, String)> {
     // Subscribe before sending the mesh, so that no reply is missed.
     let (mut frames, mut replies) = (session.frames(), session.replies());

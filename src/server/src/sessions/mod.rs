@@ -20,4 +20,4 @@ mod session;
 
 pub use registry::{NewSession, Sessions, Settings, Unopened};
 pub use session::Baked;
-pub use session::{Session, SessionEnd};
+pub use session::{OpenSession, SessionEnd};

@@ -12,7 +12,7 @@ use tokio_util::bytes::Bytes;
 use tokio_util::task::TaskTracker;
 
 use super::session;
-use super::session::{Parts, Session, SessionEnd, lock};
+use super::session::{OpenSession, Parts, SessionEnd, lock};
 use crate::jobs::access::{Owner, Visibility};
 use crate::jobs::{self, JobId, Scratch, read_stderr};
 use unwrapd_api::pipe::{FAILED, MESH};
@@ -49,7 +49,7 @@ pub struct Sessions {
     jobs: jobs::Settings,
     slots: Arc<Semaphore>,
     slots_of_owners: Mutex<HashMap<Owner, Arc<Semaphore>>>,
-    open: Mutex<BTreeMap<JobId, Arc<Session>>>,
+    open: Mutex<BTreeMap<JobId, Arc<OpenSession>>>,
     tasks: TaskTracker,
 }
 
@@ -106,7 +106,7 @@ impl Sessions {
     }
 
     /// Opens a session. When this returns, its child has read the input and is ready.
-    pub async fn open(self: &Arc<Self>, opened: NewSession) -> Result<Arc<Session>, Unopened> {
+    pub async fn open(self: &Arc<Self>, opened: NewSession) -> Result<Arc<OpenSession>, Unopened> {
         // Reserve the slots of the session.
         let slots = self.slots(&opened.owner)?;
         let id = JobId::fresh();
@@ -123,7 +123,7 @@ impl Sessions {
         };
         tokio::spawn(log(id, stderr));
         // The mesh is the first thing that the child sends.
-        let session = Arc::new(Session::new(Parts {
+        let session = Arc::new(OpenSession::new(Parts {
             id,
             owner: opened.owner,
             mesh: mesh(&mut stdout).await.map_err(Unopened::Failed)?,
@@ -175,7 +175,7 @@ impl Sessions {
     /// Relays until the session ends, then kills its child.
     async fn supervise(
         self: Arc<Self>,
-        session: Arc<Session>,
+        session: Arc<OpenSession>,
         mut child: Child,
         mut stdout: ChildStdout,
         slots: [OwnedSemaphorePermit; 2],
@@ -197,13 +197,13 @@ impl Sessions {
     }
 
     /// Returns the session with this id if it is visible.
-    pub fn get(&self, visibility: &Visibility, id: JobId) -> Option<Arc<Session>> {
+    pub fn get(&self, visibility: &Visibility, id: JobId) -> Option<Arc<OpenSession>> {
         let session = lock(&self.open).get(&id).cloned();
         session.filter(|session| visibility.covers(&session.owner))
     }
 
     /// Returns the visible sessions in the order of opening.
-    pub fn list(&self, visibility: &Visibility) -> Vec<Arc<Session>> {
+    pub fn list(&self, visibility: &Visibility) -> Vec<Arc<OpenSession>> {
         let open = lock(&self.open);
         let within = open
             .values()

@@ -34,7 +34,7 @@ pub enum SessionEnd {
 }
 
 /// A live session.
-pub struct Session {
+pub struct OpenSession {
     /// Id of the session.
     pub id: JobId,
     /// Owner of the session.
@@ -71,7 +71,7 @@ pub(super) struct Parts {
     pub stdin: ChildStdin,
 }
 
-impl Session {
+impl OpenSession {
     pub(super) fn new(parts: Parts) -> Self {
         let (baked, bakes) = mpsc::channel(1);
         Self {
@@ -205,7 +205,7 @@ pub struct Baked {
     pub folder: Scratch,
 }
 
-impl Session {
+impl OpenSession {
     /// Turns the present state of the session into a job: the same input and options, with the current handles, and
     /// the current map as its [start](START). The session goes on.
     ///

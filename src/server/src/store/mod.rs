@@ -1,6 +1,6 @@
 //! Storage of job records, job files and keys.
 //!
-//! Records are in SQLite or in PostgreSQL, with shared code: `dialect.rs` has the few differences. Files are in a
+//! Records are in SQLite or in PostgreSQL, with shared code: `database.rs` has the few differences. Files are in a
 //! folder or in an object store.
 //!
 //! An embedded service keeps both in one data folder, which one process at a time may use; only `unwrapd keys` opens

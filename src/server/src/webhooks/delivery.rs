@@ -39,7 +39,7 @@ const DELIVERIES: &str = "unwrapd_webhook_deliveries_total";
 
 /// Settings of deliveries.
 #[derive(Clone, Debug)]
-pub struct Settings {
+pub struct DeliverySettings {
     /// Secrets for signing.
     pub secrets: Secrets,
     /// Addresses that deliveries may go to.
@@ -47,7 +47,7 @@ pub struct Settings {
 }
 
 /// Delivers the notices of an outbox until told to stop.
-pub async fn deliver(outbox: Arc<dyn Outbox>, settings: Settings, stop: CancellationToken) {
+pub async fn deliver(outbox: Arc<dyn Outbox>, settings: DeliverySettings, stop: CancellationToken) {
     describe_counter!(DELIVERIES, "Tries to deliver a webhook by this process");
     for result in ["delivered", "failed", "given_up"] {
         counter!(DELIVERIES, "result" => result).absolute(0);
@@ -99,7 +99,7 @@ pub async fn deliver(outbox: Arc<dyn Outbox>, settings: Settings, stop: Cancella
 
 struct Courier {
     outbox: Arc<dyn Outbox>,
-    settings: Settings,
+    settings: DeliverySettings,
     client: Client,
 }
 

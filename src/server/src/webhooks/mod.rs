@@ -12,6 +12,6 @@ mod delivery;
 mod guard;
 mod secret;
 
-pub use delivery::{Settings, deliver};
+pub use delivery::{DeliverySettings, deliver};
 pub use guard::{Reachable, check, is_public};
 pub use secret::{Secret, SecretError, Secrets};

@@ -15,7 +15,7 @@ use unwrapd_method::solver::Stage;
 /// A map under live editing: commands of clients, and all that a frame tells of the map.
 pub(super) trait LiveEditing: Send {
     /// Executes a command of a client.
-    fn execute(&mut self, command: &Command) -> Result<(), Failure>;
+    fn execute(&mut self, command: &SessionCommand) -> Result<(), Failure>;
     /// Returns the handles with their names, in the order in which they were added.
     fn handles(&self) -> Vec<NamedHandle>;
     /// Performs one iteration unless the map is settled.
@@ -99,33 +99,33 @@ impl<E: Edited> NamedHandles<E> {
 }
 
 impl<E: Edited> LiveEditing for NamedHandles<E> {
-    fn execute(&mut self, command: &Command) -> Result<(), Failure> {
+    fn execute(&mut self, command: &SessionCommand) -> Result<(), Failure> {
         match command {
-            Command::Add { name, handle } => return self.add(*name, handle.clone()),
-            Command::Move { name, to } => {
+            SessionCommand::Add { name, handle } => return self.add(*name, handle.clone()),
+            SessionCommand::Move { name, to } => {
                 let id = self.expect(*name)?;
                 let moved = self.edited.editor_mut().move_handle(id, to);
                 moved.map_err(|e| E::failure(&e))?;
             }
-            Command::Remove { name } => {
+            SessionCommand::Remove { name } => {
                 let id = self.expect(*name)?;
                 let removed = self.edited.editor_mut().remove(id);
                 removed.map_err(|e| E::failure(&e))?;
             }
-            Command::Settings(model) => {
+            SessionCommand::Settings(model) => {
                 check_model(model)?;
                 let remodeled = self.edited.editor_mut().remodel(model);
                 remodeled.map_err(|e| E::failure(&e))?;
             }
-            Command::Remember {} => self.edited.editor_mut().remember(),
-            Command::Undo {} if !self.edited.editor_mut().undo() => {
+            SessionCommand::Remember {} => self.edited.editor_mut().remember(),
+            SessionCommand::Undo {} if !self.edited.editor_mut().undo() => {
                 return Err(Failure::new("nothing_to_undo", "nothing was remembered"));
             }
-            Command::Redo {} if !self.edited.editor_mut().redo() => {
+            SessionCommand::Redo {} if !self.edited.editor_mut().redo() => {
                 return Err(Failure::new("nothing_to_redo", "nothing was undone"));
             }
-            Command::Reset {} => self.edited.reset(),
-            Command::Undo {} | Command::Redo {} | Command::List {} => {}
+            SessionCommand::Reset {} => self.edited.reset(),
+            SessionCommand::Undo {} | SessionCommand::Redo {} | SessionCommand::List {} => {}
         }
         Ok(())
     }
@@ -177,13 +177,13 @@ pub struct Message {
     pub n: u32,
     /// Command of the message.
     #[serde(flatten)]
-    pub command: Command,
+    pub command: SessionCommand,
 }
 
 /// Command of a client.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Command {
+pub enum SessionCommand {
     /// Add a handle, or replace the handle with this name.
     Add {
         /// The client's name for the handle.
@@ -257,7 +257,7 @@ impl Message {
     /// Returns the name of the handle if the message is a move.
     pub(super) fn moved(&self) -> Option<u32> {
         match self.command {
-            Command::Move { name, .. } => Some(name),
+            SessionCommand::Move { name, .. } => Some(name),
             _ => None,
         }
     }

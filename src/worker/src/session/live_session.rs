@@ -4,7 +4,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
 use super::editing::{
-    Command, Edited, LiveEditing, Message, NamedHandles, Reply, View, check_model, parsed,
+    Edited, LiveEditing, Message, NamedHandles, Reply, SessionCommand, View, check_model, parsed,
 };
 use super::frame::{self, Drawn, FrameElements, FrameHeader};
 use unwrapd_api::{Failure, Kind, Limits, Upload};
@@ -70,7 +70,9 @@ impl LiveSession {
         let handles = handles.as_array().cloned().unwrap_or_default();
         for (name, handle) in handles.into_iter().enumerate() {
             let name = name as u32;
-            session.editing.execute(&Command::Add { name, handle })?;
+            session
+                .editing
+                .execute(&SessionCommand::Add { name, handle })?;
         }
         Ok(session)
     }
@@ -112,7 +114,10 @@ impl LiveSession {
         let done = self.editing.execute(&message.command);
         let tells_all = matches!(
             message.command,
-            Command::Undo {} | Command::Redo {} | Command::Reset {} | Command::List {}
+            SessionCommand::Undo {}
+                | SessionCommand::Redo {}
+                | SessionCommand::Reset {}
+                | SessionCommand::List {}
         );
         Reply {
             handles: tells_all.then(|| self.editing.handles()),

@@ -10,5 +10,5 @@ mod frame;
 mod live_session;
 
 pub use child::run;
-pub use editing::{Command, Message, Reply};
+pub use editing::{Message, Reply, SessionCommand};
 pub use live_session::LiveSession;
