@@ -71,13 +71,7 @@ pub fn unwrap_document<'py>(
     stem: Option<String>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<PyWritten<'py>> {
-    written::<Options>(
-        py,
-        file,
-        (options, stem),
-        progress,
-        pipeline::unwrap_document,
-    )
+    written::<Options>(py, file, options, stem, progress, pipeline::unwrap_document)
 }
 
 /// Packs the UV islands of a file.
@@ -89,13 +83,7 @@ pub fn repack_document<'py>(
     stem: Option<String>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<PyWritten<'py>> {
-    written::<RepackOptions>(
-        py,
-        file,
-        (options, stem),
-        progress,
-        pipeline::repack_document,
-    )
+    written::<RepackOptions>(py, file, options, stem, progress, pipeline::repack_document)
 }
 
 /// Measures the UVs of a file.
@@ -121,7 +109,8 @@ pub fn verify_document(py: Python<'_>, file: File<'_>, options: &str) -> PyResul
 fn written<'py, O: OptionSet + CommandOptions + Send + 'static>(
     py: Python<'py>,
     file: File<'py>,
-    (options, stem): (&str, Option<String>),
+    options: &str,
+    stem: Option<String>,
     progress: Option<Bound<'py, PyAny>>,
     make: fn(&Upload, &O, &dyn Observer) -> Result<Outcome, PipelineError>,
 ) -> PyResult<PyWritten<'py>> {

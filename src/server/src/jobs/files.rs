@@ -9,7 +9,7 @@ use nix::sys::statvfs::statvfs;
 use sha2::{Digest, Sha256};
 
 use super::job::{JobId, Token};
-use super::storage::BlobContent;
+use super::storage::Content;
 use super::store_error::{StoreError, StoreResult};
 use unwrapd_api::OutputFile;
 
@@ -78,7 +78,7 @@ fn of_file(path: &Path) -> std::io::Result<String> {
 
 /// Passes a stream through and checks its checksum. On a mismatch it ends with an error in place of the last block,
 /// so no reader takes it for complete.
-pub(super) fn checked(content: BlobContent, expected: String) -> BlobContent {
+pub(super) fn checked(content: Content, expected: String) -> Content {
     let state = (content, Sha256::new(), None::<Vec<u8>>, Some(expected));
     let blocks = stream::unfold(
         state,

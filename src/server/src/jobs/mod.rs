@@ -68,7 +68,7 @@ pub use pictures::Undrawn;
 pub use queue::{Ended, Jobs, NextMaps, Subscription};
 pub use settings::{Deployment, Settings};
 pub use storage::{
-    BlobContent, Blobs, Capacity, Census, Changed, Enqueued, Heartbeat, IdempotencyKey, JobStore,
+    Blobs, Capacity, Census, Changed, Content, Enqueued, Heartbeat, IdempotencyKey, JobStore,
     Listing, Notice, Order, Outbox, OwnerQuota, OwnerQuotas, Quarantined, Queue, Reason, Share,
     StoreId, Sweep,
 };

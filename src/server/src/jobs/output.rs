@@ -9,7 +9,7 @@ use super::files::{self, input_key, output_key};
 use super::job::{Job, State};
 use super::meters;
 use super::queue::Jobs;
-use super::storage::BlobContent;
+use super::storage::Content;
 use super::store_error::{StoreError, StoreResult};
 use unwrapd_api::{InputFile, OutputFile};
 
@@ -33,7 +33,7 @@ impl Jobs {
         job: &Job,
         file: &OutputFile,
         range: Range<u64>,
-    ) -> StoreResult<BlobContent> {
+    ) -> StoreResult<Content> {
         let index = job.output.iter().position(|other| other == file);
         let stored = Stored::output(job, index.unwrap_or_default(), file);
         let content = self.read_verified(&stored, range).await;
@@ -49,7 +49,7 @@ impl Jobs {
         job: &Job,
         file: &InputFile,
         range: Range<u64>,
-    ) -> StoreResult<BlobContent> {
+    ) -> StoreResult<Content> {
         let index = job.input.iter().position(|other| other == file);
         let stored = Stored {
             key: input_key(job.id, index.unwrap_or_default()),
@@ -110,11 +110,7 @@ impl Jobs {
         error
     }
 
-    async fn read_verified(
-        &self,
-        stored: &Stored<'_>,
-        range: Range<u64>,
-    ) -> StoreResult<BlobContent> {
+    async fn read_verified(&self, stored: &Stored<'_>, range: Range<u64>) -> StoreResult<Content> {
         let content = async {
             if stored.bytes <= VERIFIED_FIRST {
                 self.verify_stored(stored).await?;

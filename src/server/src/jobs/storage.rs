@@ -319,7 +319,7 @@ pub enum OwnerQuota {
 // The storage interface for job files.
 
 /// Content of a file as a stream of blocks.
-pub type BlobContent = BoxStream<'static, StoreResult<Vec<u8>>>;
+pub type Content = BoxStream<'static, StoreResult<Vec<u8>>>;
 
 /// Files of jobs, under keys such as `ID/input/0`. A file exists completely or not at all, and is never modified.
 pub trait Blobs: Send + Sync {
@@ -333,11 +333,7 @@ pub trait Blobs: Send + Sync {
     fn fetch<'a>(&'a self, key: &'a str, to: &'a Path) -> BoxFuture<'a, StoreResult<()>>;
 
     /// Reads this byte range of a file.
-    fn read<'a>(
-        &'a self,
-        key: &'a str,
-        range: Range<u64>,
-    ) -> BoxFuture<'a, StoreResult<BlobContent>>;
+    fn read<'a>(&'a self, key: &'a str, range: Range<u64>) -> BoxFuture<'a, StoreResult<Content>>;
 
     /// Returns the ids of the jobs that have files.
     fn owners(&self) -> BoxFuture<'_, StoreResult<Vec<JobId>>>;

@@ -13,7 +13,7 @@ use tokio_util::io::ReaderStream;
 
 use uuid::Uuid;
 
-use crate::jobs::{BlobContent, Blobs, JobId, StoreError, StoreId, StoreResult, free_bytes};
+use crate::jobs::{Blobs, Content, JobId, StoreError, StoreId, StoreResult, free_bytes};
 
 /// Name of the file with the id of the store. It is not a job id.
 const IDENTITY: &str = "store-id";
@@ -147,11 +147,7 @@ impl Blobs for FileBlobs {
         .boxed()
     }
 
-    fn read<'a>(
-        &'a self,
-        key: &'a str,
-        range: Range<u64>,
-    ) -> BoxFuture<'a, StoreResult<BlobContent>> {
+    fn read<'a>(&'a self, key: &'a str, range: Range<u64>) -> BoxFuture<'a, StoreResult<Content>> {
         async move {
             let path = self.root.join(key);
             let mut file = match fs::File::open(&path).await {

@@ -17,7 +17,7 @@ use object_store::{
 use tokio::fs::File;
 use tokio::io::AsyncWriteExt;
 
-use crate::jobs::{BlobContent, Blobs, JobId, StoreError, StoreId, StoreResult};
+use crate::jobs::{Blobs, Content, JobId, StoreError, StoreId, StoreResult};
 
 /// Timeouts of a request and of connecting. Files are sent in parts of 10 MiB, the default of `BufWriter`, and fetched
 /// in one request each. A longer timeout lets a slow store occupy a slot; a shorter one fails large files on slow
@@ -94,7 +94,7 @@ impl ObjectBlobs {
         Ok(file.flush().await?)
     }
 
-    async fn read_from(&self, key: &str, range: Range<u64>) -> StoreResult<BlobContent> {
+    async fn read_from(&self, key: &str, range: Range<u64>) -> StoreResult<Content> {
         if range.is_empty() {
             return Ok(stream::empty().boxed());
         }
@@ -149,11 +149,7 @@ impl Blobs for ObjectBlobs {
         self.fetch_to(key, to).boxed()
     }
 
-    fn read<'a>(
-        &'a self,
-        key: &'a str,
-        range: Range<u64>,
-    ) -> BoxFuture<'a, StoreResult<BlobContent>> {
+    fn read<'a>(&'a self, key: &'a str, range: Range<u64>) -> BoxFuture<'a, StoreResult<Content>> {
         self.read_from(key, range).boxed()
     }
 
