@@ -38,7 +38,7 @@ impl Asset {
 }
 
 /// Returns a path without `.` components.
-pub(super) fn plain(path: &Path) -> PathBuf {
+fn plain(path: &Path) -> PathBuf {
     let names = path.components().filter(|part| *part != Component::CurDir);
     names.collect()
 }

@@ -90,11 +90,7 @@ fn broken(error: &JoinError) -> Failure {
 // One asset of a run: read, looked up, processed, published, recorded.
 
 /// Processes an asset unless an earlier run did. Returns its row.
-pub(super) async fn process<W: Worker>(
-    order: &RunOrder,
-    worker: &W,
-    index: usize,
-) -> (SummaryRow, Fate) {
+async fn process<W: Worker>(order: &RunOrder, worker: &W, index: usize) -> (SummaryRow, Fate) {
     let (begin, asset) = (Instant::now(), &order.assets[index]);
     // Read the input and look for a record of the same work.
     let upload = match block_in_place(|| read(asset)) {

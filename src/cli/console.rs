@@ -76,7 +76,7 @@ pub(super) fn json(value: &impl serde::Serialize) -> Result<Vec<u8>, CommandFail
 // Escaping of untrusted text for terminals.
 
 /// Escapes characters that a terminal acts upon: control characters other than line breaks and tabs.
-pub(super) fn escaped(text: &str) -> Cow<'_, str> {
+fn escaped(text: &str) -> Cow<'_, str> {
     if !text.contains(is_active) {
         return Cow::Borrowed(text);
     }

@@ -144,7 +144,7 @@ pub fn openapi(catalog: &dyn Catalog) -> String {
         (status = 304, description = "The document is unchanged"),
     )
 )]
-pub(super) async fn openapi_document(State(app): Shared, headers: HeaderMap) -> Response {
+async fn openapi_document(State(app): Shared, headers: HeaderMap) -> Response {
     static DOCUMENT: OnceLock<StaticAsset> = OnceLock::new();
     let asset = DOCUMENT.get_or_init(|| {
         let text = openapi(app.jobs.settings().catalog);

@@ -283,11 +283,7 @@ fn with_handles(kind: Kind, mut options: Value, handles: Vec<Value>) -> Value {
 // Asynchronous records on the pipe between server and child.
 
 /// Writes a record.
-pub(super) async fn send(
-    to: &mut (impl AsyncWrite + Unpin),
-    tag: u8,
-    bytes: &[u8],
-) -> std::io::Result<()> {
+async fn send(to: &mut (impl AsyncWrite + Unpin), tag: u8, bytes: &[u8]) -> std::io::Result<()> {
     to.write_all(&[&head(tag, bytes.len()), bytes].concat())
         .await
 }

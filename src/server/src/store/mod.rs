@@ -23,7 +23,6 @@ mod reading;
 mod records;
 mod rows;
 mod transitions;
-mod upkeep;
 
 use std::path::Path;
 

@@ -104,7 +104,7 @@ pub(super) async fn update(
 }
 
 /// Serializes a value to JSON text for a column.
-pub(super) fn json<T: Serialize>(value: &T) -> StoreResult<String> {
+fn json<T: Serialize>(value: &T) -> StoreResult<String> {
     serde_json::to_string(value).map_err(damaged)
 }
 
