@@ -1,7 +1,6 @@
 //! Choice of paths to the targets: straight ones, and others if those do not lead there.
 
-use super::attempt::{Attempt, Trial};
-use super::missing::Missing;
+use super::missing::{Attempt, Missing, Trial};
 use super::normalized::Frame;
 use super::problem::Problem;
 use super::problem_error::ProblemError;
@@ -157,8 +156,11 @@ fn flow_to(trial: &mut Trial, targets: &Handles, x: &mut [f64]) {
     // Hold the vertices that are at their targets; pull the others and all points.
     let place = |v: u32| &x[dim * v as usize..dim * (v as usize + 1)];
     let ends = targets.targets.chunks_exact(dim);
-    let is_held = |pair: &(&u32, &[f64])| place(*pair.0) == pair.1;
-    let (held, pulled): (Vec<_>, Vec<_>) = targets.vertices.iter().zip(ends).partition(is_held);
+    let (held, pulled): (Vec<_>, Vec<_>) = targets
+        .vertices
+        .iter()
+        .zip(ends)
+        .partition(|pair: &(&u32, &[f64])| place(*pair.0) == pair.1);
     let held: Vec<u32> = held.into_iter().map(|(&v, _)| v).collect();
     let of_vertices = pulled.iter().map(|(v, _)| vec![(**v, 1.0)]);
     let rows: Vec<Row> = of_vertices.chain(targets.points.iter().cloned()).collect();

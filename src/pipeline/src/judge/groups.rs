@@ -7,7 +7,6 @@ use crate::options::Nodes;
 use crate::options::{CommandOptions, MeasureOptions};
 use rayon::prelude::*;
 use std::collections::HashMap;
-use std::hash::Hash;
 use unwrapd_files::document::{
     Document, DocumentError, GroupBy, Mark, Marked, Sets, Warning, Written,
 };

@@ -1,10 +1,9 @@
 //! A part of the forest of fronts that one task factors, with its memory.
 
-use super::extent::Extent;
-use super::fronts::{Front, Run};
+use super::fronts::{Extent, Front, Run};
 use super::kernels::{FactorColumns, WriteUpdate};
-use super::pattern::NotPositiveDefinite;
 use super::plan::Plan;
+use super::symbolic::NotPositiveDefinite;
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::traits::pulp::Arch;

@@ -1,11 +1,8 @@
 //! The dense matrices of the factorization, and how they fit into each other.
 
-use std::ops::Range;
-
-use super::graph::Graph;
 use super::kernels::LANES;
-use super::supernodes::Supernodes;
-use super::tree::NONE;
+use super::symbolic::{Graph, NONE, Supernodes};
+use std::ops::Range;
 
 /// A dense symmetric matrix whose first columns are eliminated and whose remainder, the update, is added to its parent.
 ///
@@ -205,5 +202,28 @@ impl Fronts {
                 }),
             }
         }
+    }
+}
+
+// Memory of a branch, known from the plan.
+
+/// Sizes of the arrays of a branch, in numbers.
+#[derive(Default)]
+pub(super) struct Extent {
+    pub fronts: Vec<u32>,
+    pub panels: usize,
+    pub updates: [usize; 2],
+    /// Pivots of all its fronts.
+    pub pivots: usize,
+    pub below: usize,
+    /// Rows of the highest panel.
+    pub highest: usize,
+}
+
+impl Extent {
+    pub fn bytes(&self) -> usize {
+        let [even, odd] = self.updates;
+        let vectors = self.pivots + self.below + self.highest;
+        size_of::<f64>() * (self.panels + even + odd + vectors)
     }
 }

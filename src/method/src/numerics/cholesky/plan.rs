@@ -1,11 +1,7 @@
 //! The symbolic factorization, which does not depend on the values.
 
-use super::extent::Extent;
-use super::fronts::{Front, Fronts};
-use super::graph::Graph;
-use super::pattern::SymmetricPattern;
-use super::supernodes::supernodes;
-use super::tree::{self, NONE};
+use super::fronts::{Extent, Front, Fronts};
+use super::symbolic::{self, Graph, NONE, SymmetricPattern, supernodes};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
@@ -44,7 +40,7 @@ impl Plan {
         let graph = Graph::new(pattern, block);
         let order = fill_reducing_order(&graph, block);
         let (order, parent) = in_postorder(&graph, &order);
-        let counts = tree::column_counts(&graph.reordered(&order), &parent);
+        let counts = symbolic::column_counts(&graph.reordered(&order), &parent);
         let supernodes = supernodes(&parent, &counts, block);
         let order = composed(&order, &supernodes.order);
         let reordered = graph.reordered(&order);
@@ -97,11 +93,11 @@ impl Plan {
 
 /// Changes the order to a postorder of its elimination tree, with equal cost and fill; returns it with that tree.
 fn in_postorder(graph: &Graph, order: &[u32]) -> (Vec<u32>, Vec<u32>) {
-    let parent = tree::elimination_tree(&graph.reordered(order));
-    let postorder = tree::postorder(&parent);
+    let parent = symbolic::elimination_tree(&graph.reordered(order));
+    let postorder = symbolic::postorder(&parent);
     (
         composed(order, &postorder),
-        tree::reordered(&parent, &postorder),
+        symbolic::reordered(&parent, &postorder),
     )
 }
 
