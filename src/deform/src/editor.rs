@@ -54,11 +54,11 @@ pub struct Editor<M: Editable> {
     pub(super) map: M,
     handles: BTreeMap<HandleId, M::Handle>,
     next: u32,
-    history: History<State<M>>,
+    history: History<EditorState<M>>,
 }
 
 /// State to which [`Editor::undo`] returns.
-struct State<M: Editable> {
+struct EditorState<M: Editable> {
     handles: BTreeMap<HandleId, M::Handle>,
     places: M::Places,
 }
@@ -189,11 +189,11 @@ impl<M: Editable> Editor<M> {
     pub fn reset(&mut self) {
         let places = self.map.first_places();
         let handles = BTreeMap::new();
-        self.restore(State { handles, places });
+        self.restore(EditorState { handles, places });
     }
 
-    fn state(&self) -> State<M> {
-        State {
+    fn state(&self) -> EditorState<M> {
+        EditorState {
             handles: self.handles.clone(),
             places: self.map.places(),
         }
@@ -201,7 +201,7 @@ impl<M: Editable> Editor<M> {
 
     /// Restores a state and returns whether that succeeded. Handles come first: places alone would set a map that is at
     /// rest in motion.
-    fn restore(&mut self, State { handles, places }: State<M>) -> bool {
+    fn restore(&mut self, EditorState { handles, places }: EditorState<M>) -> bool {
         self.hold(handles)
             .and_then(|()| self.map.put(places))
             .is_ok()

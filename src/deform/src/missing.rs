@@ -146,7 +146,7 @@ where
             // Keep the map of each attempt, even where the parts did not arrive.
             let station = self.only(set, side);
             let x = std::mem::take(&mut self.x);
-            let mut attempt = Attempt::<D>::new(trial, x, vec![station], most)?;
+            let mut attempt = PathAttempt::<D>::new(trial, x, vec![station], most)?;
             attempt.go_on(trial, LeastProgress::BRISK)?;
             let has_arrived = attempt.has_arrived();
             self.is_stopped = attempt.is_stopped();
@@ -268,13 +268,13 @@ impl Trial<'_> {
 }
 
 /// A map and the journey of its handles.
-pub(super) struct Attempt<const D: usize> {
+pub(super) struct PathAttempt<const D: usize> {
     x: Vec<f64>,
     continuation: Continuation<D>,
     settings: Settings,
 }
 
-impl<const D: usize> Attempt<D>
+impl<const D: usize> PathAttempt<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {

@@ -1,6 +1,6 @@
 //! Choice of paths to the targets: straight ones, and others if those do not lead there.
 
-use super::missing::{Attempt, Missing, Trial};
+use super::missing::{Missing, PathAttempt, Trial};
 use super::normalized::Frame;
 use super::problem::Problem;
 use super::problem_error::ProblemError;
@@ -56,7 +56,7 @@ where
 {
     // Straight paths.
     let search = trial.problem.search;
-    let mut best = Attempt::<D>::bent(&mut trial, start, &[])?;
+    let mut best = PathAttempt::<D>::bent(&mut trial, start, &[])?;
     best.go_on(&mut trial, LeastProgress::BRISK)?;
     if best.is_enough(search) {
         return Ok(best.into_solution(&trial));
@@ -105,8 +105,8 @@ fn bent<const D: usize>(
     trial: &mut Trial,
     start: &[f64],
     bends: &[Vec<[f64; 3]>],
-    mut best: Attempt<D>,
-) -> Result<Attempt<D>, ProblemError>
+    mut best: PathAttempt<D>,
+) -> Result<PathAttempt<D>, ProblemError>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
@@ -114,7 +114,7 @@ where
         if trial.is_spent() {
             break;
         }
-        let mut attempt = Attempt::bent(trial, start, bends)?;
+        let mut attempt = PathAttempt::bent(trial, start, bends)?;
         attempt.go_on(trial, LeastProgress::BRISK)?;
         if attempt.is_enough(trial.problem.search) {
             return Ok(attempt);

@@ -22,7 +22,7 @@ pub(crate) struct UvTopology {
     /// Smallest and greatest UV.
     pub bounds: [[f64; 2]; 2],
     pub edges: UvEdges,
-    pub charts: Charts,
+    pub charts: ChartSets,
     /// Exact sign of every face's UV orientation, as the file winds it.
     pub orientation: Vec<i8>,
 }
@@ -59,7 +59,7 @@ impl UvTopology {
         let bounds = bounds(&uvs);
         let tolerance = UV_TOLERANCE * extent(bounds);
         let edges = UvEdges::new(&faces, &uvs, weld.points.len(), tolerance);
-        let charts = Charts::new(faces.len(), links(&edges, &faces, &uvs));
+        let charts = ChartSets::new(faces.len(), links(&edges, &faces, &uvs));
         let orientation = uvs
             .iter()
             .map(|&[a, b, c]| orient2d_sign(a, b, c))
@@ -175,7 +175,7 @@ fn links<'a>(
     edges: &'a UvEdges,
     faces: &'a [[u32; 3]],
     uvs: &'a [CornerUvs],
-) -> impl Iterator<Item = Link> + 'a {
+) -> impl Iterator<Item = EdgeLink> + 'a {
     let pairs = edges
         .order
         .windows(2)
@@ -184,7 +184,7 @@ fn links<'a>(
         .filter(|(_, start)| **start == Start::Same)
         .map(|(pair, _)| {
             let (a, b) = (halfedge(pair[0], faces, uvs), halfedge(pair[1], faces, uvs));
-            Link {
+            EdgeLink {
                 faces: [a.face, b.face],
                 same_direction: a.forward == b.forward,
             }
@@ -194,14 +194,14 @@ fn links<'a>(
 // Charts of UV-connected faces and the winding within them.
 
 /// Two faces that share an edge in UV space.
-pub(crate) struct Link {
+pub(crate) struct EdgeLink {
     pub faces: [u32; 2],
     /// `true` if both faces run along the edge in the same direction, that is, are wound against each other.
     pub same_direction: bool,
 }
 
 /// Components of linked faces.
-pub(crate) struct Charts {
+pub(crate) struct ChartSets {
     /// Chart of every face, numbered in the order of their first faces.
     pub of_face: Vec<u32>,
     /// For each chart, whether its winding contradicts itself (a Möbius strip in one piece).
@@ -210,8 +210,8 @@ pub(crate) struct Charts {
     pub winding: Vec<i8>,
 }
 
-impl Charts {
-    pub fn new(n_faces: usize, links: impl Iterator<Item = Link>) -> Charts {
+impl ChartSets {
+    pub fn new(n_faces: usize, links: impl Iterator<Item = EdgeLink>) -> ChartSets {
         let mut forest = Forest {
             parent: (0..n_faces as u32).collect(),
             reversed: vec![false; n_faces],
@@ -221,7 +221,7 @@ impl Charts {
         for link in links {
             forest.join(&link);
         }
-        let mut charts = Charts {
+        let mut charts = ChartSets {
             of_face: Vec::with_capacity(n_faces),
             nonorientable: Vec::new(),
             winding: Vec::with_capacity(n_faces),
@@ -272,7 +272,7 @@ impl Forest {
     }
 
     /// Joins the trees of two faces under the smaller root.
-    fn join(&mut self, link: &Link) {
+    fn join(&mut self, link: &EdgeLink) {
         let (a, against_a) = self.root(link.faces[0]);
         let (b, against_b) = self.root(link.faces[1]);
         let against = against_a ^ against_b ^ link.same_direction;

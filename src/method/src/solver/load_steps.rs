@@ -2,7 +2,7 @@
 
 use super::handles::{Handles, HandlesError, Path, Rotation, aside};
 use super::objective::Objective;
-use super::relaxation::{Relaxation, Search, line_search, newton_direction};
+use super::relaxation::{LineSearch, Relaxation, line_search, newton_direction};
 use super::settings::{Control, LeastProgress, Settings, Status, Summary, Taken, Watch};
 use crate::numerics::cholesky::NotPositiveDefinite;
 use crate::numerics::square::{Matrix, Square};
@@ -250,7 +250,7 @@ where
 
     /// Takes the Newton step alone, with a line search; returns its length, 0 if no step helps.
     pub fn relax(&mut self, objective: &Objective, x: &mut [f64], decrement: f64) -> f64 {
-        let search = Search {
+        let search = LineSearch {
             x,
             direction: &self.newton,
             energy: self.summary.energy_last,

@@ -2,7 +2,7 @@
 
 use super::objective::Objective;
 use super::relaxation::{
-    Relaxation, Search, Step, is_settling, line_search, newton_direction, once_definite,
+    LineSearch, Relaxation, Step, is_settling, line_search, newton_direction, once_definite,
 };
 use super::settings::{Control, Projection, Settings, Status, Summary, Taken, Watch};
 use crate::numerics::cholesky::NotPositiveDefinite;
@@ -63,8 +63,8 @@ pub(super) fn minimize_with(
             return summary.ended(Status::Stalled);
         };
         // Search along it. If no step helps, retry with a safer matrix.
-        let is_small = descent.end == End::Minimum && -descent.change <= negligible;
-        let search = Search {
+        let is_small = descent.end == DescentEnd::Minimum && -descent.change <= negligible;
+        let search = LineSearch {
             x,
             direction: &directions.direction,
             energy,
@@ -178,7 +178,7 @@ impl DescentDirections {
         };
         self.served += 1;
         self.products += descent.products;
-        self.met_negative |= descent.end == End::NegativeCurvature;
+        self.met_negative |= descent.end == DescentEnd::NegativeCurvature;
         Some(descent)
     }
 
@@ -265,7 +265,7 @@ pub struct Descent {
     /// Number of products with the Hessian.
     pub products: usize,
     /// Reason why conjugate gradients ended.
-    pub end: End,
+    pub end: DescentEnd,
 }
 
 impl Descent {
@@ -276,14 +276,14 @@ impl Descent {
             change: -decrement,
             norm: (2.0 * decrement).sqrt(),
             products: 0,
-            end: End::Minimum,
+            end: DescentEnd::Minimum,
         }
     }
 }
 
 /// Reason why conjugate gradients ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
+pub enum DescentEnd {
     /// At the model's minimum.
     Minimum,
     /// At the radius, with a convex model up to there.
@@ -351,10 +351,10 @@ impl TrustRegion {
             let next = self.precondition(objective)?;
             let share = if -change <= negligible { SURE } else { FORCING };
             if next <= share * share * first {
-                break End::Minimum;
+                break DescentEnd::Minimum;
             }
             if products == MOST_PRODUCTS {
-                break End::Limit;
+                break DescentEnd::Limit;
             }
             // Turn to the next conjugate direction.
             let beta = next / rz;
@@ -380,9 +380,9 @@ impl TrustRegion {
         let (alpha, end) = if curvature > 0.0 {
             let lowest = rz / curvature;
             let is_inside = lowest < most;
-            (lowest.min(most), (!is_inside).then_some(End::Radius))
+            (lowest.min(most), (!is_inside).then_some(DescentEnd::Radius))
         } else {
-            (most, Some(End::NegativeCurvature))
+            (most, Some(DescentEnd::NegativeCurvature))
         };
         ConjugateStep {
             alpha,
@@ -413,7 +413,7 @@ impl TrustRegion {
             self.radius = length.max(SHRINK) * descent.norm;
         } else if decrease < 0.25 * foretold {
             self.radius = SHRINK * descent.norm;
-        } else if decrease > 0.75 * foretold && descent.end != End::Minimum {
+        } else if decrease > 0.75 * foretold && descent.end != DescentEnd::Minimum {
             self.radius = self.radius.max(GROW * descent.norm);
         }
     }
@@ -430,7 +430,7 @@ struct ConjugateStep {
     /// p·Hp.
     curvature: f64,
     /// Reason why conjugate gradients end after it; `None` if they continue.
-    end: Option<End>,
+    end: Option<DescentEnd>,
 }
 
 /// Squared norms of the direction d so far and of the conjugate direction p, and their product, updated without the

@@ -168,7 +168,7 @@ pub struct Step {
 
 /// Start and direction of a line search.
 #[derive(Clone, Copy, Debug)]
-pub struct Search<'a> {
+pub struct LineSearch<'a> {
     /// Start.
     pub x: &'a [f64],
     /// Direction.
@@ -195,8 +195,8 @@ const MAX_HALVINGS: usize = 40;
 ///
 /// Returns `None` if no step lowers the energy: it is at rounding, or the direction is useless. Usually takes one
 /// evaluation, because the search starts inside the domain.
-pub fn line_search(objective: &Objective, search: &Search, trial: &mut [f64]) -> Option<Step> {
-    let &Search {
+pub fn line_search(objective: &Objective, search: &LineSearch, trial: &mut [f64]) -> Option<Step> {
+    let &LineSearch {
         x,
         direction,
         energy,

@@ -29,7 +29,7 @@ pub(super) struct Front {
 
 /// Successive unknowns of a child's update that are also successive in its parent.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Run {
+pub(super) struct FrontRun {
     pub child: u32,
     /// Place in the rows of the parent's panel.
     pub parent: u32,
@@ -40,7 +40,7 @@ pub(super) struct Run {
 pub(super) struct Fronts {
     pub list: Vec<Front>,
     pub rows: Vec<u32>,
-    pub runs: Vec<Run>,
+    pub runs: Vec<FrontRun>,
     pub children: Vec<u32>,
 }
 
@@ -195,7 +195,7 @@ impl Fronts {
                 {
                     run.length += block as u32;
                 }
-                _ => self.runs.push(Run {
+                _ => self.runs.push(FrontRun {
                     child,
                     parent: place,
                     length: block as u32,
@@ -209,7 +209,7 @@ impl Fronts {
 
 /// Sizes of the arrays of a branch, in numbers.
 #[derive(Default)]
-pub(super) struct Extent {
+pub(super) struct BranchExtent {
     pub fronts: Vec<u32>,
     pub panels: usize,
     pub updates: [usize; 2],
@@ -220,7 +220,7 @@ pub(super) struct Extent {
     pub highest: usize,
 }
 
-impl Extent {
+impl BranchExtent {
     pub fn bytes(&self) -> usize {
         let [even, odd] = self.updates;
         let vectors = self.pivots + self.below + self.highest;

@@ -29,15 +29,15 @@ mod symbolic;
 
 use branch::Branch;
 use faer::traits::pulp::{Arch, Simd, WithSimd};
-use fronts::{Extent, Front};
+use fronts::{BranchExtent, Front};
 use kernels::LANES;
-use plan::Plan;
+use plan::FactorPlan;
 use rayon::prelude::*;
 pub use symbolic::{NotPositiveDefinite, SymmetricPattern};
 
 /// A factorization that is reused for many matrices of one pattern.
 pub struct Cholesky {
-    plan: Plan,
+    plan: FactorPlan,
     branches: Vec<Branch>,
 }
 
@@ -60,7 +60,7 @@ impl Cholesky {
     /// # Panics
     /// If the pattern is not as [`SymmetricPattern`] describes: that is a mistake of the caller, not of its input.
     pub fn analyze(pattern: &SymmetricPattern, block: usize) -> Self {
-        let (plan, extents) = Plan::new(pattern, block);
+        let (plan, extents) = FactorPlan::new(pattern, block);
         Self::planned(plan, extents)
     }
 
@@ -74,12 +74,12 @@ impl Cholesky {
         block: usize,
         most_bytes: usize,
     ) -> Option<Self> {
-        let (plan, extents) = Plan::new(pattern, block);
-        let bytes: usize = extents.iter().map(Extent::bytes).sum();
+        let (plan, extents) = FactorPlan::new(pattern, block);
+        let bytes: usize = extents.iter().map(BranchExtent::bytes).sum();
         (bytes <= most_bytes).then(|| Self::planned(plan, extents))
     }
 
-    fn planned(plan: Plan, extents: Vec<Extent>) -> Self {
+    fn planned(plan: FactorPlan, extents: Vec<BranchExtent>) -> Self {
         Self {
             branches: extents.into_iter().map(Branch::from).collect(),
             plan,
@@ -165,7 +165,7 @@ impl Cholesky {
 
 /// Solves Ly = b for the pivots of a branch; `others` are the branches that grow on it, which are done.
 struct Forward<'a> {
-    pub plan: &'a Plan,
+    pub plan: &'a FactorPlan,
     pub branch: &'a mut Branch,
     pub others: &'a [Branch],
     /// Right-hand side in the order of the matrix.
@@ -217,7 +217,7 @@ impl WithSimd for Forward<'_> {
 /// Solves Lᵀx = y for the pivots of a branch, given the solution below them, and passes it on to the branches that grow
 /// on it.
 struct Backward<'a> {
-    pub plan: &'a Plan,
+    pub plan: &'a FactorPlan,
     pub branch: &'a mut Branch,
     pub others: &'a mut [Branch],
 }

@@ -1,6 +1,6 @@
 //! The symbolic factorization, which does not depend on the values.
 
-use super::fronts::{Extent, Front, Fronts};
+use super::fronts::{BranchExtent, Front, Fronts};
 use super::symbolic::{self, Graph, NONE, SymmetricPattern, supernodes};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
@@ -15,7 +15,7 @@ const PARALLEL_FROM: f64 = 3e7;
 const TASK_SHARE: f64 = 1.0 / 24.0;
 
 /// The symbolic factorization.
-pub(super) struct Plan {
+pub(super) struct FactorPlan {
     /// Old number of each vertex.
     pub order: Vec<u32>,
     /// Unknowns per vertex.
@@ -35,8 +35,8 @@ pub(super) struct EntryPlace {
     pub below: usize,
 }
 
-impl Plan {
-    pub fn new(pattern: &SymmetricPattern, block: usize) -> (Self, Vec<Extent>) {
+impl FactorPlan {
+    pub fn new(pattern: &SymmetricPattern, block: usize) -> (Self, Vec<BranchExtent>) {
         let graph = Graph::new(pattern, block);
         let order = fill_reducing_order(&graph, block);
         let (order, parent) = in_postorder(&graph, &order);
@@ -58,7 +58,7 @@ impl Plan {
     }
 }
 
-impl Plan {
+impl FactorPlan {
     pub fn front(&self, k: u32) -> (&Front, &EntryPlace) {
         (&self.fronts.list[k as usize], &self.places[k as usize])
     }
@@ -107,10 +107,10 @@ fn composed(first: &[u32], second: &[u32]) -> Vec<u32> {
 }
 
 /// Assigns each front its place in memory. The last branch is the trunk, on which the others grow.
-fn layout(fronts: &Fronts) -> (Vec<EntryPlace>, Vec<Extent>) {
+fn layout(fronts: &Fronts) -> (Vec<EntryPlace>, Vec<BranchExtent>) {
     let branch_of = branches(fronts);
     let n_branches = branch_of.iter().max().map_or(1, |&b| b as usize + 1);
-    let mut extents: Vec<Extent> = (0..n_branches).map(|_| Extent::default()).collect();
+    let mut extents: Vec<BranchExtent> = (0..n_branches).map(|_| BranchExtent::default()).collect();
     // Present heights of the two stacks of updates of each branch.
     let mut heights = vec![[0_usize; 2]; n_branches];
     let mut places = Vec::with_capacity(fronts.list.len());
@@ -254,7 +254,7 @@ fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
 
 /// The stored block of two coupled vertices, or of one, and its place in a panel.
 #[derive(Clone, Copy, Debug)]
-struct Block {
+struct PlanBlock {
     /// First entry in the values.
     from: u32,
     /// Distance between the columns of its first vertex there, plus the entries lost at the diagonal.
@@ -275,7 +275,7 @@ enum FrontKind {
 /// Blocks of every front's panel; those of the k-th are `blocks[starts[k]..starts[k + 1]]`.
 pub(super) struct Scatter {
     starts: Vec<usize>,
-    blocks: Vec<Block>,
+    blocks: Vec<PlanBlock>,
     size: usize,
 }
 
@@ -301,7 +301,7 @@ impl Scatter {
                 let column = (j - first) * size;
                 let own = order[j];
                 // The block on the diagonal.
-                scatter.blocks.push(Block {
+                scatter.blocks.push(PlanBlock {
                     from: pattern.col_ptr[size * own as usize] as u32,
                     stride: stride(graph, own, size),
                     to: (column * front.stride() + column) as u32,
@@ -311,7 +311,7 @@ impl Scatter {
                 for &i in reordered.of(j as u32).iter().filter(|&&i| i as usize > j) {
                     let row = front.row(i, size, &fronts.rows);
                     let to = column * front.stride() + row;
-                    scatter.blocks.push(Block::of_pair(
+                    scatter.blocks.push(PlanBlock::of_pair(
                         pattern,
                         size,
                         graph,
@@ -342,7 +342,7 @@ fn stride(graph: &Graph, vertex: u32, size: usize) -> u32 {
     (size * (list.len() - list.partition_point(|&w| w < vertex))) as u32
 }
 
-impl Block {
+impl PlanBlock {
     /// Creates the block of a vertex that is eliminated and one that is eliminated later.
     fn of_pair(
         pattern: &SymmetricPattern,
@@ -380,7 +380,7 @@ impl Front {
 }
 
 fn add_blocks<const D: usize>(
-    blocks: &[Block],
+    blocks: &[PlanBlock],
     values: &[f64],
     panel: &mut [f64],
     panel_stride: usize,
