@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::places;
 
@@ -133,25 +133,31 @@ fn no_handler_sees_everything() {
 fn every_module_has_a_layer() {
     for (folder, modules) in LAYERS {
         let listed: BTreeSet<String> = modules.iter().map(|(name, _)| (*name).to_owned()).collect();
+        let is_listed_file = |path: &Path| {
+            let stem = path.file_stem().and_then(|stem| stem.to_str());
+            path.is_file() && stem.is_some_and(|stem| listed.contains(stem))
+        };
         let found: BTreeSet<String> = fs::read_dir(places::repository(folder))
             .expect("a crate has sources")
             .filter_map(Result::ok)
             .map(|entry| entry.path())
-            .filter(|path| path.join("mod.rs").is_file())
-            .filter_map(|path| Some(path.file_name()?.to_str()?.to_owned()))
+            .filter(|path| path.join("mod.rs").is_file() || is_listed_file(path))
+            .filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned()))
             .collect();
         assert_eq!(listed, found, "{folder}");
     }
 }
 
-/// Every line of a module without its comment, and where it stands.
+/// Every line of a module, a folder or a file, without its comment, and where it stands.
 fn code_of(folder: &str, module: &str) -> Vec<(String, String)> {
     let mut lines = Vec::new();
-    let mut folders = vec![places::repository(folder).join(module)];
-    let mut files: Vec<PathBuf> = Vec::new();
+    let module = places::repository(folder).join(module);
+    let mut files: Vec<PathBuf> =
+        Vec::from_iter(Some(module.with_extension("rs")).filter(|path| path.is_file()));
+    let mut folders = Vec::from_iter(Some(module).filter(|_| files.is_empty()));
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder)
-            .expect("a module is a folder")
+            .expect("a module is a folder or a file")
             .flatten()
         {
             let path = entry.path();
