@@ -11,37 +11,22 @@
 //! computations that it does not contain ([`Catalog`]).
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
-mod catalog;
-mod failure;
-mod files;
-mod format;
-mod json;
-mod kind;
 mod limits;
-mod map_frame;
 pub mod options;
 mod picture;
 pub mod pipe;
 mod progress;
 mod task;
 mod upload;
-mod verdict;
-mod warning;
 
-pub use catalog::{Catalog, RefusedOptions};
-pub use failure::Failure;
-pub use files::{InputFile, OutputFile, sha256};
-pub use format::{Content, Format, SEARCHED_BYTES, extension, without_mark};
-pub use json::from_json;
-pub use kind::Kind;
-pub use limits::Limits;
-pub use map_frame::{MAPS, frame_header, number_frame};
-pub use picture::{DRAWING, Drawing, PICTURE, Picture};
-pub use progress::{Progress, Stage};
+pub use limits::{Limits, from_json};
+pub use picture::{DRAWING, Drawing, MAPS, PICTURE, Picture, frame_header, number_frame};
+pub use progress::{Failure, Progress, Quality, Stage, Verdict, Warning};
 pub use task::{
-    ERROR, Message, NO_SPACE, OUTCOME, Outcome, Pictures, TASK, Task, input_file, output_file,
-    read_json, read_upload, write_json,
+    Catalog, ERROR, Kind, Message, NO_SPACE, OUTCOME, Outcome, Pictures, RefusedOptions, TASK,
+    Task, input_file, output_file, read_json, read_upload, write_json,
 };
-pub use upload::{START, Upload};
-pub use verdict::{Quality, Verdict};
-pub use warning::Warning;
+pub use upload::{
+    Content, Format, InputFile, OutputFile, SEARCHED_BYTES, START, Upload, extension, sha256,
+    without_mark,
+};

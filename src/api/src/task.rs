@@ -4,13 +4,16 @@
 //! JSON line per [`Message`] on standard output, and leaves either `outcome.json` ([`Outcome`]), written last and
 //! renamed into place, with the files that it lists, or `error.json` ([`crate::Failure`]).
 
-use std::collections::BTreeMap;
+use crate::{Content, Failure, Format, Limits, OutputFile, Progress, Upload, Verdict};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Debug;
 use std::io::Write;
 use std::path::Path;
-
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
-
-use crate::{Kind, Limits, OutputFile, Progress, Upload, Verdict};
+#[cfg(feature = "schema")]
+use utoipa::openapi::{RefOr, Schema};
 
 /// Name of the file with a [`Task`].
 pub const TASK: &str = "job.json";
@@ -41,7 +44,7 @@ pub struct Task {
     /// Names of the input files, the mesh first; the n-th lies in [`input_file`]`(n)`.
     pub input: Vec<String>,
     /// Options of its kind, complete with defaults.
-    pub options: serde_json::Value,
+    pub options: Value,
     /// Limits of the computation.
     pub limits: Limits,
     /// Memory limit in bytes.
@@ -122,4 +125,122 @@ pub fn read_upload(folder: &Path, names: &[String]) -> std::io::Result<Upload> {
 /// Reads JSON that [`write_json`] wrote.
 pub fn read_json<T: DeserializeOwned>(folder: &Path, name: &str) -> std::io::Result<T> {
     Ok(serde_json::from_slice(&std::fs::read(folder.join(name))?)?)
+}
+
+// Kinds of jobs.
+
+/// Kind of job: the work that it does with its file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Makes a UV map and writes the file with it.
+    #[default]
+    Unwrap,
+    /// Measures the UV map that the file already has.
+    Measure,
+    /// Proves what holds of the UV map that the file already has.
+    Verify,
+    /// Solves a problem file: handles pulled to targets, no element inverted.
+    Solve,
+    /// Pulls a mesh, a picture's outline, a drawing or surfaces in a cage by handles, no element inverted.
+    Deform,
+    /// Warps a picture by handles without folding it.
+    Warp,
+    /// Moves anchors of a file's UVs, no face flipped.
+    EditUv,
+    /// Aligns points of a surface with points of a texture, no face flipped.
+    TextureMap,
+    /// Packs the UV islands that the file has into one atlas, each as it is.
+    Repack,
+}
+
+impl Kind {
+    /// All kinds.
+    pub const ALL: [Self; 9] = [
+        Self::Unwrap,
+        Self::Measure,
+        Self::Verify,
+        Self::Solve,
+        Self::Deform,
+        Self::Warp,
+        Self::EditUv,
+        Self::TextureMap,
+        Self::Repack,
+    ];
+
+    /// Returns the content that jobs of this kind read.
+    pub fn reads(self) -> Content {
+        match self {
+            Self::Unwrap
+            | Self::Measure
+            | Self::Verify
+            | Self::EditUv
+            | Self::TextureMap
+            | Self::Repack => Content::Surface,
+            Self::Solve => Content::Problem,
+            Self::Deform => Content::Body,
+            Self::Warp => Content::Picture,
+        }
+    }
+
+    /// Returns whether jobs of this kind report what is proven of their result.
+    pub fn proves(self) -> bool {
+        !matches!(self, Self::Measure | Self::Solve | Self::Deform)
+    }
+
+    /// Returns whether jobs of this kind measure atlases.
+    pub fn measures(self) -> bool {
+        matches!(self, Self::Unwrap | Self::Repack | Self::Measure)
+    }
+
+    /// Returns the name used in JSON and in the store.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Unwrap => "unwrap",
+            Self::Measure => "measure",
+            Self::Verify => "verify",
+            Self::Solve => "solve",
+            Self::Deform => "deform",
+            Self::Warp => "warp",
+            Self::EditUv => "edit_uv",
+            Self::TextureMap => "texture_map",
+            Self::Repack => "repack",
+        }
+    }
+}
+
+// The server's knowledge of computations that it does not contain.
+
+/// Rejection of options.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RefusedOptions {
+    /// Code and message.
+    pub failure: Failure,
+    /// Column of the error in a formula, from 1.
+    pub column: Option<usize>,
+}
+
+/// Catalog of computations: their options, their reports, the files that they read. A server asks it instead of
+/// linking the code that computes.
+pub trait Catalog: Debug + Send + Sync {
+    /// Checks the options of a kind, as far as possible without the file, and completes them with defaults.
+    ///
+    /// # Errors
+    /// Fails if an option is unknown, has a wrong type or is out of range.
+    fn complete(&self, kind: Kind, options: Value) -> Result<Value, RefusedOptions>;
+
+    /// Returns the format of a file of `size` bytes that is read for `content`, from its first bytes `head`;
+    /// [`SEARCHED_BYTES`](crate::SEARCHED_BYTES) of them suffice.
+    fn format(&self, head: &[u8], size: u64, content: Content) -> Option<Format>;
+
+    /// Returns the paths that the main file, and the material files beside it, refer to.
+    fn references(&self, upload: &Upload) -> BTreeSet<String>;
+
+    /// Returns the format of the main file as a surface.
+    fn format_of(&self, upload: &Upload) -> Option<Format>;
+
+    /// Returns the schemas of all options and reports, with those that they refer to.
+    #[cfg(feature = "schema")]
+    fn schemas(&self) -> Vec<(String, RefOr<Schema>)>;
 }

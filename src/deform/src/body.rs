@@ -1,9 +1,13 @@
 //! Bodies to deform.
 
 use super::problem_error::ProblemError;
-use unwrapd_maps::mesh::{ElementError, PlanarMesh, TetMesh, validate};
-use unwrapd_method::energy::{RestShape, voronoi_areas};
-use unwrapd_method::numerics::square::Square;
+use serde::{Deserialize, Serialize};
+use unwrapd_maps::mesh::{
+    ElementError, PlanarMesh, TetMesh, UsedVertices, boundary_edges, validate,
+};
+use unwrapd_method::energy::{RestShape, Row, voronoi_areas};
+use unwrapd_method::numerics::principal_axes::PrincipalAxes;
+use unwrapd_method::numerics::square::{Matrix, Square, apply, transposed};
 use unwrapd_method::numerics::vec2::{doubled_area, sub};
 use unwrapd_method::numerics::vec3;
 
@@ -61,14 +65,16 @@ impl From<&TetMesh> for Body {
 impl Body {
     /// Creates a body of counter-clockwise triangles of the plane.
     pub(super) fn planar(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> Self {
-        let shape = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(|v| vertices[v as usize]);
-            RestShape::from_edges(sub(b, a), sub(c, a))
-        };
         Self {
             rest: vertices.as_flattened().to_vec(),
             elements: BodyElements::Triangles {
-                rest: triangles.iter().map(shape).collect(),
+                rest: triangles
+                    .iter()
+                    .map(|t: &[u32; 3]| {
+                        let [a, b, c] = t.map(|v| vertices[v as usize]);
+                        RestShape::from_edges(sub(b, a), sub(c, a))
+                    })
+                    .collect(),
                 corners: triangles.to_vec(),
             },
         }
@@ -154,19 +160,23 @@ impl Body {
         match &self.elements {
             BodyElements::Triangles { corners, .. } => {
                 let points: &[[f64; 2]] = x.as_chunks().0;
-                let det = |t: &[u32; 3]| {
-                    let [a, b, c] = t.map(|v| points[v as usize]);
-                    doubled_area(a, b, c)
-                };
-                corners.iter().map(det).collect()
+                corners
+                    .iter()
+                    .map(|t: &[u32; 3]| {
+                        let [a, b, c] = t.map(|v| points[v as usize]);
+                        doubled_area(a, b, c)
+                    })
+                    .collect()
             }
             BodyElements::Tetrahedra { corners, .. } => {
                 let points: &[[f64; 3]] = x.as_chunks().0;
-                let det = |t: &[u32; 4]| {
-                    let [a, b, c, d] = t.map(|v| points[v as usize]);
-                    [b, c, d].map(|p| vec3::sub(p, a)).det()
-                };
-                corners.iter().map(det).collect()
+                corners
+                    .iter()
+                    .map(|t: &[u32; 4]| {
+                        let [a, b, c, d] = t.map(|v| points[v as usize]);
+                        [b, c, d].map(|p| vec3::sub(p, a)).det()
+                    })
+                    .collect()
             }
         }
     }
@@ -195,9 +205,14 @@ impl Body {
         for (i, &v) in chosen.iter().enumerate() {
             group[v as usize] = i as u32;
         }
-        let is_chosen = |v: &&u32| group[**v as usize] != u32::MAX;
         let mut corners = self.corners();
-        corners.retain(|element| element.iter().filter(is_chosen).count() >= 2);
+        corners.retain(|element| {
+            element
+                .iter()
+                .filter(|v: &&u32| group[**v as usize] != u32::MAX)
+                .count()
+                >= 2
+        });
         let mut changed = true;
         while changed {
             changed = false;
@@ -217,4 +232,96 @@ impl Body {
         }
         chosen.iter().map(|&v| group[v as usize]).collect()
     }
+}
+
+// Axes about which paths are bent.
+
+/// Returns the axis of the plane, or the principal axes of a body of space, that of its least extent first: they turn
+/// with the body.
+pub(super) fn axes(body: &Body) -> Vec<[f64; 3]> {
+    if body.dim() == 2 {
+        return vec![[0.0, 0.0, 1.0]];
+    }
+    let places: &[[f64; 3]] = body.rest.as_chunks().0;
+    let [long, middle, short] = PrincipalAxes::of(places.iter().copied()).axes;
+    vec![short, middle, long]
+}
+
+// Treatment of the boundary of a map of the plane.
+
+/// Treatment of the boundary of a map of the plane while handles pull it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
+#[serde(rename_all = "kebab-case")]
+pub enum Boundary {
+    /// The boundary is free.
+    #[default]
+    Free,
+    /// The boundary stays fixed. A map without overlaps stays without overlaps.
+    Fixed,
+}
+
+impl Boundary {
+    /// Returns the vertices of `triangles` that stay fixed, in increasing order.
+    pub(super) fn held(self, n_vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
+        if self == Self::Free {
+            return Vec::new();
+        }
+        let edges = boundary_edges(n_vertices, triangles);
+        UsedVertices::new(edges.into_iter().flatten()).into_vec()
+    }
+}
+
+// Point location: the element that contains a point.
+
+/// Share of an element by which points on an edge between two elements may lie outside both.
+const ROUNDING: f64 = 1e-9;
+
+/// Finds the element at rest that contains a point and returns the point's barycentric coordinates; the first if there
+/// are several.
+pub(super) fn locate<const D: usize>(body: &Body, at: [f64; D]) -> Option<Row>
+where
+    Matrix<D>: Square<D>,
+{
+    let place = |v: u32| -> [f64; D] { std::array::from_fn(|k| body.rest[D * v as usize + k]) };
+    for element in body.corners() {
+        let origin = place(element[0]);
+        let edges: Matrix<D> = std::array::from_fn(|k| {
+            let corner = place(element[k + 1]);
+            std::array::from_fn(|c| corner[c] - origin[c])
+        });
+        let arm: [f64; D] = std::array::from_fn(|k| at[k] - origin[k]);
+        if !is_within_reach(&edges, &arm) {
+            continue;
+        }
+        let inverse = transposed(&edges.inverse(edges.det()));
+        let others = apply(&inverse, &arm);
+        let first = 1.0 - others.iter().sum::<f64>();
+        if first >= -ROUNDING && others.iter().all(|&w| w >= -ROUNDING) {
+            let weights = std::iter::once(first).chain(others);
+            let mut row: Row = element.iter().copied().zip(weights).collect();
+            row.sort_unstable_by_key(|&(v, _)| v);
+            return Some(row);
+        }
+    }
+    None
+}
+
+/// Returns the vertex at which a point lies, if any.
+pub(super) fn sole_vertex(row: &Row) -> Option<u32> {
+    row.iter()
+        .find(|&&(_, weight): &&(u32, f64)| weight >= 1.0 - ROUNDING)
+        .map(|&(vertex, _)| vertex)
+}
+
+/// Returns whether the element's box, slightly enlarged, contains the point: a cheap test before the exact one.
+fn is_within_reach<const D: usize>(edges: &Matrix<D>, arm: &[f64; D]) -> bool {
+    (0..D).all(|k| {
+        let along = edges.iter().map(|edge| edge[k]);
+        let (low, high) = along.fold((0.0, 0.0), |(low, high): (f64, f64), x| {
+            (low.min(x), high.max(x))
+        });
+        let margin = ROUNDING * D as f64 * (high - low);
+        (low - margin..=high + margin).contains(&arm[k])
+    })
 }

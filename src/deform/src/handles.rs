@@ -1,19 +1,13 @@
 //! Handles in the form in which users name them.
 
-use std::collections::HashMap;
-
-use serde::{Deserialize, Serialize};
-
-use super::aims::Aim;
-use super::body::{Body, BodyElements};
-use super::bound::{Turned, TurningPath, stations};
-use super::locate::{locate, sole_vertex};
-use super::numbers;
-use super::paired::{handles as paired, with_points};
+use super::body::{Body, BodyElements, locate, sole_vertex};
 use super::problem_error::ProblemError;
+use serde::{Deserialize, Deserializer, Serialize};
+use std::cmp::Ordering;
+use std::collections::HashMap;
 use unwrapd_method::energy::Row;
 use unwrapd_method::numerics::rotation::Rotation;
-use unwrapd_method::numerics::square::{Matrix, Square};
+use unwrapd_method::numerics::square::{Matrix, Square, apply};
 use unwrapd_method::numerics::vec3;
 use unwrapd_method::solver::Handles;
 
@@ -33,18 +27,18 @@ pub enum Handle {
         /// Its index, from 0.
         vertex: u32,
         /// Where it goes.
-        #[serde(deserialize_with = "numbers::position")]
+        #[serde(deserialize_with = "place")]
         to: Vec<f64>,
     },
     /// Every vertex in a ball around a point, moved as a rigid body.
     Disc {
         /// The center at rest.
-        #[serde(deserialize_with = "numbers::position")]
+        #[serde(deserialize_with = "place")]
         center: Vec<f64>,
         /// The radius.
         radius: f64,
         /// Where the center goes.
-        #[serde(deserialize_with = "numbers::position")]
+        #[serde(deserialize_with = "place")]
         to: Vec<f64>,
         /// A turn about the center in degrees, counter-clockwise, of a hundred turns (36000) at
         /// most. Half a turn and more is made in steps of 15 degrees.
@@ -57,10 +51,10 @@ pub enum Handle {
     /// A point of an element at rest, a vertex if it is one.
     Point {
         /// The point.
-        #[serde(deserialize_with = "numbers::position")]
+        #[serde(deserialize_with = "place")]
         at: Vec<f64>,
         /// Where it goes.
-        #[serde(deserialize_with = "numbers::position")]
+        #[serde(deserialize_with = "place")]
         to: Vec<f64>,
     },
 }
@@ -144,7 +138,7 @@ where
             .iter()
             .map(|path| path.at(1.0).to_vec())
             .collect();
-        let bound = paired(D, &self.vertices, &targets, &groups)?;
+        let bound = paired_handles(D, &self.vertices, &targets, &groups)?;
         let point_targets = self.point_paths.iter().flat_map(|path| path.at(1.0));
         let last = with_points(bound, self.points, point_targets.collect())?;
         let way_of: HashMap<u32, usize> = self.vertices.iter().copied().zip(0..).collect();
@@ -182,9 +176,12 @@ where
     /// Returns whether a vertex turns, or its target differs from its rest position by more than rounding.
     fn moves(&self, i: usize) -> bool {
         let rest = &self.body.rest[D * self.vertices[i] as usize..];
-        let differ = |(x, to): (&f64, f64)| (x - to).abs() > ROUNDING * x.abs().max(to.abs());
         let path = &self.paths[i];
-        path.spin != [[0.0; D]; D] || rest.iter().zip(path.at(1.0)).any(differ)
+        path.spin != [[0.0; D]; D]
+            || rest
+                .iter()
+                .zip(path.at(1.0))
+                .any(|(x, to): (&f64, f64)| (x - to).abs() > ROUNDING * x.abs().max(to.abs()))
     }
 
     fn add(&mut self, index: usize, handle: &Handle) -> Result<(), ProblemError> {
@@ -302,4 +299,209 @@ fn position<const D: usize>(handle: usize, numbers: &[f64]) -> Result<[f64; D], 
     position
         .filter(|p| p.iter().all(|x| x.is_finite()))
         .ok_or(ProblemError::BadTarget { handle, dim: D })
+}
+
+// Handles paired with their targets.
+
+/// Pairs vertices with their targets, each vertex once.
+pub(super) fn paired_handles(
+    dim: usize,
+    vertices: &[u32],
+    targets: &[Vec<f64>],
+    groups: &[u32],
+) -> Result<Handles, ProblemError> {
+    if vertices.len() != targets.len() {
+        return Err(ProblemError::Unpaired {
+            handles: vertices.len(),
+            targets: targets.len(),
+        });
+    }
+    if let Some(handle) = targets
+        .iter()
+        .position(|t: &Vec<f64>| t.len() != dim || !t.iter().all(|x| x.is_finite()))
+    {
+        return Err(ProblemError::BadTarget { handle, dim });
+    }
+    // Sort by vertex, and keep each vertex once. Its targets must be equal.
+    let mut order: Vec<usize> = (0..vertices.len()).collect();
+    order.sort_by_key(|&i| vertices[i]);
+    if let Some(pair) = order
+        .windows(2)
+        .find(|w: &&[usize]| vertices[w[0]] == vertices[w[1]] && targets[w[0]] != targets[w[1]])
+    {
+        let vertex = vertices[pair[0]];
+        return Err(ProblemError::ContradictoryHandles { vertex });
+    }
+    order.dedup_by_key(|i| vertices[*i]);
+    Ok(Handles {
+        vertices: order.iter().map(|&i| vertices[i]).collect(),
+        targets: order.iter().flat_map(|&i| targets[i].clone()).collect(),
+        groups: order.iter().map(|&i| groups[i]).collect(),
+        ..Handles::default()
+    })
+}
+
+/// Adds points inside elements to handles; all targets of one point must be equal.
+pub(super) fn with_points(
+    handles: Handles,
+    points: Vec<Row>,
+    point_targets: Vec<f64>,
+) -> Result<Handles, ProblemError> {
+    let dim = point_targets.len() / points.len().max(1);
+    let target = |i: usize| &point_targets[dim * i..dim * (i + 1)];
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    // Weights are finite.
+    order.sort_by(|&i, &j| points[i].partial_cmp(&points[j]).unwrap_or(Ordering::Equal));
+    if order
+        .windows(2)
+        .any(|w: &[usize]| points[w[0]] == points[w[1]] && target(w[0]) != target(w[1]))
+    {
+        return Err(ProblemError::ContradictoryPoints);
+    }
+    Ok(Handles {
+        points,
+        point_targets,
+        ..handles
+    })
+}
+
+// The vertices and points that each handle pulls.
+
+/// The vertices and points that one handle pulls.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Aim {
+    /// Indices of the vertices.
+    pub vertices: Vec<u32>,
+    /// Points, as indices into [`Handles::points`](unwrapd_method::solver::Handles::points).
+    pub points: Vec<usize>,
+}
+
+impl Aim {
+    /// Pulls one vertex.
+    pub(super) fn at_vertex(vertex: u32) -> Self {
+        Self {
+            vertices: vec![vertex],
+            points: Vec::new(),
+        }
+    }
+
+    /// Pulls one point.
+    pub(super) fn at_point(point: usize) -> Self {
+        Self {
+            vertices: Vec::new(),
+            points: vec![point],
+        }
+    }
+}
+
+// Paths of handles from rest to their targets.
+
+/// Turn, in degrees, from which the path is no longer the shortest one and must be prescribed.
+const HALF_TURN: f64 = 180.0;
+
+/// Largest turn between two stations, in degrees. Each station is settled before the next; twisted bars keep their
+/// turns at 15 degrees, by measurement, with three or four factorizations per station.
+const BETWEEN_STATIONS: f64 = 15.0;
+
+/// Turn of a disc of vertices.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Turned {
+    /// Index of its handle in the user's list.
+    pub handle: usize,
+    /// Vertices of the disc.
+    pub vertices: Vec<u32>,
+    /// Unit vector of the axis; ignored in the plane.
+    pub axis: [f64; 3],
+    /// Degrees, counter-clockwise seen against the axis.
+    pub degrees: f64,
+}
+
+/// Path of a vertex or a point: an arm that turns at constant speed about a center that moves straight.
+pub(super) struct TurningPath<const D: usize> {
+    pub from: [f64; D],
+    pub to: [f64; D],
+    pub arm: [f64; D],
+    /// Logarithm of the turn.
+    pub spin: Matrix<D>,
+}
+
+impl<const D: usize> TurningPath<D>
+where
+    Matrix<D>: Square<D> + Rotation<D>,
+{
+    pub fn straight(from: [f64; D], to: [f64; D]) -> Self {
+        Self {
+            from,
+            to,
+            arm: [0.0; D],
+            spin: [[0.0; D]; D],
+        }
+    }
+
+    /// Returns the position after this share of the path.
+    pub fn at(&self, share: f64) -> [f64; D] {
+        let arm = apply(&Matrix::<D>::exp(&self.spin, share), &self.arm);
+        std::array::from_fn(|k| (1.0 - share) * self.from[k] + share * self.to[k] + arm[k])
+    }
+}
+
+/// Returns the stations of handles along their paths; the last has the targets at the ends. Only turns of half a turn
+/// or more need more than the last one.
+pub(super) fn stations<const D: usize>(
+    last: Handles,
+    of_vertex: &dyn Fn(u32) -> usize,
+    paths: &[TurningPath<D>],
+    point_paths: &[TurningPath<D>],
+    turns: &[Turned],
+) -> Vec<Handles>
+where
+    Matrix<D>: Square<D> + Rotation<D>,
+{
+    // The shortest paths make turns of less than half a turn by themselves.
+    let largest = turns.iter().map(|turned| turned.degrees.abs());
+    let largest = largest.fold(0.0, f64::max);
+    if largest < HALF_TURN {
+        return vec![last];
+    }
+    // Add stations in equal steps of the turn.
+    let n_stations = (largest / BETWEEN_STATIONS).ceil();
+    let between = (1..n_stations as usize).map(|k| {
+        let share = k as f64 / n_stations;
+        let places = last.vertices.iter().map(|&v| paths[of_vertex(v)].at(share));
+        let points = point_paths.iter().map(|path| path.at(share));
+        Handles {
+            targets: places.flatten().collect(),
+            point_targets: points.flatten().collect(),
+            ..last.clone()
+        }
+    });
+    let mut stations: Vec<Handles> = between.collect();
+    stations.push(last);
+    stations
+}
+
+// Coordinates in JSON.
+
+/// Deserializes a position with any number of coordinates.
+pub(super) fn place<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
+    let numbers = Vec::<Option<f64>>::deserialize(from)?;
+    Ok(numbers.into_iter().map(or_nan).collect())
+}
+
+/// Deserializes a position in the plane.
+pub(super) fn planar<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
+    <[Option<f64>; 2]>::deserialize(from).map(|numbers| numbers.map(or_nan))
+}
+
+/// Deserializes a list of positions.
+pub(super) fn positions<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Vec<f64>>, D::Error> {
+    let positions = Vec::<Vec<Option<f64>>>::deserialize(from)?;
+    Ok(positions
+        .into_iter()
+        .map(|numbers: Vec<Option<f64>>| numbers.into_iter().map(or_nan).collect())
+        .collect())
+}
+
+fn or_nan(number: Option<f64>) -> f64 {
+    number.unwrap_or(f64::NAN)
 }

@@ -1,7 +1,6 @@
 //! Choice of paths to the targets: straight ones, and others if those do not lead there.
 
-use super::attempt::{Attempt, Trial};
-use super::missing::Missing;
+use super::missing::{Missing, PathAttempt, Trial};
 use super::normalized::Frame;
 use super::problem::Problem;
 use super::problem_error::ProblemError;
@@ -57,7 +56,7 @@ where
 {
     // Straight paths.
     let search = trial.problem.search;
-    let mut best = Attempt::<D>::bent(&mut trial, start, &[])?;
+    let mut best = PathAttempt::<D>::bent(&mut trial, start, &[])?;
     best.go_on(&mut trial, LeastProgress::BRISK)?;
     if best.is_enough(search) {
         return Ok(best.into_solution(&trial));
@@ -106,8 +105,8 @@ fn bent<const D: usize>(
     trial: &mut Trial,
     start: &[f64],
     bends: &[Vec<[f64; 3]>],
-    mut best: Attempt<D>,
-) -> Result<Attempt<D>, ProblemError>
+    mut best: PathAttempt<D>,
+) -> Result<PathAttempt<D>, ProblemError>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
@@ -115,7 +114,7 @@ where
         if trial.is_spent() {
             break;
         }
-        let mut attempt = Attempt::bent(trial, start, bends)?;
+        let mut attempt = PathAttempt::bent(trial, start, bends)?;
         attempt.go_on(trial, LeastProgress::BRISK)?;
         if attempt.is_enough(trial.problem.search) {
             return Ok(attempt);
@@ -157,8 +156,11 @@ fn flow_to(trial: &mut Trial, targets: &Handles, x: &mut [f64]) {
     // Hold the vertices that are at their targets; pull the others and all points.
     let place = |v: u32| &x[dim * v as usize..dim * (v as usize + 1)];
     let ends = targets.targets.chunks_exact(dim);
-    let is_held = |pair: &(&u32, &[f64])| place(*pair.0) == pair.1;
-    let (held, pulled): (Vec<_>, Vec<_>) = targets.vertices.iter().zip(ends).partition(is_held);
+    let (held, pulled): (Vec<_>, Vec<_>) = targets
+        .vertices
+        .iter()
+        .zip(ends)
+        .partition(|pair: &(&u32, &[f64])| place(*pair.0) == pair.1);
     let held: Vec<u32> = held.into_iter().map(|(&v, _)| v).collect();
     let of_vertices = pulled.iter().map(|(v, _)| vec![(**v, 1.0)]);
     let rows: Vec<Row> = of_vertices.chain(targets.points.iter().cloned()).collect();

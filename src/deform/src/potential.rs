@@ -1,9 +1,8 @@
 //! A problem's energy as a function of positions.
 
 use super::normalized::Frame;
-use super::problem::Problem;
+use super::problem::{Problem, Units};
 use super::problem_error::ProblemError;
-use super::units::Units;
 use unwrapd_method::numerics::csr::Csr;
 use unwrapd_method::solver::Objective;
 

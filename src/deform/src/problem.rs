@@ -1,14 +1,14 @@
 //! A body, handles and their targets, an energy and a barrier.
 
-use super::aims::Aim;
 use super::body::{Body, BodyElements};
-use super::bound::Turned;
 use super::boundary_barrier::BoundaryBarrier;
-use super::handles::{Bound, Handle, bind};
+use super::handles::{Aim, Bound, Handle, Turned, bind};
 use super::problem_error::ProblemError;
-use super::units::Units;
 use super::untangle::{bad_elements, untangled};
+use serde::{Deserialize, Serialize};
+use std::fmt;
 use unwrapd_api::options::options;
+use unwrapd_maps::mesh::UnionFind;
 use unwrapd_maps::plane::are_disjoint;
 use unwrapd_method::barrier::{Barrier, BarrierKind};
 use unwrapd_method::energy::{EnergyKind, Term};
@@ -214,4 +214,75 @@ impl Problem {
             .unwrap_or_default();
         terms.iter().any(|term| term.forbids_flips())
     }
+}
+
+// Units of a problem's numbers.
+
+/// Unit of a problem's numbers: β, ε, tolerances and energies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Units {
+    /// The length in which the mean element has area or volume 1.
+    #[default]
+    Normalized,
+    /// The unit of the body's positions.
+    Given,
+}
+
+impl fmt::Display for Units {
+    /// Writes the phrase that follows an energy.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Normalized => "for a mean element of size 1",
+            Self::Given => "in the unit of the mesh",
+        })
+    }
+}
+
+// Parts of a body that no handle moves.
+
+impl Problem {
+    /// Holds at rest the parts of the body, connected by elements, that have no handle; returns their number.
+    ///
+    /// Nothing else would keep them in place: energies do not change when a part moves as a rigid body.
+    pub fn hold_idle_parts(&mut self) -> usize {
+        let (part, n_parts) = parts(&self.body);
+        let mut is_idle = vec![true; n_parts];
+        for handles in &self.stations {
+            let points = handles.points.iter().flatten().map(|&(v, _)| v);
+            for v in handles.vertices.iter().copied().chain(points) {
+                is_idle[part[v as usize] as usize] = false;
+            }
+        }
+        let vertices = 0..self.body.n_vertices() as u32;
+        let held: Vec<u32> = vertices
+            .filter(|&v| is_idle[part[v as usize] as usize])
+            .collect();
+        let dim = self.body.dim();
+        for handles in &mut self.stations {
+            // One group is enough: it does not move.
+            let group = handles.groups.iter().max().map_or(0, |g| g + 1);
+            for &v in &held {
+                let v_first = dim * v as usize;
+                handles.vertices.push(v);
+                handles
+                    .targets
+                    .extend(&self.body.rest[v_first..v_first + dim]);
+                handles.groups.push(group);
+            }
+        }
+        is_idle.into_iter().filter(|&idle| idle).count()
+    }
+}
+
+/// Returns the part number of each vertex, and the number of parts.
+fn parts(body: &Body) -> (Vec<u32>, usize) {
+    let mut sets = UnionFind::new(body.n_vertices());
+    for element in body.corners() {
+        for &v in &element[1..] {
+            sets.unite(element[0], v);
+        }
+    }
+    sets.labels()
 }

@@ -1,13 +1,9 @@
 //! Problem files: a mesh, handles and their targets, an energy and a barrier.
 
-use super::aims::Aim;
 use super::body::Body;
-use super::handles::{Bound, Handle, bind};
-use super::numbers;
-use super::paired::handles;
-use super::problem::{Model, Problem};
+use super::handles::{self, Aim, Bound, Handle, bind, paired_handles};
+use super::problem::{Model, Problem, Units};
 use super::problem_error::ProblemError;
-use super::units::Units;
 use serde::Deserialize;
 use unwrapd_files::io::Elements;
 use unwrapd_method::barrier::BarrierKind;
@@ -28,7 +24,7 @@ pub struct ProblemFile {
     /// The pulled parts: vertex ids, or handles in the form of all other kinds of jobs.
     pub handles: ProblemHandles,
     /// Where vertices should come, one position each.
-    #[serde(default, deserialize_with = "numbers::positions")]
+    #[serde(default, deserialize_with = "handles::positions")]
     pub targets: Vec<Vec<f64>>,
     /// Target sets to go through one after another, the last of them [`targets`](Self::targets).
     #[serde(default)]
@@ -205,7 +201,7 @@ impl ProblemHandles {
         let groups = body.groups(vertices);
         let before = sequence.iter().filter(|&set| set != targets);
         let stations = before.chain([targets]);
-        let stations = stations.map(|set| handles(body.dim(), vertices, set, &groups));
+        let stations = stations.map(|set| paired_handles(body.dim(), vertices, set, &groups));
         Ok(Bound {
             stations: stations.collect::<Result<_, _>>()?,
             aims: vertices.iter().map(|&v| Aim::at_vertex(v)).collect(),
@@ -215,8 +211,10 @@ impl ProblemHandles {
 }
 
 fn check_vertices(vertices: &[u32], n_vertices: usize) -> Result<(), ProblemError> {
-    let outside = |&v: &u32| v as usize >= n_vertices;
-    match vertices.iter().position(outside) {
+    match vertices
+        .iter()
+        .position(|&v: &u32| v as usize >= n_vertices)
+    {
         Some(handle) => Err(ProblemError::UnknownHandle {
             handle,
             vertex: vertices[handle],

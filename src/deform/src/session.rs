@@ -1,16 +1,13 @@
 //! Interactive deformation of a body.
 
-use std::collections::BTreeMap;
-
 use super::body::Body;
-use super::editor::{Editable, Editor, HandleId};
+use super::editor::{Editable, Editor, HandleId, Live};
 use super::handles::{Handle, bind};
-use super::live::Live;
-use super::normalized::Frame;
+use super::normalized::{Frame, MapQuality};
 use super::problem::{Model, Problem};
 use super::problem_error::ProblemError;
 use super::pull::is_arrived;
-use super::quality::MapQuality;
+use std::collections::BTreeMap;
 use unwrapd_method::solver::{Handles, Stage, Summary};
 
 /// A session in which a body is deformed: its mesh and energy are built once, handles are added, moved and removed, and

@@ -12,7 +12,7 @@
 //! add up without ambiguity, however much they are sheared. A path across slices would lose half turns there.
 
 use super::body::{Body, BodyElements};
-use super::bound::Turned;
+use super::handles::Turned;
 use super::problem::Problem;
 use serde::{Deserialize, Serialize};
 use std::collections::{HashMap, HashSet, VecDeque};
@@ -79,8 +79,10 @@ impl Problem {
             let [[a, b], [c, d]] = [edges[0], edges[1]].map(|edge| direction(x, edge));
             (a * d - b * c).atan2(a * c + b * d)
         };
-        let turn = |edges: &[[u32; 2]]| between(x, edges) - between(&self.body.rest, edges);
-        let angle: f64 = path.windows(2).map(turn).sum();
+        let angle: f64 = path
+            .windows(2)
+            .map(|edges: &[[u32; 2]]| between(x, edges) - between(&self.body.rest, edges))
+            .sum();
         Some((-angle / std::f64::consts::TAU, end))
     }
 
@@ -213,17 +215,18 @@ impl Problem {
         }
         let from_first = self.body.distances(first);
         let away = |v: u32| from_first[v as usize];
-        let nearest = |a: &u32, b: &u32| away(*a).total_cmp(&away(*b)).then(a.cmp(b));
-        let end = group_of.keys().copied().min_by(nearest)?;
+        let end = group_of
+            .keys()
+            .copied()
+            .min_by(|a: &u32, b: &u32| away(*a).total_cmp(&away(*b)).then(a.cmp(b)))?;
         if !away(end).is_finite() {
             return None;
         }
         // Collect the vertices between the two handles, in the order of their share of the path.
-        let is_with_end = |v: &&u32| group_of.get(v) == group_of.get(&end);
         let last: Vec<u32> = handles
             .vertices
             .iter()
-            .filter(is_with_end)
+            .filter(|v: &&u32| group_of.get(v) == group_of.get(&end))
             .copied()
             .collect();
         let from_last = self.body.distances(&last);

@@ -145,9 +145,10 @@ impl Patch {
             },
         };
         let vertices = vertices.into_vec();
-        let stays = |v: &u32| !is_free[vertices[*v as usize] as usize];
         Self {
-            fixed: (0..vertices.len() as u32).filter(stays).collect(),
+            fixed: (0..vertices.len() as u32)
+                .filter(|v: &u32| !is_free[vertices[*v as usize] as usize])
+                .collect(),
             vertices,
             elements,
         }

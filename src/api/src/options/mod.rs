@@ -16,23 +16,12 @@
 //! in kebab case, for the command line and for JSON.
 //!
 //! Dependencies between options are not declared here: their owners check them.
-
 mod declare;
 mod json;
-mod option_set;
-mod range;
-
-pub use crate::options;
-pub use json::{deserialized, taken};
-pub use option_set::{Object, OptionSet};
-pub use range::{Ranged, within};
-
 #[cfg(feature = "schema")]
 mod typed;
-#[cfg(feature = "schema")]
-mod word_or_text;
 
+pub use crate::options;
+pub use json::{Object, OptionSet, Ranged, deserialized, taken, within};
 #[cfg(feature = "schema")]
-pub use typed::{as_typed, help_of, typed};
-#[cfg(feature = "schema")]
-pub use word_or_text::WordOrText;
+pub use typed::{WordOrText, as_typed, help_of, typed};

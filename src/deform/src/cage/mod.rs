@@ -10,22 +10,16 @@
 //!
 //! Parts of a surface that are nearer to each other than a voxel share voxels and move together. A surface with holes
 //! larger than a voxel has no inside; its cage is a layer around it.
-mod coarse;
 mod embedding;
-mod error;
 mod grid;
 mod split;
-mod voxels;
 
-pub use coarse::Caged;
-pub use embedding::Embedding;
-pub use error::CageError;
+pub use embedding::{Caged, Embedding};
+pub use grid::CageError;
+use grid::{Grid, ORDERS, Voxels, path_slots};
 pub use split::{Added, SplitSurface};
-
-use grid::{Grid, ORDERS, path_slots};
 use unwrapd_maps::mesh::{TetMesh, validate};
 use unwrapd_method::numerics::bounds::bounds_of;
-use voxels::Voxels;
 
 /// Most voxels that become tetrahedra: six million of these.
 const MOST_VOXELS: usize = 1_000_000;

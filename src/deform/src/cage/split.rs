@@ -51,7 +51,7 @@ impl Cage {
             .positions
             .iter()
             .map(|&p| snapped(levels(self.grid.local(p))));
-        let mut cutter = Cutter {
+        let mut cutter = SurfaceCutter {
             levels: levels.collect(),
             result: SplitSurface {
                 positions: surface.positions.to_vec(),
@@ -93,7 +93,7 @@ struct CageCorner {
     weights: [f64; 3],
 }
 
-struct Cutter {
+struct SurfaceCutter {
     /// Levels of every vertex.
     levels: Vec<Levels>,
     result: SplitSurface,
@@ -102,7 +102,7 @@ struct Cutter {
     cuts: HashMap<[u32; 2], u32>,
 }
 
-impl Cutter {
+impl SurfaceCutter {
     fn split(&mut self, parent: u32, triangle: [u32; 3]) {
         let weights = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let corner = |k: usize| CageCorner {

@@ -1,8 +1,6 @@
 //! The outline of a drawing's filled shapes.
 
-use super::nesting::Windings;
-use super::transform::numbers;
-use super::{Frame, MOST_LOOPS, MOST_VERTICES, Outline, OutlineError, transform};
+use super::{Frame, MOST_LOOPS, MOST_VERTICES, Outline, OutlineError, Windings};
 use kurbo::{Affine, BezPath, Circle, Ellipse, PathEl, Point, Rect, RoundedRect, Shape};
 use roxmltree::{Document, Node, ParsingOptions};
 use unwrapd_maps::plane::{doubled_polygon_area, meeting_point};
@@ -43,8 +41,8 @@ pub fn of_svg(text: &str, settings: &SvgSettings) -> Result<Outline, OutlineErro
         nodes_limit: MOST_NODES,
         ..ParsingOptions::default()
     };
-    let invalid = |error: roxmltree::Error| OutlineError::InvalidSvg(error.to_string());
-    let document = Document::parse_with_options(text, options).map_err(invalid)?;
+    let document = Document::parse_with_options(text, options)
+        .map_err(|error: roxmltree::Error| OutlineError::InvalidSvg(error.to_string()))?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
         return Err(OutlineError::InvalidSvg("the root is not `svg`".into()));
@@ -194,9 +192,11 @@ fn polygons(
     tolerance: f64,
     most_vertices: usize,
 ) -> Result<Vec<Vec<[f64; 2]>>, PathError> {
-    let in_range = |p: Point| p.x.abs() < GREATEST && p.y.abs() < GREATEST;
-    let is_in_range = |e: &PathEl| e.is_finite() && e.end_point().is_none_or(in_range);
-    if !path.elements().iter().all(is_in_range) {
+    if !path.elements().iter().all(|e: &PathEl| {
+        e.is_finite()
+            && e.end_point()
+                .is_none_or(|p: Point| p.x.abs() < GREATEST && p.y.abs() < GREATEST)
+    }) {
         return Err(PathError::OutOfRange);
     }
     let mut parts = PathParts::default();
@@ -370,7 +370,7 @@ impl SvgStyle {
         }
         let mut style = outer;
         if let Some(text) = node.attribute("transform") {
-            let map = transform::parse(text)
+            let map = parse(text)
                 .ok_or_else(|| OutlineError::InvalidSvg(format!("transform: {text}")))?;
             style.map *= map;
         }
@@ -396,4 +396,42 @@ fn property<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
         .find(|(key, _)| key.trim() == name)
         .map(|(_, value)| value.trim())
         .or_else(|| node.attribute(name).map(str::trim))
+}
+
+// SVG's `transform` attribute.
+
+/// Parses a list of transforms; returns `None` if it is malformed.
+pub(super) fn parse(text: &str) -> Option<Affine> {
+    let mut map = Affine::IDENTITY;
+    let mut rest = text.trim();
+    while !rest.is_empty() {
+        let (name, after) = rest.split_once('(')?;
+        let (arguments, after) = after.split_once(')')?;
+        map *= transform(name.trim(), &numbers(arguments)?)?;
+        rest = after.trim_start_matches(|c: char| c.is_whitespace() || c == ',');
+    }
+    map.as_coeffs().iter().all(|x| x.is_finite()).then_some(map)
+}
+
+/// Parses numbers separated by blanks or commas.
+pub(super) fn numbers(text: &str) -> Option<Vec<f64>> {
+    text.split(|c: char| c.is_whitespace() || c == ',')
+        .filter(|word| !word.is_empty())
+        .map(|word| word.parse().ok())
+        .collect()
+}
+
+fn transform(name: &str, arguments: &[f64]) -> Option<Affine> {
+    Some(match (name, arguments) {
+        ("matrix", &[a, b, c, d, e, f]) => Affine::new([a, b, c, d, e, f]),
+        ("translate", &[x]) => Affine::translate((x, 0.0)),
+        ("translate", &[x, y]) => Affine::translate((x, y)),
+        ("scale", &[s]) => Affine::scale(s),
+        ("scale", &[x, y]) => Affine::scale_non_uniform(x, y),
+        ("rotate", &[degrees]) => Affine::rotate(degrees.to_radians()),
+        ("rotate", &[degrees, x, y]) => Affine::rotate_about(degrees.to_radians(), (x, y)),
+        ("skewX", &[degrees]) => Affine::skew(degrees.to_radians().tan(), 0.0),
+        ("skewY", &[degrees]) => Affine::skew(0.0, degrees.to_radians().tan()),
+        _ => return None,
+    })
 }

@@ -1,12 +1,12 @@
 //! Anchors: vertices of UV maps and their targets.
 
+use super::chart::{UvChart, UvRest, UvVertices, body};
+use super::map::{EditError, MOST_ANCHORS, UvMap, UvMesh};
+use crate::body::{Body, Boundary, locate};
+use crate::handles;
+use crate::pull::{Grip, Holds};
 use serde::{Deserialize, Serialize};
-
-use super::chart::UvVertices;
-use super::error::MOST_ANCHORS;
-use super::map::UvMap;
-use super::{EditError, UvMesh};
-use crate::numbers;
+use unwrapd_maps::mesh::PlanarMesh;
 use unwrapd_maps::plane::segment_distance;
 use unwrapd_method::numerics::predicates::orient2d_sign;
 
@@ -26,17 +26,17 @@ pub enum Anchor {
         /// Its index, from 0.
         vertex: u32,
         /// Its new UV.
-        #[serde(deserialize_with = "numbers::planar")]
+        #[serde(deserialize_with = "handles::planar")]
         to: [f64; 2],
     },
     /// The point of the surface that has a UV, a vertex if it is one. Next to a boundary that stays, and at most a texel of a
     /// texture of 1024 outside a chart, it is the nearest vertex, whose target is shifted by the same offset.
     Place {
         /// A UV.
-        #[serde(deserialize_with = "numbers::planar")]
+        #[serde(deserialize_with = "handles::planar")]
         at: [f64; 2],
         /// Where it goes.
-        #[serde(deserialize_with = "numbers::planar")]
+        #[serde(deserialize_with = "handles::planar")]
         to: [f64; 2],
     },
 }
@@ -174,11 +174,110 @@ fn chart_at(map: &UvMap, at: [f64; 2]) -> Option<u32> {
     let holds = |face: &usize| {
         let [a, b, c] = map.uvs[*face];
         let orientation = map.orientation[*face];
-        let is_on_side = |(p, q)| orient2d_sign(p, q, at) * orientation >= 0;
         !map.unusable[*face]
             && orientation != 0
-            && [(a, b), (b, c), (c, a)].into_iter().all(is_on_side)
+            && [(a, b), (b, c), (c, a)]
+                .into_iter()
+                .all(|(p, q)| orient2d_sign(p, q, at) * orientation >= 0)
     };
     let face = (0..map.faces.len()).find(holds)?;
     Some(map.chart[face])
+}
+
+// Charts as bodies, with the spots that anchors hold.
+
+/// A chart as a body whose mean triangle has area 1.
+pub(super) struct FlatChart {
+    pub body: Body,
+    /// UVs at the start, in the body's unit.
+    pub start: Vec<[f64; 2]>,
+    pub unit: f64,
+}
+
+/// The vertices and points of a chart that anchors hold.
+pub(super) struct Grips {
+    pub holds: Holds,
+    /// Targets of the pulled vertices, in the caller's unit.
+    targets: Vec<[f64; 2]>,
+}
+
+impl FlatChart {
+    /// Creates the body of a chart; fails if it folds over an edge.
+    pub fn new(chart: &UvChart, rest: UvRest) -> Result<Self, EditError> {
+        PlanarMesh::new(chart.uvs.clone(), chart.triangles.clone())?;
+        let (body, start, unit) = body(chart, rest);
+        Ok(Self { body, start, unit })
+    }
+
+    /// Returns the vertices and points of the chart that these anchors hold.
+    pub fn grips(
+        &self,
+        chart: &UvChart,
+        held: &[Held],
+        boundary: Boundary,
+    ) -> Result<Grips, EditError> {
+        let fixed = boundary.held(chart.uvs.len(), &chart.triangles);
+        let mut grips = Grips {
+            holds: Holds::new(fixed),
+            targets: Vec::with_capacity(held.len()),
+        };
+        for anchor in held {
+            self.take_hold(&mut grips, chart, anchor)?;
+        }
+        Ok(grips)
+    }
+
+    fn take_hold(
+        &self,
+        Grips { holds, targets }: &mut Grips,
+        chart: &UvChart,
+        &Held { anchor, spot, to }: &Held,
+    ) -> Result<(), EditError> {
+        let unknown = EditError::UnknownHandle(anchor);
+        // Find what the spot holds in this chart.
+        let (at, grip) = match spot {
+            Spot::Vertex(vertex) => {
+                // The vertex of a face left out of its chart is not there.
+                let local = chart.vertices.binary_search(&vertex);
+                let local = local.map_err(|_| unknown)?;
+                (chart.uvs[local], holds.grip(vec![(local as u32, 1.0)]))
+            }
+            Spot::Place { at, .. } => {
+                let row = locate(&self.body, at.map(|x| x / self.unit)).ok_or(unknown)?;
+                (at, holds.grip(row))
+            }
+        };
+        // Pull it: a vertex beside the spot keeps its offset from it, a point needs none.
+        match grip {
+            Grip::Fixed if at == to => {}
+            Grip::Fixed => return Err(EditError::OnBoundary(anchor)),
+            Grip::Vertex(vertex) => {
+                let place = chart.uvs[vertex as usize];
+                let to = [0, 1].map(|k| to[k] + (place[k] - at[k]));
+                holds.pull_vertex(anchor, vertex, to.map(|x| x / self.unit));
+                targets.push(to);
+            }
+            Grip::Point(row) => holds.pull_point(anchor, row, to.map(|x| x / self.unit)),
+        }
+        Ok(())
+    }
+
+    /// Returns the UVs of the chart's vertices with the body's at `vertices`. Vertices that did not move or that
+    /// arrived are not rounded.
+    pub fn uvs(&self, chart: &UvChart, grips: &Grips, vertices: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let uv = |v: usize| {
+            if vertices[v] == self.start[v] {
+                chart.uvs[v]
+            } else {
+                vertices[v].map(|x| x * self.unit)
+            }
+        };
+        let mut uvs: Vec<[f64; 2]> = (0..vertices.len()).map(uv).collect();
+        for (to, &(v, target)) in grips.targets.iter().zip(&grips.holds.pulled) {
+            if vertices[v as usize] == target {
+                uvs[v as usize] = *to;
+            }
+        }
+        uvs
+    }
 }

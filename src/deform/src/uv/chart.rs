@@ -1,13 +1,25 @@
 //! Charts of a UV map as maps of the plane.
 
-use std::collections::BTreeMap;
-
-use super::map::UvMap;
-use super::{EditError, UvRest, body};
-use crate::boundary::Boundary;
+use super::map::{EditError, UvMap};
+use crate::body::{Body, BodyElements, Boundary};
 use crate::untangle::untangled;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use unwrapd_maps::embed::rest_shapes;
 use unwrapd_maps::mesh::{CornerUvs, UnionFind, UsedVertices, next, origin};
 use unwrapd_method::numerics::predicates::orient2d_sign;
+
+/// Shape of a triangle without distortion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
+#[serde(rename_all = "kebab-case")]
+pub enum UvRest {
+    /// The present UV shape: where nothing pulls, nothing moves.
+    #[default]
+    Present,
+    /// The shape on the surface, scaled so that the chart keeps its area.
+    Surface,
+}
 
 /// The vertices of a UV map: classes of corners that coincide in space, in UV space and in their chart.
 pub(super) struct UvVertices {
@@ -57,8 +69,9 @@ impl UvVertices {
 
     /// Returns the UVs of these vertices in `uvs`, which are given per corner.
     pub fn places(&self, uvs: &[CornerUvs], vertices: &[u32]) -> Vec<[f64; 2]> {
-        let corner = |&v: &u32| self.first_corner[v as usize] as usize;
-        let corners = vertices.iter().map(corner);
+        let corners = vertices
+            .iter()
+            .map(|&v: &u32| self.first_corner[v as usize] as usize);
         corners.map(|c| uvs[c / 3][c % 3]).collect()
     }
 
@@ -127,28 +140,33 @@ impl UvChart {
             return Err(EditError::Nonorientable { face });
         }
         // Triangles over the vertices that they use.
-        let vertex = |corner: u32| uv_vertices.of_corner[corner as usize];
-        let mut triangles: Vec<[u32; 3]> = faces.corners().map(|c| c.map(vertex)).collect();
+        let mut triangles: Vec<[u32; 3]> = faces
+            .corners()
+            .map(|c| c.map(|corner: u32| uv_vertices.of_corner[corner as usize]))
+            .collect();
         let vertices = UsedVertices::new(triangles.iter().flatten().copied());
         vertices.renumber(triangles.as_flattened_mut());
         let vertices = vertices.into_vec();
         // Positions, UVs and flips.
-        let space = |&v: &u32| {
-            let corner = uv_vertices.first_corner[v as usize] as usize;
-            map.points[map.faces[corner / 3][corner % 3] as usize]
-        };
-        let uv = |&v: &u32| uv_vertices.uv(map, v);
         let mut chart = Self {
             triangles,
-            uvs: vertices.iter().map(uv).collect(),
-            positions: vertices.iter().map(space).collect(),
+            uvs: vertices
+                .iter()
+                .map(|&v: &u32| uv_vertices.uv(map, v))
+                .collect(),
+            positions: vertices
+                .iter()
+                .map(|&v: &u32| {
+                    let corner = uv_vertices.first_corner[v as usize] as usize;
+                    map.points[map.faces[corner / 3][corner % 3] as usize]
+                })
+                .collect(),
             vertices,
             faces,
             flipped: Vec::new(),
         };
-        let is_flipped = |t: &u32| chart.is_flipped(*t as usize, map, positive);
         chart.flipped = (0..chart.triangles.len() as u32)
-            .filter(is_flipped)
+            .filter(|t: &u32| chart.is_flipped(*t as usize, map, positive))
             .collect();
         Ok(chart)
     }
@@ -161,9 +179,13 @@ impl UvChart {
         vertices: &UvVertices,
         uvs: &[[f64; 2]],
     ) -> impl Iterator<Item = (u32, [f64; 2])> {
-        let is_elsewhere =
-            |&(&v, uv): &(&u32, &[f64; 2])| !self.flipped.is_empty() || *uv != vertices.uv(map, v);
-        let elsewhere = self.vertices.iter().zip(uvs).filter(is_elsewhere);
+        let elsewhere = self
+            .vertices
+            .iter()
+            .zip(uvs)
+            .filter(|&(&v, uv): &(&u32, &[f64; 2])| {
+                !self.flipped.is_empty() || *uv != vertices.uv(map, v)
+            });
         elsewhere.map(|(&v, &uv)| (v, uv))
     }
 
@@ -181,9 +203,11 @@ impl UvChart {
         };
         let held = boundary.held(self.uvs.len(), &self.triangles);
         let (body, start, unit) = body(self, UvRest::Surface);
-        let is_repeated = |[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
-        let moved = (!self.triangles.iter().any(is_repeated))
-            .then(|| untangled(&body, start.as_flattened(), &held, 0.0));
+        let moved = (!self
+            .triangles
+            .iter()
+            .any(|[a, b, c]: &[u32; 3]| a == b || b == c || c == a))
+        .then(|| untangled(&body, start.as_flattened(), &held, 0.0));
         let Some(moved) = moved.flatten() else {
             let face = self.faces.faces[first as usize].0 as usize;
             return Err(EditError::Flipped { face });
@@ -226,4 +250,32 @@ impl ChartFaces {
             if is_turned { [a, c, b] } else { [a, b, c] }
         })
     }
+}
+
+/// Returns the chart as a body of mean rest area 1, its present UVs in that unit, and the unit.
+pub(super) fn body(chart: &UvChart, rest: UvRest) -> (Body, Vec<[f64; 2]>, f64) {
+    let present = || {
+        let flat: Vec<[f64; 3]> = chart.uvs.iter().map(|&[u, v]| [u, v, 0.0]).collect();
+        rest_shapes(&flat, &chart.triangles)
+    };
+    let (shapes, unit) = match rest {
+        UvRest::Present => {
+            let shapes = present();
+            let unit = shapes.scale;
+            (shapes, unit)
+        }
+        UvRest::Surface => (
+            rest_shapes(&chart.positions, &chart.triangles),
+            present().scale,
+        ),
+    };
+    let start: Vec<[f64; 2]> = chart.uvs.iter().map(|p| p.map(|x| x / unit)).collect();
+    let body = Body {
+        rest: start.as_flattened().to_vec(),
+        elements: BodyElements::Triangles {
+            corners: chart.triangles.clone(),
+            rest: shapes.shapes,
+        },
+    };
+    (body, start, unit)
 }

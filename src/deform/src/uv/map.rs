@@ -1,10 +1,23 @@
 //! Structure of a UV map: connected corners and the winding of charts.
 
-use super::UvMesh;
-use unwrapd_maps::mesh::{CornerUvs, Edges, UnionFind, next, origin, same_direction, weld};
+use crate::problem_error::ProblemError;
+use unwrapd_maps::mesh::{
+    CornerUvs, Edges, ElementError, UnionFind, next, origin, same_direction, weld,
+};
 use unwrapd_method::numerics::bounds::bounds_of;
 use unwrapd_method::numerics::predicates::orient2d_sign;
 use unwrapd_method::numerics::vec2::doubled_area;
+
+/// A mesh with UVs, one per face corner.
+#[derive(Clone, Copy, Debug)]
+pub struct UvMesh<'a> {
+    /// Positions in space.
+    pub positions: &'a [[f64; 3]],
+    /// Three vertices per triangle.
+    pub triangles: &'a [[u32; 3]],
+    /// UVs of each face's corners.
+    pub uvs: &'a [CornerUvs],
+}
 
 /// Tolerance for equal UVs at an edge's ends, as a share of the map's extent; that of the certificate.
 const TOLERANCE: f64 = 1e-7;
@@ -46,8 +59,11 @@ impl UvMap {
                 && (mesh.triangles[face].iter()).all(|v| at(v).is_some_and(is_finite))
         };
         let unusable: Vec<bool> = (0..mesh.triangles.len()).map(|f| !is_usable(f)).collect();
-        let vertex = |v: u32| vertex_of.get(v as usize).copied().unwrap_or(0);
-        let faces: Vec<[u32; 3]> = mesh.triangles.iter().map(|t| t.map(vertex)).collect();
+        let faces: Vec<[u32; 3]> = mesh
+            .triangles
+            .iter()
+            .map(|t| t.map(|v: u32| vertex_of.get(v as usize).copied().unwrap_or(0)))
+            .collect();
         let uvs: Vec<CornerUvs> = (unusable.iter().enumerate())
             .map(|(f, &bad)| if bad { [[0.0; 2]; 3] } else { mesh.uvs[f] })
             .collect();
@@ -94,11 +110,12 @@ impl UvMap {
             *area += f64::from(sign) * doubled_area(a, b, c).abs();
             *count += i64::from(sign);
         }
-        let sign = |(area, count): (f64, i64)| match area {
-            0.0 => count.signum() as i8,
-            _ => area.signum() as i8,
-        };
-        sums.into_iter().map(sign).collect()
+        sums.into_iter()
+            .map(|(area, count): (f64, i64)| match area {
+                0.0 => count.signum() as i8,
+                _ => area.signum() as i8,
+            })
+            .collect()
     }
 }
 
@@ -115,10 +132,6 @@ fn joints(n_points: usize, faces: &[[u32; 3]], uvs: &[CornerUvs]) -> Vec<[u32; 2
             [uv(to), uv(from)]
         }
     };
-    let agree = |pair: &&[(u32, [[f64; 2]; 2])]| {
-        let (p, q) = (pair[0].1.as_flattened(), pair[1].1.as_flattened());
-        p.iter().zip(q).all(|(x, y)| (x - y).abs() <= tolerance)
-    };
     let mut joints = Vec::new();
     for halfedges in Edges::new(n_points, faces).iter() {
         if origin(faces, halfedges[0]) == origin(faces, next(halfedges[0])) {
@@ -127,7 +140,10 @@ fn joints(n_points: usize, faces: &[[u32; 3]], uvs: &[CornerUvs]) -> Vec<[u32; 2
         let mut sorted: Vec<_> = halfedges.iter().map(|&h| (h, ends(h))).collect();
         // UVs are finite.
         sorted.sort_by(|p, q| p.1.partial_cmp(&q.1).unwrap_or(std::cmp::Ordering::Equal));
-        let joined = sorted.windows(2).filter(agree);
+        let joined = sorted.windows(2).filter(|pair: &&[(u32, [[f64; 2]; 2])]| {
+            let (p, q) = (pair[0].1.as_flattened(), pair[1].1.as_flattened());
+            p.iter().zip(q).all(|(x, y)| (x - y).abs() <= tolerance)
+        });
         joints.extend(joined.map(|pair| [pair[0].0, pair[1].0]));
     }
     joints
@@ -162,14 +178,85 @@ impl Charts {
             }
         }
         // The smallest side is the front, or the back, of the chart's first face.
-        let is_front = |face: u32| sides.find(2 * face).is_multiple_of(2);
         let winding = (0..n_faces)
-            .map(is_front)
+            .map(|face: u32| sides.find(2 * face).is_multiple_of(2))
             .map(|front| if front { 1 } else { -1 });
         Self {
             winding: winding.collect(),
             of_face,
             nonorientable,
+        }
+    }
+}
+
+// Errors of UV edits.
+
+/// Most anchors: each is compared with every face.
+pub(super) const MOST_ANCHORS: usize = 1000;
+
+/// Reason why UVs cannot be edited.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum EditError {
+    /// The file is not a list of anchors.
+    #[error("the anchors cannot be parsed: {0}")]
+    Malformed(String),
+    /// There are no anchors, or too many.
+    #[error("there are {0} anchors; 1 to {MOST_ANCHORS} are allowed")]
+    HandleCount(usize),
+    /// A number of an anchor is not finite or beyond 1e6.
+    #[error("anchor {0} has a coordinate that is not finite or exceeds 1e6")]
+    BadTarget(usize),
+    /// An anchor's vertex has no UV.
+    #[error("anchor {0} names a vertex without UVs")]
+    UnknownHandle(usize),
+    /// An anchor's UV lies outside every chart.
+    #[error("anchor {0} lies outside every chart")]
+    Outside(usize),
+    /// An anchor's vertex has several UVs.
+    #[error("anchor {0} names a vertex on a seam; name it by its UV")]
+    AmbiguousVertex(usize),
+    /// Two anchors pull one vertex or point to different places.
+    #[error("anchors {0} and {1} pull the same point to different targets")]
+    Contradictory(usize, usize),
+    /// An anchor pulls a fixed boundary.
+    #[error("anchor {0} moves a vertex of a fixed boundary")]
+    OnBoundary(usize),
+    /// The present map has a flip in a chart with anchors, and cannot be untangled.
+    #[error("face {face} is flipped or degenerate in its chart, and untangling failed")]
+    Flipped {
+        /// Index of the face.
+        face: usize,
+    },
+    /// The winding of a chart contradicts itself, so no map of it is free of flips.
+    #[error("the chart of face {face} is not orientable")]
+    Nonorientable {
+        /// A face of the chart.
+        face: usize,
+    },
+    /// A chart folds over an edge.
+    #[error(transparent)]
+    Element(#[from] ElementError),
+    /// A number is out of range.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
+}
+
+impl EditError {
+    /// Returns the stable code of the error, for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Malformed(_) => "malformed_handles",
+            Self::HandleCount(_) => "handle_count",
+            Self::BadTarget(_) => "bad_target",
+            Self::UnknownHandle(_) => "unknown_handle",
+            Self::Outside(_) => "handle_outside",
+            Self::AmbiguousVertex(_) => "ambiguous_vertex",
+            Self::Contradictory(..) => "contradictory_handles",
+            Self::OnBoundary(_) => "anchor_on_boundary",
+            Self::Flipped { .. } => "flipped_uvs",
+            Self::Nonorientable { .. } => "nonorientable_chart",
+            Self::Element(error) => error.code(),
+            Self::Problem(error) => error.code(),
         }
     }
 }

@@ -1,16 +1,13 @@
 //! Interactive editing of UVs.
 
-use std::collections::BTreeMap;
-
-use super::anchors::{Anchor, Held, hold};
+use super::anchors::{Anchor, FlatChart, Grips, Held, Spot, hold};
 use super::chart::{UvChart, UvVertices};
-use super::flat_chart::{FlatChart, Grips};
-use super::map::UvMap;
-use super::{EditError, Spot, UvEditOptions, UvMesh};
-use crate::editor::{Editable, Editor, HandleId};
-use crate::live::Live;
+use super::edit::UvEditOptions;
+use super::map::{EditError, UvMap, UvMesh};
+use crate::editor::{Editable, Editor, HandleId, Live};
 use crate::problem::Model;
 use crate::pull::{arrive, pulled};
+use std::collections::BTreeMap;
 use unwrapd_maps::mesh::CornerUvs;
 use unwrapd_method::solver::Stage;
 
@@ -210,8 +207,10 @@ impl Editable for LiveUvs {
     }
 
     fn places(&self) -> BTreeMap<u32, Vec<f64>> {
-        let places = |(&number, chart): (&u32, &LiveChart)| (number, chart.live.x().to_vec());
-        self.charts.iter().map(places).collect()
+        self.charts
+            .iter()
+            .map(|(&number, chart): (&u32, &LiveChart)| (number, chart.live.x().to_vec()))
+            .collect()
     }
 
     fn first_places(&self) -> BTreeMap<u32, Vec<f64>> {
@@ -221,8 +220,9 @@ impl Editable for LiveUvs {
     /// Charts that were not held then go back to their start.
     fn put(&mut self, mut places: BTreeMap<u32, Vec<f64>>) -> Result<(), EditError> {
         for (number, chart) in &mut self.charts {
-            let start = || chart.flat.start.as_flattened().to_vec();
-            let places = places.remove(number).unwrap_or_else(start);
+            let places = places
+                .remove(number)
+                .unwrap_or_else(|| chart.flat.start.as_flattened().to_vec());
             chart.live.put(places)?;
         }
         Ok(())

@@ -15,7 +15,7 @@ use unwrapd_maps::mesh::UsedVertices;
 const BUFFER: &str = "data.bin";
 
 /// Triangles and their attributes.
-pub(super) struct Shape<'a> {
+pub(super) struct NewShape<'a> {
     pub positions: &'a [[f32; 3]],
     pub triangles: &'a [[u32; 3]],
     /// UVs per face, v down.
@@ -52,7 +52,7 @@ pub(super) struct New {
 
 /// Creates the document of these meshes.
 pub(super) fn document(
-    shape: &Shape,
+    shape: &NewShape,
     meshes: &[NewMesh],
     materials: &GltfMaterials,
 ) -> Result<New, DocumentError> {
@@ -90,13 +90,13 @@ pub(super) fn document(
 }
 
 /// Returns the vertices of some faces, in increasing order.
-fn used(shape: &Shape, faces: &[u32]) -> Vec<u32> {
+fn used(shape: &NewShape, faces: &[u32]) -> Vec<u32> {
     let corners = faces.iter().flat_map(|&f| shape.triangles[f as usize]);
     UsedVertices::new(corners).into_vec()
 }
 
 /// Returns the vertices of a primitive, with the attributes that all its corners have.
-fn vertices_of(shape: &Shape, primitive: &NewPrimitive, of_file: &[u32]) -> Vertices {
+fn vertices_of(shape: &NewShape, primitive: &NewPrimitive, of_file: &[u32]) -> Vertices {
     let faces = || primitive.faces.iter().map(|&face| face as usize);
     let has_normals = faces().all(|face| shape.normals[face].is_some());
     let has_uvs = primitive.with_uvs && faces().all(|face| shape.uvs[face].is_some());
@@ -155,7 +155,7 @@ struct GltfParts {
 
 impl GltfParts {
     /// Appends the data of a primitive and returns its JSON.
-    fn primitive(&mut self, shape: &Shape, own: &Vertices, material: Option<usize>) -> Value {
+    fn primitive(&mut self, shape: &NewShape, own: &Vertices, material: Option<usize>) -> Value {
         let n = own.origins.len();
         let positions = || own.origins.iter().map(|&v| shape.positions[v as usize]);
         let bound = |bound: fn(f32, f32) -> f32| {

@@ -182,7 +182,7 @@ impl ObjDocument {
 /// pair of vertex and normal gets one of its own. These lines come before the first face.
 fn moved(bytes: &[u8], obj: &Obj, positions: &[[f32; 3]], map: &dyn SpaceMap) -> Vec<u8> {
     let line_end = line_end(bytes);
-    let normals = Normals::new(obj);
+    let normals = MovedNormals::new(obj);
     let mut normal_lines = normals.lines(obj, positions, map, line_end);
     let mut places = map.positions(positions).into_iter();
     let mut polygons = obj.polygons();
@@ -212,12 +212,12 @@ fn moved(bytes: &[u8], obj: &Obj, positions: &[[f32; 3]], map: &dyn SpaceMap) ->
 
 /// Pairs of vertex and normal, numbered from 0 in the order of their first use.
 #[derive(Default)]
-struct Normals {
+struct MovedNormals {
     pairs: Vec<(u32, u32)>,
     numbers: HashMap<(u32, u32), u32>,
 }
 
-impl Normals {
+impl MovedNormals {
     fn new(obj: &Obj) -> Self {
         let mut normals = Self::default();
         for corner in &obj.corners {

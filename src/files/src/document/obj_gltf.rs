@@ -1,7 +1,7 @@
 //! Conversion of OBJ to glTF: each object a mesh, each of its materials a primitive.
 
 use super::material::{Dropped, GltfMaterials, Material, MaterialFiles};
-use super::new_gltf::{self, NewMesh, NewPrimitive, Shape, unit_normals};
+use super::new_gltf::{self, NewMesh, NewPrimitive, NewShape, unit_normals};
 use super::new_obj::{Color, WHITE, from_srgb};
 use super::obj::{ObjDocument, name_of};
 use super::write::{Conversion, OldUvs, colored};
@@ -46,7 +46,7 @@ fn convert(document: &ObjDocument, old_uvs: OldUvs) -> Result<Conversion, Docume
         }
     }
     let primitive = &document.primitives()[0];
-    let shape = Shape {
+    let shape = NewShape {
         positions: &primitive.positions,
         triangles: &primitive.triangles,
         uvs: document

@@ -239,13 +239,13 @@ struct NumberedPolygon<'a> {
 }
 
 /// Corners in the order of the polygon, each with the number of its texture coordinate.
-type Piece = Vec<(u32, u32)>;
+type PolygonPiece = Vec<(u32, u32)>;
 
 impl NumberedPolygon<'_> {
     /// Returns the whole polygon if each corner has one number, else as few pieces as its triangles allow. A reader
     /// that triangulates a piece gets the polygon's own triangles again: pieces for which it would not are given as
     /// triangles.
-    pub fn pieces(&self, position: impl Fn(u32) -> [f64; 3]) -> Vec<Piece> {
+    pub fn pieces(&self, position: impl Fn(u32) -> [f64; 3]) -> Vec<PolygonPiece> {
         if let Some(whole) = self.whole() {
             return vec![whole];
         }
@@ -259,7 +259,7 @@ impl NumberedPolygon<'_> {
         pieces
     }
 
-    fn whole(&self) -> Option<Piece> {
+    fn whole(&self) -> Option<PolygonPiece> {
         let mut number_of = vec![None; self.n_corners];
         let corners = self.triangles.as_flattened().iter();
         for (&corner, &number) in corners.zip(self.numbers.as_flattened()) {
@@ -296,15 +296,19 @@ impl NumberedPolygon<'_> {
         members
     }
 
-    fn triangle(&self, t: usize) -> Piece {
+    fn triangle(&self, t: usize) -> PolygonPiece {
         let corners = self.triangles[t].iter().zip(&self.numbers[t]);
         corners.map(|(&corner, &number)| (corner, number)).collect()
     }
 
     /// Returns the corners of connected triangles, if triangulating them gives these triangles. Among connected
     /// triangles a corner has one number, because the triangles around it are neighbors one after the other.
-    fn outline(&self, members: &[usize], position: impl Fn(u32) -> [f64; 3]) -> Option<Piece> {
-        let mut piece: Piece = members.iter().flat_map(|&t| self.triangle(t)).collect();
+    fn outline(
+        &self,
+        members: &[usize],
+        position: impl Fn(u32) -> [f64; 3],
+    ) -> Option<PolygonPiece> {
+        let mut piece: PolygonPiece = members.iter().flat_map(|&t| self.triangle(t)).collect();
         piece.sort_unstable();
         piece.dedup();
         // Which diagonal a flat quad gets depends on its first corner.

@@ -1,7 +1,7 @@
 //! Output of documents, and conversion of other formats to glTF.
 
 use super::material::{GltfMaterials, Material};
-use super::new_gltf::{self, New, NewMesh, NewPrimitive, Shape};
+use super::new_gltf::{self, New, NewMesh, NewPrimitive, NewShape};
 use super::new_obj::{self, Color};
 use super::soup::SoupDocument;
 use super::{
@@ -148,7 +148,7 @@ fn of_triangles(
     warnings: &[Warning],
 ) -> Result<Conversion, DocumentError> {
     let n_faces = primitive.triangles.len();
-    let shape = Shape {
+    let shape = NewShape {
         positions: &primitive.positions,
         triangles: &primitive.triangles,
         uvs: vec![None; n_faces],

@@ -73,7 +73,7 @@ fn read_vertices(
 /// Reads faces. They may come before the vertices: their indices are compared with the vertices at the end of the file.
 fn read_faces(element: &Element, data: &mut Data, faces: &mut Faces) -> Result<(), ReadError> {
     let list = element.properties.iter().position(|p| {
-        matches!(p.kind, Kind::List { .. })
+        matches!(p.kind, PropertyKind::List { .. })
             && matches!(p.name.as_slice(), b"vertex_indices" | b"vertex_index")
     });
     let mut face = 0;
@@ -108,8 +108,8 @@ fn read_records(
         // Keep the scalars and the wanted list, and skip other lists.
         for (k, property) in element.properties.iter().enumerate() {
             match property.kind {
-                Kind::Scalar(scalar) => record.scalars[k] = data.next(scalar)?,
-                Kind::List { count, item } => {
+                PropertyKind::Scalar(scalar) => record.scalars[k] = data.next(scalar)?,
+                PropertyKind::List { count, item } => {
                     let n_items = data.next(count)?;
                     if n_items < 0.0 || n_items.fract() != 0.0 {
                         return Err(malformed(data.at, "a list has an impossible length"));
@@ -130,7 +130,7 @@ fn read_records(
 // PLY header: the elements that follow, their properties and their encoding.
 
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Encoding {
+pub(super) enum PlyEncoding {
     Text,
     LittleEndian,
     BigEndian,
@@ -148,14 +148,14 @@ pub(super) enum Scalar {
     F64,
 }
 
-enum Kind {
+enum PropertyKind {
     Scalar(Scalar),
     List { count: Scalar, item: Scalar },
 }
 
 struct Property {
     pub name: Vec<u8>,
-    pub kind: Kind,
+    pub kind: PropertyKind,
 }
 
 struct Element {
@@ -164,15 +164,15 @@ struct Element {
     pub properties: Vec<Property>,
 }
 
-struct Header {
-    pub encoding: Encoding,
+struct PlyHeader {
+    pub encoding: PlyEncoding,
     pub elements: Vec<Element>,
     /// First byte after the header.
     pub end: usize,
 }
 
 /// Reads the header.
-fn header(bytes: &[u8]) -> Result<Header, ReadError> {
+fn header(bytes: &[u8]) -> Result<PlyHeader, ReadError> {
     let mut elements: Vec<Element> = Vec::new();
     let mut encoding = None;
     let mut at = 0;
@@ -196,9 +196,9 @@ fn header(bytes: &[u8]) -> Result<Header, ReadError> {
             }
             b"format" => {
                 encoding = match line_words.next() {
-                    Some(b"ascii") => Some(Encoding::Text),
-                    Some(b"binary_little_endian") => Some(Encoding::LittleEndian),
-                    Some(b"binary_big_endian") => Some(Encoding::BigEndian),
+                    Some(b"ascii") => Some(PlyEncoding::Text),
+                    Some(b"binary_little_endian") => Some(PlyEncoding::LittleEndian),
+                    Some(b"binary_big_endian") => Some(PlyEncoding::BigEndian),
                     _ => return Err(malformed(at, "an unknown encoding")),
                 }
             }
@@ -221,7 +221,7 @@ fn header(bytes: &[u8]) -> Result<Header, ReadError> {
         at += length + ending;
     }
     let encoding = encoding.ok_or_else(|| malformed(at, "the header names no encoding"))?;
-    Ok(Header {
+    Ok(PlyHeader {
         encoding,
         elements,
         end: at,
@@ -239,12 +239,12 @@ fn element<'a>(words: &mut impl Iterator<Item = &'a [u8]>) -> Option<Element> {
 fn property<'a>(words: &mut impl Iterator<Item = &'a [u8]>) -> Option<Property> {
     let first = words.next()?;
     let kind = if first == b"list" {
-        Kind::List {
+        PropertyKind::List {
             count: scalar(words.next()?)?,
             item: scalar(words.next()?)?,
         }
     } else {
-        Kind::Scalar(scalar(first)?)
+        PropertyKind::Scalar(scalar(first)?)
     };
     Some(Property {
         name: words.next()?.to_vec(),
@@ -272,14 +272,14 @@ fn scalar(name: &[u8]) -> Option<Scalar> {
 pub(super) struct Data<'a> {
     pub bytes: &'a [u8],
     pub at: usize,
-    pub encoding: Encoding,
+    pub encoding: PlyEncoding,
 }
 
 impl Data<'_> {
     /// Reads the next number.
     pub fn next(&mut self, scalar: Scalar) -> Result<f64, ReadError> {
-        let big = self.encoding == Encoding::BigEndian;
-        if self.encoding == Encoding::Text {
+        let big = self.encoding == PlyEncoding::BigEndian;
+        if self.encoding == PlyEncoding::Text {
             return self.next_word();
         }
         Ok(match scalar {
@@ -386,7 +386,11 @@ fn channels(element: &Element) -> Option<Vec<usize>> {
     })
 }
 
-fn colors(bytes: &[u8], header: &Header, channels: &[usize]) -> Result<Vec<[f64; 4]>, ReadError> {
+fn colors(
+    bytes: &[u8],
+    header: &PlyHeader,
+    channels: &[usize],
+) -> Result<Vec<[f64; 4]>, ReadError> {
     let mut data = Data {
         bytes,
         at: header.end,
@@ -417,17 +421,17 @@ fn colors(bytes: &[u8], header: &Header, channels: &[usize]) -> Result<Vec<[f64;
 /// Returns the number that stands for full intensity.
 fn largest(element: &Element, property: usize) -> f64 {
     match element.properties.get(property).map(|p| &p.kind) {
-        Some(Kind::Scalar(Scalar::U8)) => 255.0,
-        Some(Kind::Scalar(Scalar::I8)) => 127.0,
-        Some(Kind::Scalar(Scalar::U16)) => 65_535.0,
-        Some(Kind::Scalar(Scalar::I16)) => 32_767.0,
-        Some(Kind::Scalar(Scalar::U32)) => f64::from(u32::MAX),
-        Some(Kind::Scalar(Scalar::I32)) => f64::from(i32::MAX),
+        Some(PropertyKind::Scalar(Scalar::U8)) => 255.0,
+        Some(PropertyKind::Scalar(Scalar::I8)) => 127.0,
+        Some(PropertyKind::Scalar(Scalar::U16)) => 65_535.0,
+        Some(PropertyKind::Scalar(Scalar::I16)) => 32_767.0,
+        Some(PropertyKind::Scalar(Scalar::U32)) => f64::from(u32::MAX),
+        Some(PropertyKind::Scalar(Scalar::I32)) => f64::from(i32::MAX),
         _ => 1.0,
     }
 }
 
-fn left_out(header: &Header, channels: &[usize]) -> Vec<String> {
+fn left_out(header: &PlyHeader, channels: &[usize]) -> Vec<String> {
     let text = |name: &[u8]| String::from_utf8_lossy(name).into_owned();
     let mut names = Vec::new();
     for element in &header.elements {

@@ -42,7 +42,7 @@ impl Canvas {
     }
 
     /// Blends the lines of a mask over the picture.
-    pub fn ink(&mut self, lines: &Lines, color: Rgb, opacity: f32) {
+    pub fn ink(&mut self, lines: &StrokeLines, color: Rgb, opacity: f32) {
         for (pixel, &coverage) in self.pixels.iter_mut().zip(&lines.coverage) {
             if coverage > 0 {
                 *pixel = mix(*pixel, color, f32::from(coverage) / 255.0 * opacity);
@@ -58,13 +58,13 @@ impl Canvas {
 }
 
 /// Coverage of each pixel by lines; where lines meet it is their maximum, not their sum.
-pub(super) struct Lines {
+pub(super) struct StrokeLines {
     width: usize,
     height: usize,
     coverage: Vec<u8>,
 }
 
-impl Lines {
+impl StrokeLines {
     pub fn new(canvas: &Canvas) -> Self {
         Self {
             width: canvas.width,
@@ -165,7 +165,7 @@ pub(super) fn width(text: &str, height: f64) -> f64 {
 }
 
 /// Writes a line of text; `(x, y)` is the upper left corner, in pixels.
-pub(super) fn write(lines: &mut Lines, text: &str, x: f64, y: f64, height: f64) {
+pub(super) fn write(lines: &mut StrokeLines, text: &str, x: f64, y: f64, height: f64) {
     let unit = height / UNITS;
     let mut left = x;
     for letter in text.chars() {

@@ -1,8 +1,8 @@
 //! The heat map of each face's distortion.
 
-use super::canvas::{self, Canvas, FLIPPED, INK, Lines, NO_VALUE, Rgb};
+use super::canvas::{self, Canvas, FLIPPED, INK, NO_VALUE, Rgb, StrokeLines};
 use super::panel::{Panel, Style, sheet};
-use super::raster::Mode;
+use super::raster::CoverageMode;
 use serde::{Deserialize, Serialize};
 use unwrapd_maps::measure::FaceDistortion;
 use unwrapd_maps::mesh::VAxis;
@@ -18,7 +18,7 @@ pub fn heatmap_png(panels: &[Panel], measure: HeatmapMeasure, size: u32, v_axis:
     };
     let style = Style {
         color: &color,
-        mode: Mode::OnTop,
+        mode: CoverageMode::OnTop,
     };
     let drawn = sheet(panels, size, v_axis, &style);
     let faces = || panels.iter().flat_map(|panel| panel.distortion);
@@ -53,7 +53,7 @@ fn below(drawn: &Canvas, title: &str, scale: &Scale, exceptions: &Exceptions) ->
     canvas.place(drawn, 0, 0);
     let margin = letters.round();
     let top = drawn.height as f64 + margin;
-    let mut ink = Lines::new(&canvas);
+    let mut ink = StrokeLines::new(&canvas);
     canvas::write(&mut ink, title, margin, top, letters);
     let right = swatches(&mut canvas, &mut ink, exceptions, [margin, top], letters);
     let bar = if narrow {
@@ -74,7 +74,7 @@ fn below(drawn: &Canvas, title: &str, scale: &Scale, exceptions: &Exceptions) ->
 }
 
 /// Draws ticks and numbers, from the right end of the bar, leaving out those without room.
-fn ticks(ink: &mut Lines, scale: &Scale, bar: [f64; 2], y: f64, letters: f64) {
+fn ticks(ink: &mut StrokeLines, scale: &Scale, bar: [f64; 2], y: f64, letters: f64) {
     let mut free = f64::INFINITY;
     for tick in TICKS.iter().rev().map(|tick| tick * scale.ideal) {
         if tick > scale.greatest * (1.0 + 1e-9) {
@@ -112,7 +112,7 @@ fn ticks(ink: &mut Lines, scale: &Scale, bar: [f64; 2], y: f64, letters: f64) {
 /// Draws colored squares with their meaning at the right; returns the left end.
 fn swatches(
     canvas: &mut Canvas,
-    ink: &mut Lines,
+    ink: &mut StrokeLines,
     exceptions: &Exceptions,
     [margin, top]: [f64; 2],
     letters: f64,

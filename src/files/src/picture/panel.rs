@@ -1,7 +1,7 @@
 //! One group of faces drawn in its square, and several of them on a sheet.
 
-use super::canvas::{self, Canvas, FLIPPED, INK, Lines, Rgb};
-use super::raster::{Mode, Raster};
+use super::canvas::{self, Canvas, FLIPPED, INK, Rgb, StrokeLines};
+use super::raster::{CoverageMode, Raster};
 use unwrapd_maps::measure::FaceDistortion;
 use unwrapd_maps::mesh::{CornerUvs, VAxis};
 
@@ -87,7 +87,7 @@ pub(super) struct Style<'a> {
     /// Color of a face that is not flipped, by its index.
     pub color: &'a dyn Fn(&Panel, usize) -> Rgb,
     /// Treatment of overlaps of such faces.
-    pub mode: Mode,
+    pub mode: CoverageMode,
 }
 
 /// Draws a panel in a square.
@@ -104,7 +104,7 @@ fn square(panel: &Panel, pixels: usize, v_axis: VAxis, style: &Style) -> Canvas 
             }
             let corners = place(face);
             let (color, mode) = if flipped {
-                (FLIPPED, Mode::OnTop)
+                (FLIPPED, CoverageMode::OnTop)
             } else {
                 ((style.color)(panel, index), style.mode)
             };
@@ -113,7 +113,7 @@ fn square(panel: &Panel, pixels: usize, v_axis: VAxis, style: &Style) -> Canvas 
     }
     let mut canvas = raster.canvas();
     // Draw the borders of charts.
-    let mut borders = Lines::new(&canvas);
+    let mut borders = StrokeLines::new(&canvas);
     for [a, b] in border_edges(panel.uvs) {
         let [a, b] = [a, b].map(|uv| frame.pixel(uv, pixels, v_axis));
         borders.segment(a, b, border_thickness(pixels));
@@ -121,7 +121,7 @@ fn square(panel: &Panel, pixels: usize, v_axis: VAxis, style: &Style) -> Canvas 
     canvas.ink(&borders, INK, 0.9);
     // Draw the unit square if UVs leave it.
     if !frame.is_unit {
-        let mut unit = Lines::new(&canvas);
+        let mut unit = StrokeLines::new(&canvas);
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let corners = corners.map(|uv| frame.pixel(uv, pixels, v_axis));
         for k in 0..4 {
@@ -210,7 +210,7 @@ pub(super) fn sheet(panels: &[Panel], size: u32, v_axis: VAxis, style: &Style) -
         canvas.place(&drawn, column, row);
     }
     // Names, and a note on panels that are left out.
-    let mut titles = Lines::new(&canvas);
+    let mut titles = StrokeLines::new(&canvas);
     for (k, panel) in panels.iter().take(shown).enumerate() {
         let (column, row) = (margin + k % columns * cell[0], k / columns * cell[1]);
         let y = row as f64 + 0.5 * (title as f64 - letters);
@@ -233,7 +233,7 @@ pub(super) fn sheet(panels: &[Panel], size: u32, v_axis: VAxis, style: &Style) -
 pub fn layout_png(panels: &[Panel], size: u32, v_axis: VAxis) -> Vec<u8> {
     let style = Style {
         color: &|panel, face| canvas::chart(panel.charts.get(face).copied().unwrap_or(0)),
-        mode: Mode::Counted,
+        mode: CoverageMode::Counted,
     };
     sheet(panels, size, v_axis, &style).png()
 }

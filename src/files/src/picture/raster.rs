@@ -24,7 +24,7 @@ pub(super) struct Raster {
 
 /// Treatment of samples that are covered already.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Mode {
+pub(super) enum CoverageMode {
     /// Shows an overlap.
     Counted,
     /// Draws over everything.
@@ -45,7 +45,13 @@ impl Raster {
     }
 
     /// Fills a triangle given in pixels. Its edges are drawn with the given opacity; each face draws its half.
-    pub fn fill(&mut self, corners: [[f64; 2]; 3], color: Rgb, edge_opacity: f32, mode: Mode) {
+    pub fn fill(
+        &mut self,
+        corners: [[f64; 2]; 3],
+        color: Rgb,
+        edge_opacity: f32,
+        mode: CoverageMode,
+    ) {
         let fixed = steps(corners.map(|p| p.map(|x| x * self.per_pixel as f64)));
         let edges = TriangleEdges::new(&fixed);
         let reach = 0.5 * EDGE_PIXELS * self.per_pixel as f64;
@@ -67,11 +73,11 @@ impl Raster {
     }
 
     /// Colors some samples of a row.
-    fn set(&mut self, row: usize, columns: Range<usize>, color: Rgb, mode: Mode) {
+    fn set(&mut self, row: usize, columns: Range<usize>, color: Rgb, mode: CoverageMode) {
         let samples = row * self.side + columns.start..row * self.side + columns.end;
         let over = match mode {
-            Mode::Counted => mix(color, OVERLAP, 0.85),
-            Mode::OnTop => color,
+            CoverageMode::Counted => mix(color, OVERLAP, 0.85),
+            CoverageMode::OnTop => color,
         };
         let layers = self.layers[samples.clone()].iter_mut();
         for (layers, shown) in layers.zip(&mut self.colors[samples]) {

@@ -1,8 +1,7 @@
 //! Boundaries of charts.
 
 use super::box_tree::{Bounds, BoxTree, Visit, search_budget};
-use super::edges::Start;
-use super::topology::UvTopology;
+use super::topology::{Start, UvTopology};
 use unwrapd_method::numerics::predicates::orient2d_sign;
 
 pub(crate) type Segment = [[f64; 2]; 2];
@@ -57,12 +56,15 @@ impl ChartBoundary {
 
     /// Scales the UVs along the axes.
     pub fn scaled(&self, by: [f64; 2]) -> ChartBoundary {
-        let scaled = |edge: &BoundaryEdge| BoundaryEdge {
-            uvs: edge.uvs.map(|[u, v]| [u * by[0], v * by[1]]),
-            ..*edge
-        };
         ChartBoundary {
-            edges: self.edges.iter().map(scaled).collect(),
+            edges: self
+                .edges
+                .iter()
+                .map(|edge: &BoundaryEdge| BoundaryEdge {
+                    uvs: edge.uvs.map(|[u, v]| [u * by[0], v * by[1]]),
+                    ..*edge
+                })
+                .collect(),
         }
     }
 

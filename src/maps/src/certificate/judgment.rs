@@ -1,17 +1,14 @@
 //! The certificate and the rules by which it is given.
 
 use super::NAMED;
-use super::alignment::unaligned_charts;
-use super::bits::{BitsVerdict, coarsest_safe_bits, judge_bits};
 use super::boundary::ChartBoundary;
 use super::box_tree::Visit;
 use super::claims::{Claims, Overlap};
 use super::overlap::OrientedFaces;
 use super::padding::{PaddingVerdict, judge_padding};
-use super::pages::{PagesVerdict, judge_pages};
-use super::rounding::coarsest_bits;
+use super::rounding::{BitsVerdict, coarsest_bits, coarsest_safe_bits, judge_bits};
 use super::topology::UvTopology;
-use crate::mesh::CornerUvs;
+use crate::mesh::{CornerUvs, Resolution};
 use serde::Serialize;
 
 /// Certificate of the UVs of a mesh: facts proven by exact predicates on the numbers of the file.
@@ -186,4 +183,76 @@ fn judge_distances(topology: &UvTopology, claims: &Claims, certificate: &mut Cer
     let is_bijective = certificate.is_bijective();
     certificate.bits =
         (claims.bits).map(|bits| judge_bits(topology, &boundary, bits, is_bijective));
+}
+
+// Alignment of charts with texel borders.
+
+/// Counts the charts whose bounding rectangle does not lie on texel borders of a texture of `resolution`, exactly: f32
+/// times an integer below 2²⁸ is exact in f64.
+fn unaligned_charts(topology: &UvTopology, resolution: Resolution) -> usize {
+    let texels = [resolution.width, resolution.height].map(f64::from);
+    chart_bounds(topology)
+        .filter(|bounds| {
+            !bounds
+                .iter()
+                .all(|uv: &[f64; 2]| (0..2).all(|axis| (uv[axis] * texels[axis]).fract() == 0.0))
+        })
+        .count()
+}
+
+/// Iterates over the smallest and greatest coordinates of every chart that has faces to judge.
+fn chart_bounds(topology: &UvTopology) -> impl Iterator<Item = [[f64; 2]; 2]> {
+    let n_charts = topology.charts.nonorientable.len();
+    let mut bounds: Vec<Option<[[f64; 2]; 2]>> = vec![None; n_charts];
+    for (face, corners) in topology.uvs.iter().enumerate() {
+        if !topology.is_judged(face) {
+            continue;
+        }
+        let bounds = &mut bounds[topology.charts.of_face[face] as usize];
+        for uv in corners {
+            let [low, high] = bounds.get_or_insert([*uv, *uv]);
+            for axis in 0..2 {
+                low[axis] = low[axis].min(uv[axis]);
+                high[axis] = high[axis].max(uv[axis]);
+            }
+        }
+    }
+    bounds.into_iter().flatten()
+}
+
+// Placement of each chart on one page.
+
+/// Verdict on the placement of every chart on one of the pages, decided exactly. Page k covers u from k to k + 1 and
+/// v from 0 to 1, borders included.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct PagesVerdict {
+    /// The requested number of pages.
+    pub asked: u32,
+    /// `true` if every chart lies on one of them.
+    pub kept: bool,
+    /// Pages that hold a chart.
+    pub used: usize,
+    /// Charts that cross a page border or lie outside all pages.
+    pub charts_across: usize,
+}
+
+fn judge_pages(topology: &UvTopology, asked: u32) -> PagesVerdict {
+    let mut is_used = vec![false; asked as usize];
+    let mut charts_across = 0;
+    for [low, high] in chart_bounds(topology) {
+        // The left border of the page in question; a chart without width on a border lies on the page to its right.
+        let page = low[0].floor();
+        let is_across = high[0] > page + 1.0 || low[1] < 0.0 || high[1] > 1.0;
+        match is_used.get_mut(page as usize) {
+            Some(used) if page >= 0.0 && !is_across => *used = true,
+            _ => charts_across += 1,
+        }
+    }
+    PagesVerdict {
+        asked,
+        kept: charts_across == 0,
+        used: is_used.iter().filter(|used| **used).count(),
+        charts_across,
+    }
 }

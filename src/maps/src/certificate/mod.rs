@@ -28,41 +28,26 @@
 //! **Distances.** Whether charts keep a distance ([`Certificate::padding`]), and whether the map stays bijective
 //! however a tool rounds it to fewer bits ([`Certificate::bits`]), is decided on the boundary edges of charts, in
 //! integers. Numbers that are not multiples of 2⁻⁴⁰ are truncated to one, and the doubt counts against the map.
-
-mod alignment;
-mod bits;
 mod boundary;
 mod box_tree;
 mod claims;
-mod crossings;
-mod edges;
 mod fixed;
 mod judgment;
 mod overlap;
 mod padding;
-mod pages;
-mod planar;
 mod rounding;
-mod separation;
-mod simple;
 mod topology;
 
-pub use bits::BitsVerdict;
+use crate::mesh::CornerUvs;
 pub(crate) use boundary::{ChartBoundary, segment_distance};
 pub(crate) use box_tree::Visit;
-use box_tree::{Bounds, BoxTree, bounds_of, enlarged, search_budget};
 pub use claims::{Claims, Overlap, Padding};
-pub use crossings::{Crossings, crossings};
-pub(crate) use edges::Start;
-pub use judgment::{Certificate, certify};
+pub use judgment::{Certificate, PagesVerdict, certify};
 pub(crate) use overlap::OrientedFaces;
+pub use overlap::{Crossings, PlanarCertificate, boundary_crossings, certify_planar, crossings};
 pub use padding::PaddingVerdict;
-pub use pages::PagesVerdict;
-pub use planar::{PlanarCertificate, certify_planar};
-pub use simple::boundary_crossings;
-pub(crate) use topology::UvTopology;
-
-use crate::mesh::CornerUvs;
+pub use rounding::BitsVerdict;
+pub(crate) use topology::{Start, UvTopology};
 
 /// Most offending faces and pairs that a certificate names.
 const NAMED: usize = 8;

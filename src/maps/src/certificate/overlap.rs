@@ -1,11 +1,12 @@
 //! Pairs of faces whose interiors intersect in UV space.
 
+use super::NAMED;
 use super::box_tree::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
-use super::simple::meeting_point;
 use super::topology::UvTopology;
-use crate::mesh::CornerUvs;
+use crate::mesh::{CornerUvs, boundary_edges};
+use serde::Serialize;
 use std::collections::HashMap;
-use unwrapd_method::numerics::predicates::orient2d_sign;
+use unwrapd_method::numerics::predicates::{orient2d_sign, orient3d_sign};
 
 /// Faces of nonzero orientation, all made counter-clockwise.
 pub(crate) struct OrientedFaces {
@@ -199,4 +200,256 @@ fn contains([a, b, c]: &CornerUvs, point: [f64; 2]) -> bool {
     [[a, b], [b, c], [c, a]]
         .into_iter()
         .all(|[p, q]| orient2d_sign(*p, *q, point) >= 0)
+}
+
+// Judgment of a deformed mesh of the plane.
+
+/// Certificate of triangles in the plane: facts proven by exact predicates on their coordinates.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct PlanarCertificate {
+    /// Triangles judged, all those below included.
+    pub faces: usize,
+    /// Triangles of negative area.
+    pub inverted: usize,
+    /// Triangles of exactly zero area.
+    pub degenerate: usize,
+    /// Triangles that cannot be judged: a coordinate is not finite or an index out of range.
+    pub nonfinite: usize,
+    /// Pairs of triangles whose interiors intersect.
+    pub overlapping_pairs: u64,
+    /// `true` if the search for pairs stopped at its limit, so that there may be more.
+    pub overlap_truncated: bool,
+}
+
+impl PlanarCertificate {
+    /// Returns whether every triangle has positive area: the map from a rest shape of positive triangles is locally
+    /// injective.
+    pub fn is_valid(&self) -> bool {
+        self.inverted == 0 && self.degenerate == 0 && self.nonfinite == 0
+    }
+
+    /// Returns whether the map is bijective: also no two triangles overlap, whether its boundary was fixed or free.
+    pub fn is_bijective(&self) -> bool {
+        self.is_valid() && self.overlapping_pairs == 0 && !self.overlap_truncated
+    }
+}
+
+/// Judges triangles that should be counter-clockwise and disjoint except for their edges and corners.
+///
+/// Unlike in [`certify`](super::certify), a mirrored mesh is not valid. All triangles are tested against each other by
+/// a tree of boxes, so that slits and boundaries that touch need no special case: touching is no overlap.
+pub fn certify_planar(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> PlanarCertificate {
+    let corners_of = |triangle: &[u32; 3]| -> Option<CornerUvs> {
+        let corner = |k: usize| {
+            let vertex = vertices.get(triangle[k] as usize)?;
+            vertex.iter().all(|x| x.is_finite()).then_some(*vertex)
+        };
+        Some([corner(0)?, corner(1)?, corner(2)?])
+    };
+    let corners: Vec<CornerUvs> = triangles.iter().filter_map(corners_of).collect();
+    let orientation: Vec<i8> = corners
+        .iter()
+        .map(|&[a, b, c]| orient2d_sign(a, b, c))
+        .collect();
+    let count = |sign: i8| orientation.iter().filter(|&&s| s == sign).count();
+    let mut overlapping_pairs = 0;
+    let visit = OrientedFaces::of(&corners, &orientation).overlaps(|_| overlapping_pairs += 1);
+    PlanarCertificate {
+        faces: triangles.len(),
+        inverted: count(-1),
+        degenerate: count(0),
+        nonfinite: triangles.len() - corners.len(),
+        overlapping_pairs,
+        overlap_truncated: visit == Visit::Truncated,
+    }
+}
+
+// Pairs of triangles in space that pass through each other.
+
+type CrossingTriangle = [[f64; 3]; 3];
+
+/// Where a surface crosses itself.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Crossings {
+    /// Pairs of triangles whose relative interiors have a common point.
+    pub pairs: u64,
+    /// The first few of them.
+    pub named: Vec<[u32; 2]>,
+    /// `true` if the search stopped at its limit, so that there may be more.
+    pub truncated: bool,
+}
+
+/// Counts the pairs of triangles whose relative interiors meet, by exact predicates.
+///
+/// Triangles that share a vertex or an edge, by index or by equal positions, or that only touch (a vertex on a face, an
+/// edge on an edge), therefore count only if they also cross elsewhere. Coplanar triangles count if they overlap.
+/// Triangles of zero area cross nothing; neither do those with a coordinate that is not finite or an index out of
+/// range.
+pub fn crossings(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Crossings {
+    let corner = |v: u32| {
+        let position = positions.get(v as usize)?;
+        position.iter().all(|x| x.is_finite()).then_some(*position)
+    };
+    let corners = |t: &[u32; 3]| Some([corner(t[0])?, corner(t[1])?, corner(t[2])?]);
+    let (faces, corners): (Vec<u32>, Vec<CrossingTriangle>) = (0..)
+        .zip(triangles)
+        .filter_map(|(face, triangle)| Some((face, corners(triangle)?)))
+        .unzip();
+    // Boxes of triangles parallel to an axis are flat, and only the interiors of boxes meet.
+    let boxes: Vec<Bounds<3>> = corners.iter().map(|c| enlarged(bounds_of(c))).collect();
+    let mut found = Crossings::default();
+    let visit = BoxTree::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
+        if cross(&corners[i as usize], &corners[j as usize]) {
+            found.pairs += 1;
+            if found.named.len() < NAMED {
+                found.named.push([i, j].map(|k| faces[k as usize]));
+            }
+        }
+    });
+    found.truncated = visit == Visit::Truncated;
+    found
+}
+
+/// Returns whether the relative interiors of two triangles have a common point.
+fn cross(a: &CrossingTriangle, b: &CrossingTriangle) -> bool {
+    let sides_of_a = a.map(|p| side(b, p));
+    let sides_of_b = b.map(|p| side(a, p));
+    if sides_of_a == [0; 3] && sides_of_b == [0; 3] {
+        return coplanar_overlap(a, b);
+    }
+    let (Some(apex_a), Some(apex_b)) = (apex(sides_of_a), apex(sides_of_b)) else {
+        return false;
+    };
+    let rotated = |t: &CrossingTriangle, k: usize| [t[k], t[(k + 1) % 3], t[(k + 2) % 3]];
+    let (mut p, mut q) = (rotated(a, apex_a), rotated(b, apex_b));
+    if sides_of_a[apex_a] < 0 {
+        q.swap(1, 2);
+    }
+    if sides_of_b[apex_b] < 0 {
+        p.swap(1, 2);
+    }
+    // Now each apex lies above the other's plane. The planes meet in a line, which runs through p from edge p₀p₂ to p₀p₁ and
+    // through q from edge q₀q₁ to q₀q₂. Where two of these edges pass the line in order is the sign of the tetrahedron
+    // they span; both intervals have interior points in common if each begins before the other ends.
+    orient3d_sign(p[0], p[1], q[0], q[1]) < 0 && orient3d_sign(p[0], p[2], q[0], q[2]) > 0
+}
+
+/// Returns the side of a triangle's plane on which a point lies. A common corner, for which the exact predicate is
+/// slow, is on it.
+fn side(triangle: &CrossingTriangle, point: [f64; 3]) -> i8 {
+    if triangle.contains(&point) {
+        return 0;
+    }
+    orient3d_sign(triangle[0], triangle[1], triangle[2], point)
+}
+
+/// Returns the corner that is alone on its side of a plane which passes between the corners; a corner on the plane
+/// counts for the other side.
+fn apex(sides: [i8; 3]) -> Option<usize> {
+    if !(sides.contains(&1) && sides.contains(&-1)) {
+        return None;
+    }
+    (0..3).find(|&k| {
+        sides[k] != 0 && sides[(k + 1) % 3] != sides[k] && sides[(k + 2) % 3] != sides[k]
+    })
+}
+
+/// Returns whether two triangles of one plane overlap, tested in the first coordinate plane in which both have an area.
+fn coplanar_overlap(a: &CrossingTriangle, b: &CrossingTriangle) -> bool {
+    [[0, 1], [1, 2], [2, 0]]
+        .into_iter()
+        .find_map(|[x, y]| {
+            let counter_clockwise = |t: &CrossingTriangle| {
+                let [p, q, r] = t.map(|p| [p[x], p[y]]);
+                match orient2d_sign(p, q, r) {
+                    0 => None,
+                    1 => Some([p, q, r]),
+                    _ => Some([p, r, q]),
+                }
+            };
+            Some(interiors_intersect(
+                &counter_clockwise(a)?,
+                &counter_clockwise(b)?,
+            ))
+        })
+        .unwrap_or(false)
+}
+
+// Exact intersection tests for polygons.
+
+type LoopSegment = [[f64; 2]; 2];
+
+/// Returns a vertex near which closed polygons cross or touch themselves or each other; `None` if they do not.
+pub(super) fn meeting_point(loops: &[Vec<[f64; 2]>]) -> Option<[f64; 2]> {
+    let (mut segments, mut next) = (Vec::new(), Vec::new());
+    for vertices in loops {
+        let (first, n) = (segments.len() as u32, vertices.len());
+        segments.extend((0..n).map(|k| [vertices[k], vertices[(k + 1) % n]]));
+        next.extend((0..n as u32).map(|k| first + (k + 1) % n as u32));
+    }
+    let boxes: Vec<Bounds> = segments.iter().map(|s| enlarged(bounds_of(s))).collect();
+    let mut found = None;
+    let visit = BoxTree::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
+        let [a, b] = [segments[i as usize], segments[j as usize]];
+        let meet = if next[i as usize] == j {
+            turns_back(a, b)
+        } else if next[j as usize] == i {
+            turns_back(b, a)
+        } else {
+            intersect(a, b)
+        };
+        if meet && found.is_none() {
+            found = Some(a[0]);
+        }
+    });
+    // Only segments that lie in heaps exhaust the search; they would have to meet.
+    found.or_else(|| (visit == Visit::Truncated).then(|| segments[0][0]))
+}
+
+/// Counts the pairs of a planar mesh's boundary edges that have a common point other than a shared vertex, exactly; a
+/// lower bound if the search was truncated.
+///
+/// A mesh without inverted triangles whose boundary crossed nothing as it moved has none, and is bijective.
+pub fn boundary_crossings(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> u64 {
+    let edges = boundary_edges(vertices.len(), triangles);
+    let segment = |edge: [u32; 2]| edge.map(|v| vertices[v as usize]);
+    let boxes: Vec<Bounds> = (edges.iter())
+        .map(|&edge| enlarged(bounds_of(&segment(edge))))
+        .collect();
+    let mut n_crossings = 0;
+    BoxTree::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
+        let [e, f] = [edges[i as usize], edges[j as usize]];
+        let meet = match e.iter().find(|v| f.contains(v)) {
+            None => intersect(segment(e), segment(f)),
+            Some(&shared) => {
+                let other = |edge: [u32; 2]| edge[usize::from(edge[0] == shared)];
+                turns_back(segment([other(e), shared]), segment([shared, other(f)]))
+            }
+        };
+        n_crossings += u64::from(meet);
+    });
+    n_crossings
+}
+
+/// Returns whether a segment runs back over the one that ends where it begins.
+fn turns_back(a: LoopSegment, b: LoopSegment) -> bool {
+    let along = |k: usize| (a[1][k] - a[0][k]) * (b[1][k] - b[0][k]);
+    orient2d_sign(a[0], a[1], b[1]) == 0 && along(0) + along(1) < 0.0
+}
+
+/// Returns whether two segments have a common point.
+fn intersect(a: LoopSegment, b: LoopSegment) -> bool {
+    let sides = |s: LoopSegment, t: LoopSegment| t.map(|p| orient2d_sign(s[0], s[1], p));
+    let (of_b, of_a) = (sides(a, b), sides(b, a));
+    if of_b == [0; 2] {
+        // On one line: they meet if their boxes do.
+        return (0..2).all(|k| {
+            let range = |s: LoopSegment| [s[0][k].min(s[1][k]), s[0][k].max(s[1][k])];
+            let (p, q) = (range(a), range(b));
+            p[0] <= q[1] && q[0] <= p[1]
+        });
+    }
+    of_b[0] * of_b[1] <= 0 && of_a[0] * of_a[1] <= 0
 }

@@ -1,7 +1,7 @@
 //! A mesh with UVs as the judge uses it: welded, with charts and exact orientations.
 
-use super::edges::{Halfedge, Start, UvEdges, halfedge};
 use crate::mesh::{CornerUvs, VAxis};
+use std::cmp::Ordering;
 use unwrapd_method::numerics::predicates::orient2d_sign;
 
 /// Tolerance for equal UVs at an edge's ends, as a share of the UV extent: just less than a step of the grid that is
@@ -22,7 +22,7 @@ pub(crate) struct UvTopology {
     /// Smallest and greatest UV.
     pub bounds: [[f64; 2]; 2],
     pub edges: UvEdges,
-    pub charts: Charts,
+    pub charts: ChartSets,
     /// Exact sign of every face's UV orientation, as the file winds it.
     pub orientation: Vec<i8>,
 }
@@ -48,8 +48,10 @@ impl UvTopology {
             finite.push(origin); // what faces without any position refer to
         }
         let weld = weld(&finite);
-        let vertex = |i: u32| weld.vertex.get(i as usize).copied().unwrap_or(0);
-        let faces: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(vertex)).collect();
+        let faces: Vec<[u32; 3]> = triangles
+            .iter()
+            .map(|t| t.map(|i: u32| weld.vertex.get(i as usize).copied().unwrap_or(0)))
+            .collect();
         let uvs: Vec<CornerUvs> = (0..triangles.len())
             .map(|f| if usable[f] { uvs[f] } else { [[0.0; 2]; 3] })
             .collect();
@@ -57,7 +59,7 @@ impl UvTopology {
         let bounds = bounds(&uvs);
         let tolerance = UV_TOLERANCE * extent(bounds);
         let edges = UvEdges::new(&faces, &uvs, weld.points.len(), tolerance);
-        let charts = Charts::new(faces.len(), links(&edges, &faces, &uvs));
+        let charts = ChartSets::new(faces.len(), links(&edges, &faces, &uvs));
         let orientation = uvs
             .iter()
             .map(|&[a, b, c]| orient2d_sign(a, b, c))
@@ -173,7 +175,7 @@ fn links<'a>(
     edges: &'a UvEdges,
     faces: &'a [[u32; 3]],
     uvs: &'a [CornerUvs],
-) -> impl Iterator<Item = Link> + 'a {
+) -> impl Iterator<Item = EdgeLink> + 'a {
     let pairs = edges
         .order
         .windows(2)
@@ -182,7 +184,7 @@ fn links<'a>(
         .filter(|(_, start)| **start == Start::Same)
         .map(|(pair, _)| {
             let (a, b) = (halfedge(pair[0], faces, uvs), halfedge(pair[1], faces, uvs));
-            Link {
+            EdgeLink {
                 faces: [a.face, b.face],
                 same_direction: a.forward == b.forward,
             }
@@ -192,14 +194,14 @@ fn links<'a>(
 // Charts of UV-connected faces and the winding within them.
 
 /// Two faces that share an edge in UV space.
-pub(crate) struct Link {
+pub(crate) struct EdgeLink {
     pub faces: [u32; 2],
     /// `true` if both faces run along the edge in the same direction, that is, are wound against each other.
     pub same_direction: bool,
 }
 
 /// Components of linked faces.
-pub(crate) struct Charts {
+pub(crate) struct ChartSets {
     /// Chart of every face, numbered in the order of their first faces.
     pub of_face: Vec<u32>,
     /// For each chart, whether its winding contradicts itself (a Möbius strip in one piece).
@@ -208,8 +210,8 @@ pub(crate) struct Charts {
     pub winding: Vec<i8>,
 }
 
-impl Charts {
-    pub fn new(n_faces: usize, links: impl Iterator<Item = Link>) -> Charts {
+impl ChartSets {
+    pub fn new(n_faces: usize, links: impl Iterator<Item = EdgeLink>) -> ChartSets {
         let mut forest = Forest {
             parent: (0..n_faces as u32).collect(),
             reversed: vec![false; n_faces],
@@ -219,7 +221,7 @@ impl Charts {
         for link in links {
             forest.join(&link);
         }
-        let mut charts = Charts {
+        let mut charts = ChartSets {
             of_face: Vec::with_capacity(n_faces),
             nonorientable: Vec::new(),
             winding: Vec::with_capacity(n_faces),
@@ -270,7 +272,7 @@ impl Forest {
     }
 
     /// Joins the trees of two faces under the smaller root.
-    fn join(&mut self, link: &Link) {
+    fn join(&mut self, link: &EdgeLink) {
         let (a, against_a) = self.root(link.faces[0]);
         let (b, against_b) = self.root(link.faces[1]);
         let against = against_a ^ against_b ^ link.same_direction;
@@ -288,7 +290,7 @@ impl Forest {
 // Welding of equal positions.
 
 /// Welded vertices: equal positions (−0 = 0) share one, numbered in lexicographic order of the coordinates.
-pub(crate) struct Weld {
+pub(super) struct Weld {
     /// Welded vertex of every position.
     pub vertex: Vec<u32>,
     /// Position of every welded vertex.
@@ -315,4 +317,135 @@ pub(crate) fn weld(positions: &[[f64; 3]]) -> Weld {
         vertex[index as usize] = points.len() as u32 - 1;
     }
     Weld { vertex, points }
+}
+
+// Faces that meet at an edge, grouped by equal UVs.
+
+/// Relation of a halfedge to the one before it in [`UvEdges::order`].
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Start {
+    /// The first halfedge of another edge.
+    Edge,
+    /// Another group of the same edge, with other UVs: a seam lies between the two.
+    Group,
+    /// Another halfedge with the same edge and UVs.
+    Same,
+}
+
+/// All halfedges, sorted so that those of one edge, and among them those with equal UVs, follow each other.
+///
+/// A halfedge is named by its corner: `3 * face + c` goes from corner `c` to the next. Halfedges between equal vertices
+/// are left out.
+pub(crate) struct UvEdges {
+    pub order: Vec<u32>,
+    pub start: Vec<Start>,
+}
+
+/// An edge of the surface as one face sees it.
+#[derive(Clone, Copy)]
+pub(crate) struct Halfedge {
+    pub face: u32,
+    /// Vertices, the smaller number first.
+    pub vertices: [u32; 2],
+    /// UVs at these vertices.
+    pub uvs: [[f64; 2]; 2],
+    /// `true` if the face runs from the smaller number to the greater.
+    pub forward: bool,
+}
+
+/// Returns the halfedge at `corner` of faces given by their vertices.
+pub(crate) fn halfedge(corner: u32, faces: &[[u32; 3]], uvs: &[CornerUvs]) -> Halfedge {
+    let (face, c) = ((corner / 3) as usize, (corner % 3) as usize);
+    let next = (c + 1) % 3;
+    let (a, b) = (faces[face][c], faces[face][next]);
+    let (uv_a, uv_b) = (uvs[face][c], uvs[face][next]);
+    if a < b {
+        Halfedge {
+            face: corner / 3,
+            vertices: [a, b],
+            uvs: [uv_a, uv_b],
+            forward: true,
+        }
+    } else {
+        Halfedge {
+            face: corner / 3,
+            vertices: [b, a],
+            uvs: [uv_b, uv_a],
+            forward: false,
+        }
+    }
+}
+
+impl UvEdges {
+    /// Sorts the edges of `faces` over `n_vertices` welded vertices; UVs within `tolerance` of each other are equal.
+    pub fn new(
+        faces: &[[u32; 3]],
+        uvs: &[CornerUvs],
+        n_vertices: usize,
+        tolerance: f64,
+    ) -> UvEdges {
+        let (mut order, first) = by_lower_vertex(faces, n_vertices);
+        for vertex in 0..n_vertices {
+            let corners = &mut order[first[vertex]..first[vertex + 1]];
+            corners.sort_by(|&a, &b| compare(&halfedge(a, faces, uvs), &halfedge(b, faces, uvs)));
+        }
+        let mut start = Vec::with_capacity(order.len());
+        let mut previous: Option<Halfedge> = None;
+        for &corner in &order {
+            let current = halfedge(corner, faces, uvs);
+            start.push(match previous {
+                Some(p) if p.vertices == current.vertices => {
+                    if agree(p.uvs, current.uvs, tolerance) {
+                        Start::Same
+                    } else {
+                        Start::Group
+                    }
+                }
+                _ => Start::Edge,
+            });
+            previous = Some(current);
+        }
+        UvEdges { order, start }
+    }
+}
+
+/// Buckets corners by the smaller vertex of their halfedge, in increasing order; returns them and the start of each
+/// bucket.
+fn by_lower_vertex(faces: &[[u32; 3]], n_vertices: usize) -> (Vec<u32>, Vec<usize>) {
+    let lower = |face: &[u32; 3], c: usize| {
+        let (a, b) = (face[c], face[(c + 1) % 3]);
+        (a != b).then(|| a.min(b) as usize)
+    };
+    let mut first = vec![0; n_vertices + 1];
+    for face in faces {
+        for vertex in (0..3).filter_map(|c| lower(face, c)) {
+            first[vertex + 1] += 1;
+        }
+    }
+    for vertex in 0..n_vertices {
+        first[vertex + 1] += first[vertex];
+    }
+    let mut next = first.clone();
+    let mut order = vec![0; first[n_vertices]];
+    for (f, face) in faces.iter().enumerate() {
+        for c in 0..3 {
+            if let Some(vertex) = lower(face, c) {
+                order[next[vertex]] = (3 * f + c) as u32;
+                next[vertex] += 1;
+            }
+        }
+    }
+    (order, first)
+}
+
+/// Compares by the greater vertex, then by the UVs.
+fn compare(a: &Halfedge, b: &Halfedge) -> Ordering {
+    a.vertices[1]
+        .cmp(&b.vertices[1])
+        .then_with(|| a.uvs.partial_cmp(&b.uvs).unwrap_or(Ordering::Equal))
+}
+
+fn agree(a: [[f64; 2]; 2], b: [[f64; 2]; 2], tolerance: f64) -> bool {
+    let close = |k: usize, axis: usize| (a[k][axis] - b[k][axis]).abs() <= tolerance;
+    close(0, 0) && close(0, 1) && close(1, 0) && close(1, 1)
 }

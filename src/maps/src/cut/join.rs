@@ -36,16 +36,20 @@ fn glue(twin: &mut [u32], a: u32, b: u32) {
 
 /// Splits the halfedges of an edge by direction: two that run in opposite directions are wound alike.
 fn by_direction(surface: &Surface, edge: &[u32]) -> [Vec<u32>; 2] {
-    let is_forth = |h: &u32| !edge.is_empty() && same_direction(&surface.triangles, edge[0], *h);
-    let (forth, back) = edge.iter().copied().partition(is_forth);
+    let (forth, back) = edge
+        .iter()
+        .copied()
+        .partition(|h: &u32| !edge.is_empty() && same_direction(&surface.triangles, edge[0], *h));
     [forth, back]
 }
 
 /// Returns pairs of one item from each list; if there are too many pairs, each item is in one or two of them.
 fn pairs_of<'a, T>(forth: &'a [T], back: &'a [T]) -> Vec<(&'a T, &'a T)> {
     if forth.len() * back.len() <= MOST_PAIRS {
-        let with_each = |a| back.iter().map(move |b| (a, b));
-        return forth.iter().flat_map(with_each).collect();
+        return forth
+            .iter()
+            .flat_map(|a| back.iter().map(move |b| (a, b)))
+            .collect();
     }
     let shifted = forth.iter().zip(back.iter().skip(1));
     forth.iter().zip(back).chain(shifted).collect()

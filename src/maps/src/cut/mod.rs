@@ -14,18 +14,12 @@
 //! one pair of vertices, which no straight-line map can draw.
 //!
 //! Nothing here makes a map, and nothing is moved or subdivided.
-
 mod distances;
-mod doubled;
 mod join;
 mod open;
 mod sheet;
-mod slit;
 
 pub use distances::{Neighbors, distances, distances_until, opposite_end};
-pub use doubled::isolate_doubled_edges;
 pub use join::join_disks;
-pub use open::{open_to_disk, ways_to_open};
-pub use sheet::{Sheet, surface_fans};
-pub use slit::Branches;
-pub use slit::far_pairs;
+pub use open::{Branches, far_pairs, open_to_disk, ways_to_open};
+pub use sheet::{Sheet, isolate_doubled_edges, surface_fans};

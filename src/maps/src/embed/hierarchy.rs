@@ -9,13 +9,11 @@
 //! From: the hierarchy of progressive embeddings (Shen, Jiang, Zorin, Panozzo 2019) turned around: all vertices, not
 //! only those in bad triangles, and collapses in space rather than in the plane.
 
-use super::closed::ClosedDisk;
 use super::decimate::{Care, Collapse, Collapses, Decimation};
-use super::positive::first_bad_triangle;
 use super::rest::{Least, rest_shape};
 use super::star::{Corners, Star};
 use super::triangulation::pairs;
-use super::tutte::tutte;
+use super::tutte::{ClosedDisk, first_bad_triangle, tutte};
 use crate::mesh::{Disk, UsedVertices, VertexFaces};
 use unwrapd_method::barrier::NoBarrier;
 use unwrapd_method::energy::{RestShape, SymmetricDirichlet, Term, Triangles};

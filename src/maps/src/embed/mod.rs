@@ -13,30 +13,20 @@
 //! Invariant: every map that leaves this module is positive in every triangle by
 //! [`orient2d_sign`](unwrapd_method::numerics::predicates::orient2d_sign), unless the caller asked for no barrier. Maps
 //! may still overlap themselves globally; that is not checked here.
-
-mod closed;
 mod decimate;
 mod hierarchy;
-mod options;
 mod parameterize;
-mod pins;
-mod positive;
 mod problem;
 mod rest;
-mod simplify;
 mod star;
-mod start;
 mod triangulation;
 mod tutte;
-mod unfolded;
 
-pub use options::{Embedding, Options};
-pub use parameterize::{InvalidStart, optimize, parameterize};
-pub use pins::Pins;
-pub use positive::is_positive;
-pub use problem::map_term;
-pub use rest::is_needle;
-pub use rest::{RestShapes, rest_shapes};
-pub use simplify::Simplification;
+pub use decimate::Simplification;
+pub use parameterize::{
+    InvalidStart, hierarchical_start, optimize, parameterize, start, tutte_start,
+};
+pub use problem::{Embedding, Options, Pins, map_term};
+pub use rest::{RestShapes, is_needle, rest_shapes};
 pub use star::{Corners, Star};
-pub use start::{hierarchical_start, start, tutte_start};
+pub use tutte::is_positive;

@@ -1,12 +1,12 @@
 //! A disk, its rest shapes and the energy of its maps.
 
-use super::options::{Embedding, Options};
-use super::positive::first_bad_triangle;
 use super::rest::RestShapes;
+use super::tutte::first_bad_triangle;
 use crate::mesh::Disk;
 use std::sync::Arc;
 use unwrapd_method::barrier::{Barrier, BarrierKind, epsilon};
-use unwrapd_method::energy::{RestShape, Term, Triangles};
+use unwrapd_method::energy::{Arap, Density, RestShape, Term, Triangles};
+use unwrapd_method::numerics::hull::convex_hull;
 use unwrapd_method::numerics::vec2::doubled_area;
 use unwrapd_method::solver::{Objective, Settings, Summary, Watch, best_scale, minimize};
 
@@ -197,4 +197,96 @@ fn map_term_with(
 fn signed_area(triangle: &[u32; 3], uv: &[[f64; 2]]) -> f64 {
     let [a, b, c] = triangle.map(|v| uv[v as usize]);
     0.5 * doubled_area(a, b, c)
+}
+
+// Options and results of mapping a disk.
+
+/// Objective and stopping criteria.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// ψ: one of the library's or a caller's own.
+    pub density: Arc<dyn Density<2>>,
+    /// Barrier; without one, densities that are finite for flipped triangles may flip them.
+    pub barrier: BarrierKind,
+    /// β, the barrier's strength, for a mean rest area of 1.
+    pub beta: f64,
+    /// s, the share of its rest area below which the barrier of a triangle is nonzero.
+    pub s: f64,
+    /// Vertices that keep their places of the start.
+    pub pins: Pins,
+    /// Settings of the solver.
+    pub solver: Settings,
+}
+
+impl Default for Options {
+    /// Returns ARAP with the inverse-spline barrier, β = 0.01, s = 1.
+    fn default() -> Self {
+        Self {
+            density: Arc::new(Arap),
+            barrier: BarrierKind::default(),
+            beta: 0.01,
+            s: 1.0,
+            pins: Pins::None,
+            solver: Settings::default(),
+        }
+    }
+}
+
+/// A map of a disk and the summary of its optimization.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Embedding {
+    /// One position per vertex, in the mesh's unit of length, counter-clockwise; the sum of the areas in the plane is
+    /// that of the triangles in space (or of their rest shapes, if none has an area).
+    pub uv: Vec<[f64; 2]>,
+    /// Summary of the solver; energies are for a mean rest area of 1.
+    pub summary: Summary,
+}
+
+// Vertices that keep their places of the start.
+
+/// Vertices that keep their exact places of the start while the others move (Schüller et al. 2013).
+///
+/// [`Lscm`](unwrapd_method::energy::Lscm) falls when a map shrinks: without pins only the barrier keeps it from
+/// collapsing to a point. Two pins fix its size; other energies lose only their freedom to move
+/// and to turn, and the distance of the pins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pins {
+    /// No vertices.
+    #[default]
+    None,
+    /// Two vertices of the outer boundary that are far from each other in a nearly isometric map, as far apart as
+    /// there. Opposite vertices of Tutte's circle, at its diameter, are wrong for a long surface: its least-squares
+    /// conformal map would end smaller than the surface and be shaped by the barrier. Energies that depend on size
+    /// would pay for any distance except that in a minimum of their own, so it is taken from one, at the price of a
+    /// minimization without pins.
+    Two,
+}
+
+/// Most corners of a convex hull that are compared with each other, two million pairs; of more, as on a circle, every
+/// k-th is enough.
+const MOST_CORNERS: usize = 2_048;
+
+/// Returns the two vertices of a loop that are farthest apart in a map. O(n log n).
+pub(super) fn far_pair(boundary: &[u32], uv: &[[f64; 2]]) -> [u32; 2] {
+    let hull = convex_hull(boundary.iter().map(|&v| uv[v as usize]));
+    let step = hull.len().div_ceil(MOST_CORNERS).max(1);
+    let hull: Vec<[f64; 2]> = hull.into_iter().step_by(step).collect();
+    let mut farthest = ([0.0; 2], [0.0; 2], 0.0);
+    for (i, &p) in hull.iter().enumerate() {
+        for &q in &hull[i + 1..] {
+            let apart = (q[0] - p[0]).hypot(q[1] - p[1]);
+            if apart > farthest.2 {
+                farthest = (p, q, apart);
+            }
+        }
+    }
+    let vertex = |p: [f64; 2]| boundary.iter().copied().find(|&v| uv[v as usize] == p);
+    let first = boundary.first().copied().unwrap_or_default();
+    [farthest.0, farthest.1].map(|p| vertex(p).unwrap_or(first))
+}
+
+/// Returns the distance of two vertices in a map.
+pub(super) fn pair_distance(uv: &[[f64; 2]], pair: [u32; 2]) -> f64 {
+    let [[x, y], [u, v]] = pair.map(|vertex| uv[vertex as usize]);
+    (u - x).hypot(v - y)
 }

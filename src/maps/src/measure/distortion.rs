@@ -1,7 +1,6 @@
 //! Distortion: deviation of the map from an isometry.
 
 use super::faces::{FaceMeasures, dot, face_points, sub};
-use super::quantile::Weighted;
 use super::validity::flipped;
 use crate::certificate::UvTopology;
 use crate::mesh::CornerUvs;
@@ -218,5 +217,104 @@ impl Stretch {
 
     fn arap(&self) -> f64 {
         (self.sigma[0] - 1.0).powi(2) + (self.sigma[1] - 1.0).powi(2)
+    }
+}
+
+// Texels per length, chart against chart.
+
+/// Texel density of the charts, against what is intended where charts have weights: √(UV area / surface area) of a chart over that of the whole; ideal 1 throughout. Weighted by
+/// surface area.
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Density {
+    /// 95th over 5th percentile.
+    pub density_p95_over_p5: Option<f64>,
+    /// Smallest.
+    pub density_min: Option<f64>,
+    /// Greatest.
+    pub density_max: Option<f64>,
+    /// Standard deviation over mean.
+    pub density_cv: Option<f64>,
+}
+
+impl Density {
+    pub(super) fn new(topology: &UvTopology, faces: &FaceMeasures) -> Density {
+        if !(0..topology.faces.len())
+            .any(|f: usize| !faces.degenerate_3d[f] && topology.orientation[f] != 0)
+        {
+            return Density::default();
+        }
+        // Collect the density of each chart, weighted by its surface area.
+        let scale = faces.area_scale().sqrt();
+        let densities: Vec<(f64, f64)> = faces
+            .charts
+            .iter()
+            .filter(|chart| chart.is_real() && chart.area_3d > 0.0)
+            .map(|chart| {
+                let density = (chart.area_uv / chart.area_intended.max(1e-300)).sqrt() * scale;
+                (density, chart.area_3d)
+            })
+            .collect();
+        // Compute mean and variance, then percentiles.
+        let weight: f64 = densities.iter().map(|(_, w)| w).sum();
+        let mean = densities.iter().map(|(d, w)| d * w).sum::<f64>() / weight;
+        let variance = densities
+            .iter()
+            .map(|(d, w)| (d - mean).powi(2) * w)
+            .sum::<f64>()
+            / weight;
+        let sorted = Weighted::new(densities);
+        let spread = |low: f64, high: f64| (low != 0.0).then(|| high / low);
+        Density {
+            density_p95_over_p5: sorted
+                .quantile(0.05)
+                .zip(sorted.quantile(0.95))
+                .and_then(|(low, high)| spread(low, high)),
+            density_min: sorted.min(),
+            density_max: sorted.max(),
+            density_cv: sorted.min().map(|_| variance.sqrt() / mean),
+        }
+    }
+}
+
+// Weighted quantiles.
+
+/// Values with weights, sorted.
+struct Weighted {
+    values: Vec<f64>,
+    /// Sum of the weights up to each value.
+    cumulated: Vec<f64>,
+}
+
+impl Weighted {
+    pub fn new(mut pairs: Vec<(f64, f64)>) -> Weighted {
+        // Shares are summed, not weights: where half of twelve equal weights is asked for, rounding decides between the
+        // sixth and the seventh value, and so it decides as in other programs that normalize first.
+        let total: f64 = pairs.iter().map(|pair| pair.1).sum();
+        pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let mut sum = 0.0;
+        let cumulated = pairs.iter().map(|(_, weight)| {
+            sum += weight / total;
+            sum
+        });
+        Weighted {
+            cumulated: cumulated.collect(),
+            values: pairs.iter().map(|p| p.0).collect(),
+        }
+    }
+
+    /// Returns the smallest value at which the cumulated weight reaches the share `q` of the total.
+    pub fn quantile(&self, q: f64) -> Option<f64> {
+        let wanted = q * self.cumulated.last()?;
+        let index = self.cumulated.partition_point(|&c| c < wanted);
+        Some(self.values[index.min(self.values.len() - 1)])
+    }
+
+    pub fn min(&self) -> Option<f64> {
+        self.values.first().copied()
+    }
+
+    pub fn max(&self) -> Option<f64> {
+        self.values.last().copied()
     }
 }

@@ -17,33 +17,19 @@
 //!   separately, so that a collapse cannot hide.
 //! - Orientation and overlap are exact; everything else is a sum of f64. Figures that do not exist for a mesh are
 //!   `None`.
-
-mod density;
 mod distortion;
 mod faces;
-mod gaps;
-mod overlaps;
 mod packing;
-mod pages;
-mod quantile;
-mod seams;
-mod size;
 mod validity;
-
-pub use density::Density;
-pub use distortion::{Distortion, FaceDistortion, face_distortion};
-pub use gaps::Gaps;
-pub use overlaps::Overlaps;
-pub use packing::Packing;
-pub use pages::Page;
-pub use seams::Seams;
-pub use size::Size;
-pub use validity::Validity;
 
 use crate::certificate::{Overlap, UvTopology};
 use crate::mesh::{CornerUvs, VAxis};
+pub use distortion::{Density, Distortion, FaceDistortion, face_distortion};
 use faces::FaceMeasures;
+pub use faces::Seams;
+pub use packing::{Gaps, Packing, Page, Size};
 use serde::Serialize;
+pub use validity::{Overlaps, Validity};
 
 /// Options of a measurement.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -148,7 +134,7 @@ pub fn measure(
             aspect,
         ),
         gaps: Gaps::new(&topology, &faces, aspect),
-        pages: pages::pages(&topology, &faces, aspect, |v| match v_axis {
+        pages: packing::pages(&topology, &faces, aspect, |v| match v_axis {
             VAxis::Up => v,
             VAxis::Down => 1.0 - v,
         }),

@@ -1,7 +1,6 @@
 //! Gluing of faces along edges.
 
-use super::edges::Edges;
-use super::spread::spread;
+use super::edges::{Edges, spread};
 use super::{CUT, UnionFind, next, origin, same_direction};
 use unwrapd_method::numerics::vec3::{add_scaled, dot, sub, unit};
 
@@ -90,9 +89,11 @@ impl Adjacency {
             CUT => CUT,
             t => 3 * place[t as usize / 3] + t % 3,
         };
-        let of_face = |f: &u32| [0, 1, 2].map(|c| anew(self.twin[3 * *f as usize + c]));
         Self {
-            twin: order.iter().flat_map(of_face).collect(),
+            twin: order
+                .iter()
+                .flat_map(|f: &u32| [0, 1, 2].map(|c| anew(self.twin[3 * *f as usize + c])))
+                .collect(),
             turned: order.iter().map(|&f| self.turned[f as usize]).collect(),
             piece: relabeled(&self.piece, self.n_pieces, order),
             component: relabeled(&self.component, self.n_components, order),
@@ -233,8 +234,12 @@ fn consistent_winding(triangles: &[[u32; 3]], twin: &[u32]) -> Vec<bool> {
             }
             is_new
         });
-        let is_turned = |f: &&u32| turned[**f as usize] == Some(true);
-        if 2 * piece.iter().filter(is_turned).count() > piece.len() {
+        if 2 * piece
+            .iter()
+            .filter(|f: &&u32| turned[**f as usize] == Some(true))
+            .count()
+            > piece.len()
+        {
             for &f in &piece {
                 turned[f as usize] = turned[f as usize].map(|t| !t);
             }

@@ -1,7 +1,6 @@
 //! A surface proven to be one disk, possibly with holes.
 
-use super::edges::{CUT, Edges, same_direction};
-use super::spread::spread;
+use super::edges::{CUT, Edges, same_direction, spread};
 use thiserror::Error;
 
 /// Triangles that form one connected, oriented, manifold surface of genus 0 with at least one boundary loop.
@@ -94,8 +93,10 @@ impl Disk {
 
     /// Returns the images of the boundary loops in a map with the vertices at `uv`.
     pub fn boundary_in(&self, uv: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
-        let image = |boundary: &Vec<u32>| boundary.iter().map(|&v| uv[v as usize]).collect();
-        self.loops.iter().map(image).collect()
+        self.loops
+            .iter()
+            .map(|boundary: &Vec<u32>| boundary.iter().map(|&v| uv[v as usize]).collect())
+            .collect()
     }
 }
 

@@ -8,39 +8,20 @@
 //!
 //! A rest shape to be deformed is stricter: a [`PlanarMesh`] or [`TetMesh`] has elements of exactly positive size on
 //! different sides of their common edges or faces; anything else is refused with the offending element.
-
 mod adjacency;
-mod canonical;
-mod corner_uvs;
-mod defects;
 mod disk;
 mod edges;
-mod element_error;
-mod planar;
-mod resolution;
-mod smoothed;
-mod spread;
+mod elements;
 mod surface;
-mod tets;
-mod union_find;
-mod used_vertices;
-mod vertex_faces;
-mod weld;
+mod uvs;
 
 pub use adjacency::Adjacency;
-pub use canonical::canonical_order;
-pub use corner_uvs::{CornerUvs, VAxis};
-pub use defects::{Defects, has_zero_area};
 pub use disk::{Disk, NotADisk};
-pub use edges::{CUT, Edges, next, origin, same_direction};
-pub use element_error::ElementError;
-pub use element_error::validate;
-pub use planar::{PlanarMesh, boundary_edges};
-pub use resolution::Resolution;
-pub use spread::spread;
-pub use surface::{MeshError, Surface};
-pub use tets::{TetMesh, boundary_triangles};
-pub use union_find::UnionFind;
-pub use used_vertices::UsedVertices;
-pub use vertex_faces::VertexFaces;
-pub use weld::weld;
+pub use edges::{
+    CUT, Edges, UnionFind, UsedVertices, VertexFaces, next, origin, same_direction, spread,
+};
+pub use elements::{
+    ElementError, PlanarMesh, TetMesh, boundary_edges, boundary_triangles, validate,
+};
+pub use surface::{Defects, MeshError, Surface, canonical_order, has_zero_area, weld};
+pub use uvs::{CornerUvs, Resolution, VAxis};

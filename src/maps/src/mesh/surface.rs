@@ -1,6 +1,12 @@
 //! A triangle surface with one vertex per position.
 
-use super::{Adjacency, CUT, Defects, edges::Edges, same_direction, weld::weld};
+use super::adjacency::copy_ranks;
+use super::edges::Edges;
+use super::{Adjacency, CUT, UnionFind, next, origin, same_direction};
+use serde::Serialize;
+use std::collections::{HashMap, VecDeque};
+use unwrapd_method::numerics::principal_axes::PrincipalAxes;
+use unwrapd_method::numerics::vec3::{add_scaled, area_vector, cross, distance, dot, norm, sub};
 
 /// Triangles over distinct positions, with their defects counted.
 #[derive(Clone, Debug)]
@@ -161,4 +167,339 @@ fn validate<T: Copy + Into<f64>>(
         }
     }
     Ok(())
+}
+
+// Welding of equal positions.
+
+/// Returns distinct positions in the order of their first occurrence, and for each input vertex the index of its
+/// position.
+///
+/// Two positions are one if all three coordinates are bit-equal, with −0 counting as 0. There is no tolerance:
+/// positions are welded exactly if they are one point in the written file.
+pub fn weld(positions: impl ExactSizeIterator<Item = [f64; 3]>) -> (Vec<[f64; 3]>, Vec<u32>) {
+    let mut index = HashMap::with_capacity(positions.len());
+    let mut distinct = Vec::new();
+    let vertex_of = positions
+        .map(|p| {
+            // Adding zero turns −0 into 0.
+            let p = p.map(|x| x + 0.0);
+            *index.entry(p.map(f64::to_bits)).or_insert_with(|| {
+                distinct.push(p);
+                distinct.len() as u32 - 1
+            })
+        })
+        .collect();
+    (distinct, vertex_of)
+}
+
+// Defects of a triangle list, one check each.
+
+/// Counts of what is wrong, or at least worth knowing, about a list of triangles. All faces but those that repeat a
+/// position are unwrapped nevertheless.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Defects {
+    /// Vertices at the position of an earlier vertex; files split vertices for normals and texture coordinates.
+    pub welded_vertices: usize,
+    /// Vertices that no face names.
+    pub unreferenced_vertices: usize,
+    /// Faces that name one vertex or one position twice: they have no UV area and are left out.
+    pub repeated_vertex_faces: usize,
+    /// Faces with three different positions on one line (doubled area at most 10⁻⁹ of the longest edge's square).
+    pub zero_area_faces: usize,
+    /// Faces with the same three positions as an earlier face, in any order.
+    pub duplicate_faces: usize,
+    /// Edges with three or more faces.
+    pub nonmanifold_edges: usize,
+    /// Positions where fans of faces touch that share no edge there.
+    pub bowtie_vertices: usize,
+    /// Edges whose two faces both run along them the same way: one of them is wound the other way.
+    pub inconsistent_edges: usize,
+    /// Pieces that no turning over of faces makes consistent, such as Möbius strips.
+    pub nonorientable_components: usize,
+    /// Parts of the surface that share no edge.
+    pub components: usize,
+    /// Closed runs of edges with nothing glued to them.
+    pub boundary_loops: usize,
+}
+
+impl Defects {
+    /// Counts the defects of triangles that have three different vertices.
+    fn of_triangles(
+        positions: &[[f64; 3]],
+        triangles: &[[u32; 3]],
+        edges: &Edges,
+        adjacency: &Adjacency,
+    ) -> Self {
+        Self {
+            zero_area_faces: zero_area_faces(positions, triangles),
+            duplicate_faces: duplicate_faces(triangles, edges),
+            nonmanifold_edges: adjacency.n_nonmanifold_edges,
+            bowtie_vertices: bowtie_vertices(positions.len(), triangles, edges),
+            inconsistent_edges: inconsistent_edges(triangles, adjacency),
+            nonorientable_components: nonorientable_components(triangles, adjacency),
+            components: adjacency.n_components,
+            boundary_loops: boundary_loops(triangles, adjacency),
+            ..Self::default()
+        }
+    }
+
+    /// Adds the counts that only the unwelded input shows.
+    fn count_input(
+        &mut self,
+        n_vertices: usize,
+        triangles: &[[u32; 3]],
+        n_distinct: usize,
+        n_kept: usize,
+    ) {
+        let mut used = vec![false; n_vertices];
+        for &v in triangles.iter().flatten() {
+            used[v as usize] = true;
+        }
+        self.unreferenced_vertices = used.iter().filter(|&&u| !u).count();
+        self.welded_vertices = n_vertices - n_distinct;
+        self.repeated_vertex_faces = triangles.len() - n_kept;
+    }
+}
+
+/// Returns whether a triangle's corners lie on one line as far as single precision can tell.
+pub fn has_zero_area([a, b, c]: [[f64; 3]; 3]) -> bool {
+    let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));
+    norm(area_vector(a, b, c)) <= 1e-9 * longest * longest
+}
+
+fn zero_area_faces(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> usize {
+    triangles
+        .iter()
+        .filter(|t| has_zero_area(t.map(|v| positions[v as usize])))
+        .count()
+}
+
+fn duplicate_faces(triangles: &[[u32; 3]], edges: &Edges) -> usize {
+    let ranks = copy_ranks(triangles, edges);
+    ranks.iter().filter(|&&rank| rank > 0).count()
+}
+
+/// Counts vertices with several fans: corners at one vertex are united through every edge they share there; a second
+/// set left over is a second fan.
+fn bowtie_vertices(n_vertices: usize, triangles: &[[u32; 3]], edges: &Edges) -> usize {
+    let mut fans = UnionFind::new(3 * triangles.len());
+    for edge in edges.iter() {
+        for &h in &edge[1..] {
+            let (near, far) = if same_direction(triangles, edge[0], h) {
+                (h, next(h))
+            } else {
+                (next(h), h)
+            };
+            fans.unite(edge[0], near);
+            fans.unite(next(edge[0]), far);
+        }
+    }
+    let mut fans_at = vec![0u8; n_vertices];
+    for corner in 0..3 * triangles.len() as u32 {
+        if fans.find(corner) == corner {
+            let count = &mut fans_at[origin(triangles, corner) as usize];
+            *count = count.saturating_add(1);
+        }
+    }
+    fans_at.iter().filter(|&&n| n > 1).count()
+}
+
+fn inconsistent_edges(triangles: &[[u32; 3]], adjacency: &Adjacency) -> usize {
+    glued_once(adjacency)
+        .filter(|&h| same_direction(triangles, h, adjacency.twin[h as usize]))
+        .count()
+}
+
+fn nonorientable_components(triangles: &[[u32; 3]], adjacency: &Adjacency) -> usize {
+    let mut twisted = vec![false; adjacency.n_pieces];
+    for h in glued_once(adjacency) {
+        if adjacency.is_twisted(triangles, h) {
+            twisted[adjacency.piece[h as usize / 3] as usize] = true;
+        }
+    }
+    twisted.iter().filter(|&&t| t).count()
+}
+
+/// Iterates over one halfedge of each glued pair.
+fn glued_once(adjacency: &Adjacency) -> impl Iterator<Item = u32> {
+    (0u32..)
+        .zip(&adjacency.twin)
+        .filter(|&(h, &t)| t != CUT && h < t)
+        .map(|(h, _)| h)
+}
+
+/// Counts boundary loops: cut halfedges are united where they meet at a vertex of the glued surface.
+fn boundary_loops(triangles: &[[u32; 3]], adjacency: &Adjacency) -> usize {
+    let twin = &adjacency.twin;
+    let mut loops = UnionFind::new(twin.len());
+    let mut n_cut = 0;
+    let mut n_joined = 0;
+    for h in (0..twin.len() as u32).filter(|&h| twin[h as usize] == CUT) {
+        n_cut += 1;
+        for vertex in [origin(triangles, h), origin(triangles, next(h))] {
+            n_joined += usize::from(loops.unite(h, across_fan(triangles, twin, h, vertex)));
+        }
+    }
+    n_cut - n_joined
+}
+
+/// Returns the cut halfedge at the other end of the fan around `vertex` that begins with the cut halfedge `h`.
+fn across_fan(triangles: &[[u32; 3]], twin: &[u32], h: u32, vertex: u32) -> u32 {
+    let mut side = h;
+    loop {
+        side = if origin(triangles, side) == vertex {
+            next(next(side))
+        } else {
+            next(side)
+        };
+        match twin[side as usize] {
+            CUT => return side,
+            glued => side = glued,
+        }
+    }
+}
+
+// Canonical order of a surface's triangles, derived from its shape.
+
+/// Direction in which an order begins, in coordinates along the principal axes: far out along the longest. The others
+/// decide between mirror images.
+const BEGINNING: [f64; 3] = [1.0, 0.37, 0.61];
+
+/// Returns the triangles of a surface in canonical order: independent of the order of triangles and vertices in the
+/// input and of translation, rotation and scale, up to rounding and symmetry.
+///
+/// The piece with the most triangles comes first. In each piece the triangles are traversed breadth first, from a
+/// halfedge that its shape singles out.
+pub fn canonical_order(surface: &Surface) -> Vec<u32> {
+    let n = surface.triangles.len();
+    let twin = &surface.adjacency().twin;
+    let mut is_reached = vec![false; n];
+    let mut order = Vec::with_capacity(n);
+    let mut open = VecDeque::new();
+    for first in beginnings(surface) {
+        is_reached[first as usize / 3] = true;
+        open.push_back(first);
+        while let Some(h) = open.pop_front() {
+            order.push(h / 3);
+            for t in [h, next(h), next(next(h))].map(|h| twin[h as usize]) {
+                if t != CUT && !std::mem::replace(&mut is_reached[t as usize / 3], true) {
+                    open.push_back(t);
+                }
+            }
+        }
+    }
+    order
+}
+
+/// Returns for each piece the halfedge to begin at: the one that starts farthest along [`BEGINNING`] and, among equals,
+/// ends farthest.
+fn beginnings(surface: &Surface) -> Vec<u32> {
+    let height = heights(surface);
+    let key = |h: u32| [h, next(h)].map(|h| height[origin(&surface.triangles, h) as usize]);
+    let higher = |a: [f64; 2], b: [f64; 2]| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]));
+    let adjacency = surface.adjacency();
+    let mut first: Vec<Option<u32>> = vec![None; adjacency.n_pieces];
+    let mut n_triangles = vec![0_u32; adjacency.n_pieces];
+    for (triangle, &piece) in (0u32..).zip(&adjacency.piece) {
+        n_triangles[piece as usize] += 1;
+        for h in 3 * triangle..3 * triangle + 3 {
+            let highest = &mut first[piece as usize];
+            if highest.is_none_or(|known| higher(key(h), key(known)).is_gt()) {
+                *highest = Some(h);
+            }
+        }
+    }
+    let mut pieces: Vec<(u32, u32)> = n_triangles
+        .into_iter()
+        .zip(first.into_iter().flatten())
+        .collect();
+    pieces.sort_by(|a, b| b.0.cmp(&a.0).then_with(|| higher(key(b.1), key(a.1))));
+    pieces.into_iter().map(|(_, first)| first).collect()
+}
+
+/// Returns the coordinate of each vertex along [`BEGINNING`].
+fn heights(surface: &Surface) -> Vec<f64> {
+    let corners = surface.triangles.as_flattened();
+    let PrincipalAxes {
+        center,
+        mut axes,
+        skew,
+    } = PrincipalAxes::of(corners.iter().map(|&v: &u32| surface.positions[v as usize]));
+    // Where a surface is its own mirror image, one axis is known but for its sign.
+    if dot(cross(axes[0], axes[1]), axes[2]) < 0.0
+        && let Some(unsure) = (0..3).min_by(|&a, &b| skew[a].total_cmp(&skew[b]))
+    {
+        axes[unsure] = axes[unsure].map(|x| -x);
+    }
+    let beginning = (0..3).fold([0.0; 3], |sum, k| add_scaled(sum, BEGINNING[k], axes[k]));
+    let positions = surface.positions.iter();
+    positions.map(|&p| dot(sub(p, center), beginning)).collect()
+}
+
+// Smoothing of noisy vertex positions.
+
+/// Number of smoothing passes. Together they remove noise a few edges wide and preserve the shape.
+const PASSES: usize = 10;
+/// Steps toward the mean of the neighbors and back, per pass: Taubin's λ and μ, which keep frequencies below the pass
+/// band 1/0.5 − 1/0.53 = 0.11.
+const STEPS: [f64; 2] = [0.5, -0.53];
+
+impl Surface {
+    /// Returns the positions after ten passes of Taubin's λ|μ filter with uniform weights (*A Signal Processing
+    /// Approach to Fair Surface Design*, 1995). Vertices of `is_on_border` follow their neighbors along the border.
+    /// O(n).
+    pub fn smoothed(&self, is_on_border: &[bool]) -> Vec<[f64; 3]> {
+        let pulls = self.pulls(is_on_border);
+        let mut count = vec![0.0_f64; self.positions.len()];
+        for [v, _] in &pulls {
+            count[*v as usize] += 1.0;
+        }
+        let mut positions = self.positions.clone();
+        for step in [STEPS; PASSES].into_iter().flatten() {
+            let mut sums = vec![[0.0; 3]; positions.len()];
+            for [v, neighbor] in pulls.iter().map(|pull| pull.map(|v| v as usize)) {
+                for (k, sum) in sums[v].iter_mut().enumerate() {
+                    *sum += positions[neighbor][k] - positions[v][k];
+                }
+            }
+            for ((p, sum), count) in positions.iter_mut().zip(sums).zip(&count) {
+                for (x, s) in p.iter_mut().zip(sum) {
+                    *x += step * s / count.max(1.0);
+                }
+            }
+        }
+        positions
+    }
+
+    /// Returns for each vertex whether it lies on a border: an edge of one face.
+    pub fn is_on_border(&self) -> Vec<bool> {
+        let mut is_on_border = vec![false; self.positions.len()];
+        for edge in Edges::new(self.positions.len(), &self.triangles).iter() {
+            if let [h] = edge {
+                for v in self.ends(*h) {
+                    is_on_border[v as usize] = true;
+                }
+            }
+        }
+        is_on_border
+    }
+
+    /// Returns each vertex with each neighbor that it follows.
+    fn pulls(&self, is_on_border: &[bool]) -> Vec<[u32; 2]> {
+        let mut pulls = Vec::with_capacity(3 * self.triangles.len());
+        for edge in Edges::new(self.positions.len(), &self.triangles).iter() {
+            let [a, b] = self.ends(edge[0]);
+            for [v, neighbor] in [[a, b], [b, a]] {
+                if edge.len() == 1 || !is_on_border[v as usize] {
+                    pulls.push([v, neighbor]);
+                }
+            }
+        }
+        pulls
+    }
+
+    fn ends(&self, h: u32) -> [u32; 2] {
+        [h, next(h)].map(|h| origin(&self.triangles, h))
+    }
 }

@@ -6,17 +6,11 @@
 //!
 //! Nothing here is proof. Written maps are judged by [`certificate`](crate::certificate), which has its own boxes,
 //! trees and tests and imports none from here, so that a fault here is found there.
-
-mod apart;
 mod box_index;
-mod polygons;
-mod segments;
-mod straightness;
-mod triangles;
+mod shapes;
 
-pub use apart::keep_apart;
 pub use box_index::{BoxIndex, Visit, search_budget};
-pub use polygons::{doubled_polygon_area, meeting_point};
-pub use segments::{Segment, segment_distance};
-pub use straightness::Straightness;
-pub use triangles::{are_disjoint, interiors_intersect, overlapping_pairs};
+pub use shapes::{
+    Segment, Straightness, are_disjoint, doubled_polygon_area, interiors_intersect, keep_apart,
+    meeting_point, overlapping_pairs, segment_distance,
+};

@@ -1,8 +1,7 @@
 //! The interfaces of a density and of a barrier.
 
-use std::fmt;
-
 use crate::numerics::square::Matrix;
+use std::fmt;
 
 /// An energy per rest size as a function ψ of the signed singular values σ₁ ≥ … ≥ |σ_D| of the Jacobian.
 ///
@@ -69,4 +68,28 @@ const SAME_VALUE: f64 = 1e-9;
 pub fn prefers_a_size<const D: usize>(density: &dyn Density<D>) -> bool {
     let [half, rest] = [0.5, 1.0].map(|sigma| density.value(&[sigma; D]));
     (half - rest).abs() > SAME_VALUE * rest.abs()
+}
+
+// No density.
+
+/// ψ = 0: for a barrier alone, next to an energy that is not a sum over elements. Domain: every J.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Zero;
+
+impl<const D: usize> Density<D> for Zero {
+    fn floor(&self) -> f64 {
+        f64::NEG_INFINITY
+    }
+
+    fn value(&self, _: &[f64; D]) -> f64 {
+        0.0
+    }
+
+    fn gradient(&self, _: &[f64; D]) -> [f64; D] {
+        [0.0; D]
+    }
+
+    fn hessian(&self, _: &[f64; D]) -> Matrix<D> {
+        [[0.0; D]; D]
+    }
 }

@@ -14,40 +14,22 @@
 //! and Hessian block of a stencil: the solver sees a [`Term`] and knows no energy by name. This module does not know
 //! where a map comes from or how it is improved.
 
-mod arap;
+mod conformal;
 mod density;
-mod foldover_free;
 mod formula;
-mod green;
+mod isometric;
 mod kind;
-mod laplacian;
-mod lscm;
-mod mips;
-mod modes;
-mod neo_hookean;
-mod positional;
 mod quadratic;
 mod rest;
 mod simplices;
-mod symmetric_dirichlet;
 mod term;
-mod zero;
 
-pub use arap::{Arap, FrozenArap};
-pub use density::{Density, Guard, prefers_a_size};
-pub use foldover_free::FoldoverFree;
+pub use conformal::{Amips, FoldoverFree, Lscm, Mips};
+pub use density::{Density, Guard, Zero, prefers_a_size};
 pub use formula::{Formula, FormulaError, Jet, OwnEnergy};
-pub use green::{Green, StVenantKirchhoff};
+pub use isometric::{Arap, FrozenArap, Green, NeoHookean, StVenantKirchhoff, SymmetricDirichlet};
 pub use kind::{DensityKind, DimensionError, DisplacementKind, EnergyKind};
-pub use laplacian::{biharmonic, dirichlet, uniform_biharmonic, voronoi_areas};
-pub use lscm::Lscm;
-pub use mips::{Amips, Mips};
-pub use modes::Modes;
-pub use neo_hookean::NeoHookean;
-pub use positional::{Positional, Row};
-pub use quadratic::Quadratic;
+pub use quadratic::{Quadratic, biharmonic, dirichlet, uniform_biharmonic, voronoi_areas};
 pub use rest::RestShape;
-pub use simplices::{Simplices, Tetrahedra, Triangles};
-pub use symmetric_dirichlet::SymmetricDirichlet;
-pub use term::{Assembly, Term};
-pub use zero::Zero;
+pub use simplices::{Modes, Simplices, Tetrahedra, Triangles};
+pub use term::{Assembly, Positional, Row, Term};

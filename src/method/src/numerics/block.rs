@@ -35,8 +35,8 @@ impl BlockPattern {
     /// # Panics
     /// If a stencil names a vertex that does not exist.
     pub fn new(dim: usize, n_vertices: usize, terms: &[Stencils]) -> (Self, Vec<Slots>) {
-        let pairs = || terms.iter().flat_map(Stencils::pairs);
-        let (starts, neighbors) = larger_neighbors(n_vertices, pairs);
+        let (starts, neighbors) =
+            larger_neighbors(n_vertices, || terms.iter().flat_map(Stencils::pairs));
         let scalar = scalar_pattern(dim, &starts, &neighbors);
         let slot = |(small, large): (u32, u32)| {
             let small = small as usize;

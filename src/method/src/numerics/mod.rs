@@ -4,15 +4,12 @@
 //! factorization whose symbolic part is done once per pattern, conjugate gradients where it does not fit into memory,
 //! and the exact sign of an orientation. Everything is plain `f64` arrays; after the analysis of its pattern, solving a
 //! system allocates nothing.
-
 pub mod block;
 pub mod bounds;
 pub mod cholesky;
 pub mod conjugate_gradients;
 pub mod csr;
 pub mod hull;
-pub mod jacobi;
-pub mod lanes;
 pub mod linear_solver;
 pub mod point_tree;
 pub mod predicates;

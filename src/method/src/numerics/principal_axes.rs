@@ -1,7 +1,7 @@
 //! The principal axes of points.
 
-use super::jacobi::svd3;
 use super::square::Square;
+use super::svd::svd3;
 use super::vec3::{add_scaled, dot, sub};
 use std::array::from_fn;
 

@@ -2,12 +2,10 @@
 //!
 //! Everything else about elements is written once for both dimensions.
 
-use std::array;
-
-use super::jacobi::{singular_values3, svds3};
 pub use super::svd::Matrix;
-use super::svd::{Svd, singular_values2, svd2};
+use super::svd::{Svd, singular_values2, singular_values3, svd2, svds3};
 use super::vec3;
+use std::array;
 
 /// Operations on matrices that energies need, in either dimension.
 pub trait Square<const D: usize>: Copy {

@@ -38,11 +38,13 @@ impl Support {
             return 0.0;
         }
         let (sin, cos) = (TAU / N as f64).sin_cos();
-        let edge = |i: usize| {
-            let (before, h, after) = (self.0[(i + N - 1) % N], self.0[i], self.0[(i + 1) % N]);
-            h * (before + after - 2.0 * h * cos) / sin
-        };
-        (0..N).map(edge).sum::<f64>() / 2.0
+        (0..N)
+            .map(|i: usize| {
+                let (before, h, after) = (self.0[(i + N - 1) % N], self.0[i], self.0[(i + 1) % N]);
+                h * (before + after - 2.0 * h * cos) / sin
+            })
+            .sum::<f64>()
+            / 2.0
     }
 
     /// Returns the area of the smallest square around the polygon among those at 32 angles; 0 without points. Around a

@@ -1,10 +1,9 @@
 //! Interactive handles: [`follow()`](super::follow()) one iteration at a time.
 
 use super::continuation::{HARD, HARDENED, LEAST_PROGRESS, ROUNDING};
-use super::handles::{Handles, HandlesError};
+use super::handles::{Handles, HandlesError, Rotation};
 use super::load_steps::{LoadSteps, PATIENCE, SOFT};
 use super::objective::Objective;
-use super::path::Rotation;
 use super::relaxation::Relaxation;
 use super::settings::{Projection, Summary};
 use crate::energy::Positional;
@@ -259,8 +258,12 @@ where
 /// Returns whether the vertices are at their targets and no points are pulled.
 fn is_there(x: &[f64], handles: &Handles) -> bool {
     let dim = handles.targets.len() / handles.vertices.len().max(1);
-    let place = |v: &u32| &x[dim * *v as usize..dim * (*v as usize + 1)];
-    handles.points.is_empty() && handles.vertices.iter().flat_map(place).eq(&handles.targets)
+    handles.points.is_empty()
+        && handles
+            .vertices
+            .iter()
+            .flat_map(|v: &u32| &x[dim * *v as usize..dim * (*v as usize + 1)])
+            .eq(&handles.targets)
 }
 
 // A factorization that serves several advances of handles.

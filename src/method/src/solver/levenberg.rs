@@ -1,8 +1,7 @@
 //! The paper's iteration: Newton with a shift that grows until the matrix factors, and handles as soft constraints.
 
 use super::objective::Objective;
-use super::settings::{Status, Summary};
-use super::watch::{Control, Iterate, Taken, Watch};
+use super::settings::{Control, Iterate, Status, Summary, Taken, Watch};
 
 /// Parameters that the paper and its authors' code leave adjustable.
 #[derive(Clone, Copy, Debug, PartialEq)]

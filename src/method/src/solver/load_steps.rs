@@ -1,14 +1,9 @@
 //! Continuation of handles: advances along their path, each together with a Newton step of the free vertices.
 
-use super::handles::{Handles, HandlesError};
-use super::least_progress::LeastProgress;
-use super::line_search::{Search, line_search};
-use super::newton_direction::newton_direction;
+use super::handles::{Handles, HandlesError, Path, Rotation, aside};
 use super::objective::Objective;
-use super::path::{Path, Rotation, aside};
-use super::relaxation::Relaxation;
-use super::settings::{Settings, Status, Summary};
-use super::watch::{Control, Taken, Watch};
+use super::relaxation::{LineSearch, Relaxation, line_search, newton_direction};
+use super::settings::{Control, LeastProgress, Settings, Status, Summary, Taken, Watch};
 use crate::numerics::cholesky::NotPositiveDefinite;
 use crate::numerics::square::{Matrix, Square};
 
@@ -255,7 +250,7 @@ where
 
     /// Takes the Newton step alone, with a line search; returns its length, 0 if no step helps.
     pub fn relax(&mut self, objective: &Objective, x: &mut [f64], decrement: f64) -> f64 {
-        let search = Search {
+        let search = LineSearch {
             x,
             direction: &self.newton,
             energy: self.summary.energy_last,

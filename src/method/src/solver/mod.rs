@@ -17,38 +17,27 @@
 //! Invariant: with an energy that forbids flips every iterate, and so every result however the solver ended, has
 //! det J > 0 in every element, and while no handle moves the energy falls from iterate to iterate. The solver knows no energy
 //! by name, has no clock and no randomness; a [`Watch`] may end it early.
-
 mod continuation;
-mod fixed_unknowns;
-mod follow;
 mod handles;
 mod interactive;
-mod least_progress;
 mod levenberg;
-mod line_search;
 mod load_steps;
 mod newton;
-mod newton_direction;
 mod objective;
-mod path;
 mod quadratic_model;
 mod relaxation;
 mod scale;
 mod settings;
 mod soft_targets;
-mod trust_region;
-mod watch;
 
-pub use continuation::Continuation;
-pub use follow::follow;
-pub use handles::{Handles, HandlesError};
+pub use continuation::{Continuation, follow};
+pub use handles::{Handles, HandlesError, Path, Rotation};
 pub use interactive::{InteractiveContinuation, Stage};
-pub use least_progress::LeastProgress;
 pub use levenberg::{LevenbergSettings, levenberg};
 pub use newton::minimize;
 pub use objective::Objective;
-pub use path::{Path, Rotation};
 pub use scale::best_scale;
-pub use settings::{Projection, Settings, Status, Summary};
+pub use settings::{
+    Continued, Control, Iterate, LeastProgress, Projection, Settings, Status, Summary, Watch,
+};
 pub use soft_targets::{SoftTargets, follow_softly};
-pub use watch::{Continued, Control, Iterate, Watch};

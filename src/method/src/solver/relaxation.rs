@@ -1,6 +1,8 @@
 //! Schedule of the negative curvature that is removed from the Hessian.
 
+use super::objective::Objective;
 use super::settings::Projection;
+use crate::numerics::cholesky::NotPositiveDefinite;
 
 /// ω in [0, 1]: negative eigenvalues of a triangle's Hessian are multiplied by τ = 1 − ω. With ω = 1 the matrix is
 /// positive semidefinite and the step cautious, with ω = 0 it is the true Hessian and convergence quadratic.
@@ -111,4 +113,108 @@ impl Relaxation {
         self.omega = 1.0;
         !exhausted
     }
+}
+
+// Newton's direction, from a matrix that is made positive definite.
+
+/// Writes −H⁻¹g to `direction` and returns the Newton decrement; `None` as in [`once_definite`].
+pub(super) fn newton_direction(
+    objective: &mut Objective,
+    x: &[f64],
+    relaxation: &mut Relaxation,
+    direction: &mut [f64],
+    factorizations: &mut usize,
+) -> Option<f64> {
+    once_definite(
+        objective,
+        x,
+        relaxation,
+        factorizations,
+        |objective: &mut Objective| objective.newton_direction(direction),
+    )
+}
+
+/// Factors the Hessian at `x` by `factored`, removing more and more of its negative curvature until that succeeds.
+/// Returns `None` if it fails even with all of it removed, which happens only when derivatives overflow.
+pub(super) fn once_definite<T>(
+    objective: &mut Objective,
+    x: &[f64],
+    relaxation: &mut Relaxation,
+    factorizations: &mut usize,
+    mut factored: impl FnMut(&mut Objective) -> Result<T, NotPositiveDefinite>,
+) -> Option<T> {
+    loop {
+        objective.linearize(x, relaxation.tau());
+        *factorizations += 1;
+        if let Ok(found) = factored(objective) {
+            return Some(found);
+        }
+        if !relaxation.after_indefinite() {
+            return None;
+        }
+    }
+}
+
+// Line search.
+
+/// An accepted step.
+#[derive(Clone, Copy, Debug)]
+pub struct Step {
+    /// Length, as a share of the direction.
+    pub length: f64,
+    /// Energy after the step.
+    pub energy: f64,
+}
+
+/// Start and direction of a line search.
+#[derive(Clone, Copy, Debug)]
+pub struct LineSearch<'a> {
+    /// Start.
+    pub x: &'a [f64],
+    /// Direction.
+    pub direction: &'a [f64],
+    /// Energy at the start.
+    pub energy: f64,
+    /// Slope of the energy along the direction, negative.
+    pub slope: f64,
+}
+
+/// Share of the distance to the first inversion that a step may take: the triangle that limits it keeps a twentieth of
+/// its margin, so that the next direction is not stuck at the barrier.
+const SAFETY: f64 = 0.95;
+
+/// Armijo constant: share of the decrease predicted by the slope that a step must reach. The customary value (Nocedal
+/// and Wright 2006, section 3.1).
+const SUFFICIENT: f64 = 1e-4;
+
+/// Most halvings: a step below 2⁻⁴⁰, about 1e-12, has no relevant effect.
+const MAX_HALVINGS: usize = 40;
+
+/// Returns the longest of the steps t, t/2, t/4, … that lowers the energy sufficiently, with its end point in `trial`;
+/// t is the smaller of 1 and 0.95 times the largest step inside the domain.
+///
+/// Returns `None` if no step lowers the energy: it is at rounding, or the direction is useless. Usually takes one
+/// evaluation, because the search starts inside the domain.
+pub fn line_search(objective: &Objective, search: &LineSearch, trial: &mut [f64]) -> Option<Step> {
+    let &LineSearch {
+        x,
+        direction,
+        energy,
+        slope,
+    } = search;
+    let mut length = (SAFETY * objective.largest_step(x, direction)).min(1.0);
+    for _ in 0..MAX_HALVINGS {
+        for ((trial, x), d) in trial.iter_mut().zip(x).zip(direction) {
+            *trial = x + length * d;
+        }
+        let new_energy = objective.value(trial);
+        if new_energy < energy && new_energy <= energy + SUFFICIENT * length * slope {
+            return Some(Step {
+                length,
+                energy: new_energy,
+            });
+        }
+        length *= 0.5;
+    }
+    None
 }

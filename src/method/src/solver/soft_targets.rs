@@ -1,11 +1,8 @@
 //! Points that flow to their targets, each as fast as the others let it.
 
-use super::line_search::{Search, line_search};
-use super::newton_direction::newton_direction;
 use super::objective::Objective;
-use super::relaxation::Relaxation;
-use super::settings::{Settings, Status, Summary};
-use super::watch::{Control, Taken, Watch};
+use super::relaxation::{LineSearch, Relaxation, line_search, newton_direction};
+use super::settings::{Control, Settings, Status, Summary, Taken, Watch};
 
 /// Strength of the pull relative to the energy's mean curvature: enough to press against an obstacle, too little to
 /// crush it.
@@ -119,7 +116,7 @@ impl Pulled {
             &mut self.summary.factorizations,
         )?;
         // Take a step; without one, continue only with a safer matrix or a shorter pull.
-        let search = Search {
+        let search = LineSearch {
             x,
             direction: &self.direction,
             energy,

@@ -1,6 +1,6 @@
 //! Documents whose surfaces are deformed in a cage.
 
-use super::solution::{CageReport, Deformed, Frames, solve};
+use super::solution::{CageReport, Deformed, FrameObserver, solve};
 use super::source::{check_format, check_frames, moved, moved_frame};
 use crate::documents::input::Merged;
 use crate::options::BodyFormat;
@@ -102,7 +102,7 @@ pub fn deform(
     }
     // Solve.
     let file = |x: &[f64]| moved_frame(&caged.document, &caged.map(x), caged.options.format);
-    let frames = Frames {
+    let frames = FrameObserver {
         tracker,
         file: &file,
     };

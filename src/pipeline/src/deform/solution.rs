@@ -1,7 +1,7 @@
 //! Problems solved under observation: the map, a report, one line per iteration.
 
 use crate::PipelineError;
-use crate::options::Plan;
+use crate::options::SolutionPlan;
 use crate::tracker::Tracker;
 use serde::Serialize;
 use std::cell::RefCell;
@@ -77,7 +77,7 @@ pub struct Solved {
 /// Solves a problem; `viewer` sees every iteration once.
 pub fn solve(
     problem: &Problem,
-    plan: Plan,
+    plan: SolutionPlan,
     tracker: &Tracker,
     viewer: Option<&dyn Watch>,
 ) -> Result<Solved, PipelineError> {
@@ -366,12 +366,12 @@ pub struct CageReport {
 pub type WriteMap<'a> = dyn Fn(&[f64]) -> Vec<u8> + 'a;
 
 /// Passes every iterate as a file to the observer.
-pub struct Frames<'a> {
+pub struct FrameObserver<'a> {
     pub tracker: &'a Tracker<'a>,
     pub file: &'a WriteMap<'a>,
 }
 
-impl Watch for Frames<'_> {
+impl Watch for FrameObserver<'_> {
     fn iterate(&self, _: &Iterate) -> Control {
         Control::Continue
     }

@@ -1,7 +1,7 @@
 //! Solution of problems, from files and in memory.
 
 use super::caged;
-use super::solution::{DeformReport, Deformed, Frames, solve};
+use super::solution::{DeformReport, Deformed, FrameObserver, solve};
 use super::source::Source;
 use crate::arrays::unwrap::in_pool;
 use crate::observer::Observer;
@@ -31,7 +31,7 @@ pub fn solve_file(
         problem.search = options.pulling.search;
         // Solve it; frames show each iterate in the format of the result.
         let file = |x: &[f64]| options.format.write(&elements, &problem, x);
-        let frames = Frames {
+        let frames = FrameObserver {
             tracker: &tracker,
             file: &file,
         };
@@ -142,7 +142,7 @@ fn deform_body(
     }
     // Solve.
     let file = |x: &[f64]| source.frame(format, &problem, x);
-    let frames = Frames {
+    let frames = FrameObserver {
         tracker,
         file: &file,
     };

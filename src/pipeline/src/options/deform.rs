@@ -88,7 +88,7 @@ impl DeformOptions {
         }
     }
 
-    pub(crate) fn plan(&self) -> Plan {
+    pub(crate) fn plan(&self) -> SolutionPlan {
         self.course.plan(Method::Projected)
     }
 }
@@ -139,7 +139,7 @@ options! {
 }
 
 impl SolveOptions {
-    pub(crate) fn plan(&self) -> Plan {
+    pub(crate) fn plan(&self) -> SolutionPlan {
         self.course.plan(self.method)
     }
 }
@@ -175,9 +175,9 @@ options! {
 }
 
 impl Course {
-    pub(super) fn plan(self, method: Method) -> Plan {
+    pub(super) fn plan(self, method: Method) -> SolutionPlan {
         let default = Settings::follow();
-        Plan {
+        SolutionPlan {
             method,
             barrier_continuation: self.barrier_continuation,
             bias: self.bias,
@@ -309,7 +309,7 @@ impl BodyFormat {
 
 /// Method, settings and additional steps of a solution.
 #[derive(Clone, Copy)]
-pub struct Plan {
+pub struct SolutionPlan {
     pub method: Method,
     /// Lowers the barrier's strength while the energy without it falls.
     pub barrier_continuation: bool,

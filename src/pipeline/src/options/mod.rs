@@ -14,7 +14,7 @@ pub use crate::settings::{Budget, Cutting, KeptMaps, Layout, Mapping, PackingMod
 pub use caller::{Caller, CommandOptions};
 pub(super) use checks::check_grouping;
 pub use deform::{BodyFormat, Course, DeformOptions, Pulling, SolveOptions};
-pub(crate) use deform::{Plan, TRIANGLES};
+pub(crate) use deform::{SolutionPlan, TRIANGLES};
 pub use edit::{EditOptions, Editing, WarpOptions};
 pub use measure::{MeasureOptions, VerifyOptions};
 pub use repack::{Island, RepackOptions};

@@ -174,14 +174,14 @@ pub(super) fn indices(
 }
 
 /// Returns the faces with their corners in the order of the specification; incomplete ones are left out.
-fn faces(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
+fn faces(indices: &[u32], mode: PrimitiveMode) -> Vec<[u32; 3]> {
     let windows = indices.windows(3).enumerate();
     match mode {
-        Mode::Triangles => indices
+        PrimitiveMode::Triangles => indices
             .chunks_exact(3)
             .map(|face| [face[0], face[1], face[2]])
             .collect(),
-        Mode::Strip => windows
+        PrimitiveMode::Strip => windows
             .map(|(i, w)| {
                 if i % 2 == 0 {
                     [w[0], w[1], w[2]]
@@ -190,7 +190,7 @@ fn faces(indices: &[u32], mode: Mode) -> Vec<[u32; 3]> {
                 }
             })
             .collect(),
-        Mode::Fan => windows
+        PrimitiveMode::Fan => windows
             .map(|(i, _)| [indices[i + 1], indices[i + 2], indices[0]])
             .collect(),
     }
@@ -267,18 +267,18 @@ fn check_backed(accessor: &Accessor) -> Result<(), DocumentError> {
 
 /// Arrangement of vertices into faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Mode {
+pub(super) enum PrimitiveMode {
     Triangles,
     Strip,
     Fan,
 }
 
 /// Returns the mode of a primitive; `None` for points and lines.
-pub(super) fn mode(primitive: &Value) -> Result<Option<Mode>, DocumentError> {
+pub(super) fn mode(primitive: &Value) -> Result<Option<PrimitiveMode>, DocumentError> {
     Ok(match unsigned(primitive, "mode")?.unwrap_or(4) {
-        4 => Some(Mode::Triangles),
-        5 => Some(Mode::Strip),
-        6 => Some(Mode::Fan),
+        4 => Some(PrimitiveMode::Triangles),
+        5 => Some(PrimitiveMode::Strip),
+        6 => Some(PrimitiveMode::Fan),
         0..=3 => None,
         _ => return Err(invalid("unknown primitive `mode`")),
     })

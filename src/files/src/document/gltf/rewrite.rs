@@ -6,7 +6,7 @@ use super::document::GltfDocument;
 use super::json::{
     as_unsigned, invalid, item, items, object_mut, primitive_mut, remove, required, unsigned,
 };
-use super::primitives::{self, Mode, mode};
+use super::primitives::{self, PrimitiveMode, mode};
 use super::tangents::corner_tangents;
 use super::texcoord_set::Choice;
 use crate::document::{
@@ -439,7 +439,7 @@ fn write_indices(
 ) -> Result<(), DocumentError> {
     let mut indices = old_indices(document, primitive, new)?;
     if new.is_split {
-        let is_list = mode(primitive)? == Some(Mode::Triangles);
+        let is_list = mode(primitive)? == Some(PrimitiveMode::Triangles);
         // Lists keep the indices behind their last whole face.
         let rest = if is_list { indices.len() % 3 } else { 0 };
         indices.drain(..indices.len() - rest);

@@ -29,7 +29,7 @@ pub(super) struct Choice {
 pub(super) type Textures = BTreeMap<usize, MaterialTextures>;
 
 /// Properties of a primitive that affect the choice.
-struct Candidate {
+struct SetCandidate {
     index: usize,
     present: SetMask,
     sampled: SetMask,
@@ -40,7 +40,7 @@ struct Candidate {
     marked: Option<u32>,
 }
 
-impl Candidate {
+impl SetCandidate {
     /// Returns whether a set exists only because `set` needed it: it has the same accessor, and no texture samples it.
     fn is_filled(&self, document: &GltfDocument, lower: u32, set: u32) -> bool {
         let Ok(object) = document.object(&document.primitives[self.index]) else {
@@ -64,7 +64,7 @@ pub(super) fn choose(
 ) -> Result<(Vec<Option<Choice>>, Textures), DocumentError> {
     // Group the primitives by mesh or, if textures are made for them, all together.
     let mut textures = Textures::new();
-    let mut meshes: BTreeMap<usize, Vec<Candidate>> = BTreeMap::new();
+    let mut meshes: BTreeMap<usize, Vec<SetCandidate>> = BTreeMap::new();
     for (index, primitive) in document.primitives.iter().enumerate() {
         if uvs.corners[index].is_some() {
             let mut candidate = candidate(document, index, plan, &mut textures)?;
@@ -105,11 +105,11 @@ fn candidate(
     index: usize,
     plan: Option<&BakePlan>,
     textures: &mut Textures,
-) -> Result<Candidate, DocumentError> {
+) -> Result<SetCandidate, DocumentError> {
     let primitive = &document.primitives[index];
     let object = document.object(primitive)?;
     let own = MaterialTextures::of_primitive(primitive, object);
-    let mut candidate = Candidate {
+    let mut candidate = SetCandidate {
         index,
         present: present_sets(object),
         sampled: own.sampled,
@@ -130,19 +130,23 @@ fn candidate(
 }
 
 /// Returns the set that all of these primitives got before for the same purpose, if no texture samples it by now.
-fn reusable(candidates: &[Candidate], mark: Option<&Mark>, options: &WriteOptions) -> Option<u32> {
+fn reusable(
+    candidates: &[SetCandidate],
+    mark: Option<&Mark>,
+    options: &WriteOptions,
+) -> Option<u32> {
     let (terms, present) = (options.terms.as_ref()?, &mark?.terms);
     let set = candidates.first()?.marked?;
     let is_same = terms.separate_nodes == present.separate_nodes;
     (is_same
         && candidates
             .iter()
-            .all(|c: &Candidate| c.marked == Some(set) && !has(c.sampled, set)))
+            .all(|c: &SetCandidate| c.marked == Some(set) && !has(c.sampled, set)))
     .then_some(set)
 }
 
 fn set_for(
-    candidates: &[Candidate],
+    candidates: &[SetCandidate],
     layout: Layout,
     options: &WriteOptions,
     reused: Option<u32>,

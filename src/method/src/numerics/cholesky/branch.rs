@@ -1,10 +1,9 @@
 //! A part of the forest of fronts that one task factors, with its memory.
 
-use super::extent::Extent;
-use super::fronts::{Front, Run};
+use super::fronts::{BranchExtent, Front, FrontRun};
 use super::kernels::{FactorColumns, WriteUpdate};
-use super::pattern::NotPositiveDefinite;
-use super::plan::Plan;
+use super::plan::FactorPlan;
+use super::symbolic::NotPositiveDefinite;
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::traits::pulp::Arch;
@@ -21,8 +20,8 @@ pub(super) struct Branch {
     pub vectors: Vectors,
 }
 
-impl From<Extent> for Branch {
-    fn from(extent: Extent) -> Self {
+impl From<BranchExtent> for Branch {
+    fn from(extent: BranchExtent) -> Self {
         Self {
             fronts: extent.fronts,
             panels: vec![0.0; extent.panels],
@@ -36,7 +35,7 @@ impl Branch {
     /// Factors the fronts of this branch; `others` are the branches that grow on it, in order.
     pub fn factor(
         &mut self,
-        plan: &Plan,
+        plan: &FactorPlan,
         values: &[f64],
         others: &[Self],
     ) -> Result<(), NotPositiveDefinite> {
@@ -99,7 +98,7 @@ impl Branch {
     }
 
     /// Writes the solution at its pivots in the order of the matrix.
-    pub fn put_solution(&self, plan: &Plan, x: &mut [f64]) {
+    pub fn put_solution(&self, plan: &FactorPlan, x: &mut [f64]) {
         for &k in &self.fronts {
             let (front, place) = plan.front(k);
             let pivots = &self.vectors.pivots[place.pivots..][..front.pivots];
@@ -127,7 +126,7 @@ impl<'a> UpdatedColumns<'a> {
     }
 
     /// Adds the lower triangle of a child's update.
-    fn add(&mut self, update: &[f64], stride: usize, runs: &[Run]) {
+    fn add(&mut self, update: &[f64], stride: usize, runs: &[FrontRun]) {
         let from = self.columns.start;
         for (i, run) in runs.iter().enumerate() {
             let parent = run.parent as usize;

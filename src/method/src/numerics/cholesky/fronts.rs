@@ -1,11 +1,8 @@
 //! The dense matrices of the factorization, and how they fit into each other.
 
-use std::ops::Range;
-
-use super::graph::Graph;
 use super::kernels::LANES;
-use super::supernodes::Supernodes;
-use super::tree::NONE;
+use super::symbolic::{Graph, NONE, Supernodes};
+use std::ops::Range;
 
 /// A dense symmetric matrix whose first columns are eliminated and whose remainder, the update, is added to its parent.
 ///
@@ -32,7 +29,7 @@ pub(super) struct Front {
 
 /// Successive unknowns of a child's update that are also successive in its parent.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Run {
+pub(super) struct FrontRun {
     pub child: u32,
     /// Place in the rows of the parent's panel.
     pub parent: u32,
@@ -43,7 +40,7 @@ pub(super) struct Run {
 pub(super) struct Fronts {
     pub list: Vec<Front>,
     pub rows: Vec<u32>,
-    pub runs: Vec<Run>,
+    pub runs: Vec<FrontRun>,
     pub children: Vec<u32>,
 }
 
@@ -198,12 +195,35 @@ impl Fronts {
                 {
                     run.length += block as u32;
                 }
-                _ => self.runs.push(Run {
+                _ => self.runs.push(FrontRun {
                     child,
                     parent: place,
                     length: block as u32,
                 }),
             }
         }
+    }
+}
+
+// Memory of a branch, known from the plan.
+
+/// Sizes of the arrays of a branch, in numbers.
+#[derive(Default)]
+pub(super) struct BranchExtent {
+    pub fronts: Vec<u32>,
+    pub panels: usize,
+    pub updates: [usize; 2],
+    /// Pivots of all its fronts.
+    pub pivots: usize,
+    pub below: usize,
+    /// Rows of the highest panel.
+    pub highest: usize,
+}
+
+impl BranchExtent {
+    pub fn bytes(&self) -> usize {
+        let [even, odd] = self.updates;
+        let vectors = self.pivots + self.below + self.highest;
+        size_of::<f64>() * (self.panels + even + odd + vectors)
     }
 }

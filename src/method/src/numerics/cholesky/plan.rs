@@ -1,11 +1,7 @@
 //! The symbolic factorization, which does not depend on the values.
 
-use super::extent::Extent;
-use super::fronts::{Front, Fronts};
-use super::graph::Graph;
-use super::pattern::SymmetricPattern;
-use super::supernodes::supernodes;
-use super::tree::{self, NONE};
+use super::fronts::{BranchExtent, Front, Fronts};
+use super::symbolic::{self, Graph, NONE, SymmetricPattern, supernodes};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
@@ -19,7 +15,7 @@ const PARALLEL_FROM: f64 = 3e7;
 const TASK_SHARE: f64 = 1.0 / 24.0;
 
 /// The symbolic factorization.
-pub(super) struct Plan {
+pub(super) struct FactorPlan {
     /// Old number of each vertex.
     pub order: Vec<u32>,
     /// Unknowns per vertex.
@@ -39,12 +35,12 @@ pub(super) struct EntryPlace {
     pub below: usize,
 }
 
-impl Plan {
-    pub fn new(pattern: &SymmetricPattern, block: usize) -> (Self, Vec<Extent>) {
+impl FactorPlan {
+    pub fn new(pattern: &SymmetricPattern, block: usize) -> (Self, Vec<BranchExtent>) {
         let graph = Graph::new(pattern, block);
         let order = fill_reducing_order(&graph, block);
         let (order, parent) = in_postorder(&graph, &order);
-        let counts = tree::column_counts(&graph.reordered(&order), &parent);
+        let counts = symbolic::column_counts(&graph.reordered(&order), &parent);
         let supernodes = supernodes(&parent, &counts, block);
         let order = composed(&order, &supernodes.order);
         let reordered = graph.reordered(&order);
@@ -62,7 +58,7 @@ impl Plan {
     }
 }
 
-impl Plan {
+impl FactorPlan {
     pub fn front(&self, k: u32) -> (&Front, &EntryPlace) {
         (&self.fronts.list[k as usize], &self.places[k as usize])
     }
@@ -97,11 +93,11 @@ impl Plan {
 
 /// Changes the order to a postorder of its elimination tree, with equal cost and fill; returns it with that tree.
 fn in_postorder(graph: &Graph, order: &[u32]) -> (Vec<u32>, Vec<u32>) {
-    let parent = tree::elimination_tree(&graph.reordered(order));
-    let postorder = tree::postorder(&parent);
+    let parent = symbolic::elimination_tree(&graph.reordered(order));
+    let postorder = symbolic::postorder(&parent);
     (
         composed(order, &postorder),
-        tree::reordered(&parent, &postorder),
+        symbolic::reordered(&parent, &postorder),
     )
 }
 
@@ -111,10 +107,10 @@ fn composed(first: &[u32], second: &[u32]) -> Vec<u32> {
 }
 
 /// Assigns each front its place in memory. The last branch is the trunk, on which the others grow.
-fn layout(fronts: &Fronts) -> (Vec<EntryPlace>, Vec<Extent>) {
+fn layout(fronts: &Fronts) -> (Vec<EntryPlace>, Vec<BranchExtent>) {
     let branch_of = branches(fronts);
     let n_branches = branch_of.iter().max().map_or(1, |&b| b as usize + 1);
-    let mut extents: Vec<Extent> = (0..n_branches).map(|_| Extent::default()).collect();
+    let mut extents: Vec<BranchExtent> = (0..n_branches).map(|_| BranchExtent::default()).collect();
     // Present heights of the two stacks of updates of each branch.
     let mut heights = vec![[0_usize; 2]; n_branches];
     let mut places = Vec::with_capacity(fronts.list.len());
@@ -258,7 +254,7 @@ fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
 
 /// The stored block of two coupled vertices, or of one, and its place in a panel.
 #[derive(Clone, Copy, Debug)]
-struct Block {
+struct PlanBlock {
     /// First entry in the values.
     from: u32,
     /// Distance between the columns of its first vertex there, plus the entries lost at the diagonal.
@@ -279,7 +275,7 @@ enum FrontKind {
 /// Blocks of every front's panel; those of the k-th are `blocks[starts[k]..starts[k + 1]]`.
 pub(super) struct Scatter {
     starts: Vec<usize>,
-    blocks: Vec<Block>,
+    blocks: Vec<PlanBlock>,
     size: usize,
 }
 
@@ -305,7 +301,7 @@ impl Scatter {
                 let column = (j - first) * size;
                 let own = order[j];
                 // The block on the diagonal.
-                scatter.blocks.push(Block {
+                scatter.blocks.push(PlanBlock {
                     from: pattern.col_ptr[size * own as usize] as u32,
                     stride: stride(graph, own, size),
                     to: (column * front.stride() + column) as u32,
@@ -315,7 +311,7 @@ impl Scatter {
                 for &i in reordered.of(j as u32).iter().filter(|&&i| i as usize > j) {
                     let row = front.row(i, size, &fronts.rows);
                     let to = column * front.stride() + row;
-                    scatter.blocks.push(Block::of_pair(
+                    scatter.blocks.push(PlanBlock::of_pair(
                         pattern,
                         size,
                         graph,
@@ -346,7 +342,7 @@ fn stride(graph: &Graph, vertex: u32, size: usize) -> u32 {
     (size * (list.len() - list.partition_point(|&w| w < vertex))) as u32
 }
 
-impl Block {
+impl PlanBlock {
     /// Creates the block of a vertex that is eliminated and one that is eliminated later.
     fn of_pair(
         pattern: &SymmetricPattern,
@@ -384,7 +380,7 @@ impl Front {
 }
 
 fn add_blocks<const D: usize>(
-    blocks: &[Block],
+    blocks: &[PlanBlock],
     values: &[f64],
     panel: &mut [f64],
     panel_stride: usize,
