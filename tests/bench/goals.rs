@@ -206,24 +206,24 @@ fn options(energy: &DensityKind) -> Options {
 
 fn disks() {
     use DensityKind::{Arap, SymmetricDirichlet};
-    row("camelhead", 0, SymmetricDirichlet, 1e-4, "0.4 / 0.12 s");
-    row("bimba_89k", 0, SymmetricDirichlet, 1e-4, "1.5 / 0.6 s");
-    row("bimba_89k", 0, Arap, 1e-4, "4 / 1.5 s");
-    row("lucy_o_f24136", 0, SymmetricDirichlet, 1e-2, "1 / 0.3 s");
+    row("camelhead", 0, &SymmetricDirichlet, 1e-4, "0.4 / 0.12 s");
+    row("bimba_89k", 0, &SymmetricDirichlet, 1e-4, "1.5 / 0.6 s");
+    row("bimba_89k", 0, &Arap, 1e-4, "4 / 1.5 s");
+    row("lucy_o_f24136", 0, &SymmetricDirichlet, 1e-2, "1 / 0.3 s");
 }
 
 fn grown() {
     row(
         "camelhead",
         3,
-        DensityKind::SymmetricDirichlet,
+        &DensityKind::SymmetricDirichlet,
         1e-4,
         "40 / 10 s, 3 / 2 GB",
     );
 }
 
 /// One disk, opened if it has handles: seconds to within `share` of the end.
-fn row(name: &str, times: usize, energy: DensityKind, share: f64, asked: &str) {
+fn row(name: &str, times: usize, energy: &DensityKind, share: f64, asked: &str) {
     let (disk, positions) = if times > 0 {
         subdivided(name, times)
     } else {
@@ -235,7 +235,7 @@ fn row(name: &str, times: usize, energy: DensityKind, share: f64, asked: &str) {
     };
     let exact = Options {
         solver: Settings::exact(),
-        ..options(&energy)
+        ..options(energy)
     };
     let clock = Clock::start();
     let trace = RefCell::new(Vec::new());

@@ -48,7 +48,7 @@ fn sheet(place: impl Fn([f64; 3]) -> [f64; 3]) -> (Disk, Vec<[f64; 3]>) {
     (disk, positions)
 }
 
-fn options(energy: DensityKind) -> Options {
+fn options(energy: &DensityKind) -> Options {
     Options {
         density: energy.planar().expect("an energy of the plane"),
         pins: Pins::Two,
@@ -73,7 +73,7 @@ fn pinned_vertices_stay_where_they_are_and_no_others() {
         DensityKind::SymmetricDirichlet,
     ] {
         let memory = Memory::default();
-        let embedding = parameterize(&disk, &positions, &options(energy.clone()), &memory);
+        let embedding = parameterize(&disk, &positions, &options(&energy), &memory);
         assert!(is_positive(&disk.triangles, &embedding.uv), "{energy:?}");
         let stayed = memory.stayed();
         let on_boundary = |v: &usize| disk.loops[0].contains(&(*v as u32));
@@ -93,7 +93,7 @@ fn it_does_not_matter_where_the_border_begins() {
         .map(|_| {
             disk.loops[0].rotate_left(4);
             let memory = Memory::default();
-            parameterize(&disk, &positions, &options(DensityKind::Arap), &memory);
+            parameterize(&disk, &positions, &options(&DensityKind::Arap), &memory);
             memory.stayed()
         })
         .collect();
@@ -109,7 +109,7 @@ fn a_developable_surface_is_laid_flat() {
     for barrier in [BarrierKind::None, BarrierKind::InverseSpline] {
         let options = Options {
             barrier,
-            ..options(DensityKind::Lscm)
+            ..options(&DensityKind::Lscm)
         };
         let embedding = parameterize(&disk, &bent, &options, &Memory::default());
         let length = |[a, b]: [usize; 2]| {

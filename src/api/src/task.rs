@@ -19,7 +19,7 @@ use utoipa::openapi::{RefOr, Schema};
 pub const TASK: &str = "job.json";
 /// Name of the file with an [`Outcome`].
 pub const OUTCOME: &str = "outcome.json";
-/// Name of the file with a [`Failure`](crate::Failure).
+/// Name of the file with a [`Failure`].
 pub const ERROR: &str = "error.json";
 
 /// Exit code of a child without space for its output, which may be unable to write a file that says so. The number is

@@ -13,9 +13,9 @@ use unwrapd_method::solver::{Handles, Stage, Summary};
 /// A session in which a body is deformed: its mesh and energy are built once, handles are added, moved and removed, and
 /// the map follows an iteration at a time, every iterate valid.
 ///
-/// Positions, handles and radii are in the unit of the body, as for [`Problem`]; internally its mean element has size
-/// 1. Without further changes a session settles where [`Problem::solve`] ends. A surface in a [`cage`](super::cage) is
-/// carried along by [`Cage::interpolate`](super::cage::Cage::interpolate). Paths are not bent: the user who drags
+/// Positions, handles and radii are in the unit of the body, as for [`Problem`]; internally its mean element has unit
+/// size. Without further changes a session settles where [`Problem::solve`] ends. A surface in a [`cage`](super::cage)
+/// is carried along by [`Cage::interpolate`](super::cage::Cage::interpolate). Paths are not bent: the user who drags
 /// chooses the path.
 ///
 /// The pattern of the linear systems is ordered and analyzed once, whatever happens to the handles: vertices are held

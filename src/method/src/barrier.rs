@@ -5,7 +5,7 @@
 //! that never steps past a root of an element's area, no element ever inverts: every iterate is a valid map. (Schüller,
 //! Kavan, Panozzo, Sorkine-Hornung 2013, Locally Injective Mappings.)
 //!
-//! As a function of det J a barrier is isotropic too: it joins a density as a [`Guard`](crate::energy::Guard), with one
+//! As a function of det J a barrier is isotropic too: it joins a density as a [`Guard`], with one
 //! projection for both. Users choose a barrier by name ([`BarrierKind`]).
 
 use crate::energy::{Density, Guard};
@@ -50,7 +50,7 @@ pub struct Barrier {
     pub beta: f64,
     /// s, the share of the rest size below which the inverse spline is nonzero.
     pub s: f64,
-    /// ε, the size at which the barrier is infinite; see [`epsilon`](epsilon).
+    /// ε, the size at which the barrier is infinite; see [`epsilon`].
     pub epsilon: f64,
 }
 

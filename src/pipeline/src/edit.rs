@@ -119,7 +119,7 @@ pub fn edit_document(
     })?
 }
 
-/// Opens a session on the UVs that [`edit_document`](edit_document) would edit. The caller adds the anchors.
+/// Opens a session on the UVs that [`edit_document`] would edit. The caller adds the anchors.
 pub fn open_uvs(
     upload: &Upload,
     editing: Editing,

@@ -69,7 +69,7 @@ async fn charts_relax_in_the_uv_view() {
     let before = server.submit(meshes::hills(800), "").await;
     let folder = tempfile::tempdir().expect("a folder");
     let mesh = folder.path().join("hills.glb");
-    std::fs::write(&mesh, meshes::hills(300)).expect("written");
+    std::fs::write(&mesh, meshes::hills(170)).expect("written");
     let before = before["links"]["self"].as_str().expect("a link").to_owned();
     scenario("relaxing", server.url("/"), &[text(&mesh), before]).await;
 }

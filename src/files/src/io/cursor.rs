@@ -145,7 +145,7 @@ pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
         .filter(|word| !word.is_empty())
 }
 
-/// Parses a number in a text; `nan` and `inf` count as numbers here, [`position`] refuses them.
+/// Parses a number in a text; `nan` and `inf` count as numbers here, [`position`](super::position) refuses them.
 pub(super) fn number<T: std::str::FromStr>(word: &[u8]) -> Option<T> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }

@@ -360,7 +360,7 @@ pub struct Extras {
     pub left_out: Vec<String>,
 }
 
-/// Reads the data that [`read`](read) skips.
+/// Reads the data that [`read`] skips.
 pub fn extras(bytes: &[u8]) -> Result<Extras, ReadError> {
     let header = header(bytes)?;
     let channels = header

@@ -240,7 +240,7 @@ fn axes(normal: [f64; 3]) -> [[f64; 3]; 2] {
 ///
 /// Returns Tutte's map if floating point allows, otherwise that of the hierarchy. Holes are closed first. Size and
 /// distortion are arbitrary. If both fail, as for a few disks with hundreds of empty triangles, returns Tutte's map as
-/// floating point left it: a caller that needs a valid map checks it again ([`is_positive`](super::is_positive)) and
+/// floating point left it: a caller that needs a valid map checks it again ([`is_positive`]) and
 /// cuts the disk.
 pub fn start(disk: &Disk, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
     tutte_start(disk, positions)

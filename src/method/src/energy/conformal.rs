@@ -154,7 +154,7 @@ impl Density<2> for Lscm {
 /// ```text
 /// ψ = N/(D χ^{2/D}) + λ(Δ² + 1)/(2χ)     χ = ½(Δ + √(ε² + Δ²))     N = Σσᵢ², Δ = Πσ = det J
 /// ```
-/// As ε goes to 0, χ goes to Δ where that is positive, and ψ to the density of [`Mips`](Mips) plus λ times the
+/// As ε goes to 0, χ goes to Δ where that is positive, and ψ to the density of [`Mips`] plus λ times the
 /// size term ½(Δ + 1/Δ); the minimum is then 1 + λ, at rotations. Dimensionless; the sum over a mesh is weighted by
 /// rest size. Domain: everywhere for ε > 0, det J > 0 for ε = 0. From: Garanzha, Kaporin, Kudryavtseva, Protais, Ray,
 /// Sokolov 2021, Foldover-free maps in 50 lines of code. Tests: `energy::taylor_foldover_free`.

@@ -1,4 +1,4 @@
-//! Signed singular value decompositions, and that of 2×2 matrices; for 3×3 see [`jacobi`](super::jacobi).
+//! Signed singular value decompositions, of 2×2 matrices in closed form and of 3×3 by Jacobi rotations.
 #![expect(
     clippy::inline_always,
     reason = "only what is inlined is compiled for the vectors of the processor"

@@ -257,7 +257,7 @@ where
 /// than inversions and the quadratic model allow. The energy may rise while the handles move; no iterate leaves the
 /// domain, which must contain `x`. Where the handles cannot advance, the free vertices settle first; if that makes no
 /// room either, the map is the last valid one on the path and the status is
-/// [`Status::TargetsUnreachable`](super::Status::TargetsUnreachable).
+/// [`Status::TargetsUnreachable`].
 ///
 /// Every station is settled before the next, as if the handles moved slowly. Otherwise a long body lags behind the
 /// handle that drives it, and a bar twisted at one end gathers its twist there and loses turns early. Settling is
