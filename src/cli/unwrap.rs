@@ -266,10 +266,10 @@ pub(super) fn repack(args: &RepackArgs) -> Result<(), CommandFailure> {
 fn given_islands(path: &Path) -> Result<Vec<Island>, CommandFailure> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    struct File {
+    struct SeamsFile {
         islands: Vec<Island>,
     }
-    let file: Result<File, _> = serde_json::from_slice(&read_file(path)?);
+    let file: Result<SeamsFile, _> = serde_json::from_slice(&read_file(path)?);
     let file =
         file.map_err(|error| CommandFailure::input(format!("{}: {error}", path.display())))?;
     Ok(file.islands)

@@ -1,8 +1,8 @@
 //! Planar meshes from pictures and drawings.
 
 use unwrapd_deform::outline::{
-    ImageSettings, MeshSettings, Outline, OutlineError, Resolution, SvgSettings, of_image, of_svg,
-    triangulate,
+    ImageSettings, MeshSettings, Outline, OutlineError, OutlineResolution, SvgSettings, of_image,
+    of_svg, triangulate,
 };
 use unwrapd_files::picture::{Image, ImageError};
 use unwrapd_maps::certificate::{boundary_crossings, certify_planar};
@@ -360,12 +360,13 @@ fn meshes_are_as_fine_as_asked_or_refused() {
         ..MeshSettings::default()
     };
     for n in [2000, 5000, 20_000] {
-        let mesh = triangulate(&outline, &with(Resolution::Triangles(n))).expect("triangles");
+        let mesh =
+            triangulate(&outline, &with(OutlineResolution::Triangles(n))).expect("triangles");
         let ratio = mesh.triangles().len() as f64 / n as f64;
         assert!((0.85..1.15).contains(&ratio), "{n}: {ratio}");
     }
     let h = 5.0;
-    let mesh = triangulate(&outline, &with(Resolution::EdgeLength(h))).expect("triangles");
+    let mesh = triangulate(&outline, &with(OutlineResolution::EdgeLength(h))).expect("triangles");
     let mean: f64 = mesh
         .triangles()
         .iter()
@@ -377,18 +378,24 @@ fn meshes_are_as_fine_as_asked_or_refused() {
         / mesh.triangles().len() as f64;
     assert!((0.8..1.2).contains(&(mean / h)), "{mean}");
     assert_eq!(
-        code(triangulate(&outline, &with(Resolution::EdgeLength(0.001)))),
+        code(triangulate(
+            &outline,
+            &with(OutlineResolution::EdgeLength(0.001))
+        )),
         "too_many_triangles"
     );
     assert_eq!(
         code(triangulate(
             &outline,
-            &with(Resolution::EdgeLength(f64::NAN))
+            &with(OutlineResolution::EdgeLength(f64::NAN))
         )),
         "invalid_setting"
     );
     assert_eq!(
-        code(triangulate(&outline, &with(Resolution::Triangles(0)))),
+        code(triangulate(
+            &outline,
+            &with(OutlineResolution::Triangles(0))
+        )),
         "invalid_setting"
     );
     let sharp = MeshSettings {

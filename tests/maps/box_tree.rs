@@ -4,7 +4,7 @@
 #[path = "../../src/maps/src/certificate/box_tree.rs"]
 mod source;
 
-use source::{Bounds, BoxTree, Visit, enlarged, search_budget};
+use source::{Bounds, BoxTree, BoxVisit, enlarged, search_budget};
 
 /// Whether no line along an axis lies between two boxes.
 fn meet<const D: usize>(a: &Bounds<D>, b: &Bounds<D>) -> bool {
@@ -49,7 +49,7 @@ fn every_pair_is_found_once<const D: usize>(boxes: &[Bounds<D>]) {
     let meets = |&[i, j]: &[u32; 2]| meet(&boxes[i as usize], &boxes[j as usize]);
     let all = (0..n).flat_map(|i| (i + 1..n).map(move |j| [i, j]));
     assert!(found == all.filter(meets).collect::<Vec<_>>(), "{n} boxes");
-    assert_eq!(visit, Visit::Complete);
+    assert_eq!(visit, BoxVisit::Complete);
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn the_closest_pair_is_of_two_groups() {
             }
         }
         let found = BoxTree::new(&boxes).closest(&groups, 1_000_000, center_distance);
-        assert_eq!(found, (expected, Visit::Complete));
+        assert_eq!(found, (expected, BoxVisit::Complete));
     }
 }
 
@@ -106,9 +106,9 @@ fn a_heap_of_boxes_ends_the_search() {
     let boxes = vec![[[0.0; 2], [1.0; 2]]; 1000];
     let mut found = 0;
     let visit = BoxTree::new(&boxes).pairs(10_000, |_, _| found += 1);
-    assert_eq!(visit, Visit::Truncated);
+    assert_eq!(visit, BoxVisit::Truncated);
     assert!(found > 0 && found <= 10_000);
     let groups: Vec<u32> = (0..1000).collect();
     let (_, visit) = BoxTree::new(&boxes).closest(&groups, 100, |_, _| 1.0);
-    assert_eq!(visit, Visit::Truncated);
+    assert_eq!(visit, BoxVisit::Truncated);
 }

@@ -64,10 +64,10 @@ pub enum Handle {
 pub fn parse_body_handles(json: &[u8]) -> Result<Vec<Handle>, ProblemError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    struct File {
+    struct HandlesFile {
         handles: Vec<Handle>,
     }
-    let file: File = unwrapd_api::from_json(json)
+    let file: HandlesFile = unwrapd_api::from_json(json)
         .map_err(|error| ProblemError::MalformedHandles(error.to_string()))?;
     Ok(file.handles)
 }

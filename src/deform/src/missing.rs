@@ -6,7 +6,7 @@ use super::handles::Aim;
 use super::normalized::Frame;
 use super::problem::Problem;
 use super::problem_error::ProblemError;
-use super::pull::Gaps;
+use super::pull::TargetDistances;
 use super::solve::Solution;
 use unwrapd_method::numerics::rotation::Rotation;
 use unwrapd_method::numerics::square::{Matrix, Square};
@@ -180,7 +180,7 @@ where
             }
         }
         // Hold the points of all other parts where they are.
-        let gaps = Gaps::new(D, targets, &self.x);
+        let gaps = TargetDistances::new(D, targets, &self.x);
         for i in 0..targets.points.len() {
             if !set.iter().any(|&part| self.parts[part].points.contains(&i)) {
                 station.point_targets[D * i..D * (i + 1)].copy_from_slice(&gaps.point(i));
@@ -218,7 +218,7 @@ impl Problem {
 
 /// Returns the parts that are farther than `least` from their targets, but nearer than `most`.
 fn away(problem: &Problem, parts: &[Aim], x: &[f64], least: f64, most: f64) -> Vec<usize> {
-    let gaps = Gaps::new(problem.body.dim(), &problem.stations[0], x);
+    let gaps = TargetDistances::new(problem.body.dim(), &problem.stations[0], x);
     (0..parts.len())
         .filter(|part: &usize| {
             let gap = gaps.of(&parts[*part]);

@@ -272,7 +272,7 @@ impl Problem {
         if matches!(solution.summary.status, Status::Converged | Status::Stalled) {
             return Vec::new();
         }
-        let gaps = Gaps::new(self.body.dim(), targets, &solution.x);
+        let gaps = TargetDistances::new(self.body.dim(), targets, &solution.x);
         let least = self.least_gap();
         let all: Vec<Unreached> = self
             .aims
@@ -303,7 +303,7 @@ impl Problem {
         let Some(targets) = self.stations.last() else {
             return true;
         };
-        let gaps = Gaps::new(self.body.dim(), targets, x);
+        let gaps = TargetDistances::new(self.body.dim(), targets, x);
         let near = self.least_gap();
         (0..targets.vertices.len()).all(|i| gaps.of_vertex(i) <= most)
             && (0..targets.points.len()).all(|i| gaps.of_point(i) <= near)
@@ -338,7 +338,7 @@ impl Problem {
 }
 
 /// Distances of handles from their targets.
-pub(super) struct Gaps<'a> {
+pub(super) struct TargetDistances<'a> {
     dim: usize,
     targets: &'a Handles,
     x: &'a [f64],
@@ -346,7 +346,7 @@ pub(super) struct Gaps<'a> {
     places: HashMap<u32, usize>,
 }
 
-impl<'a> Gaps<'a> {
+impl<'a> TargetDistances<'a> {
     /// Measures the map `x` with `dim` coordinates per vertex.
     pub fn new(dim: usize, targets: &'a Handles, x: &'a [f64]) -> Self {
         Self {

@@ -63,10 +63,10 @@ pub struct PictureHandle {
 pub fn parse_handles(json: &[u8]) -> Result<Vec<PictureHandle>, WarpError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    struct File {
+    struct PictureHandlesFile {
         handles: Vec<PictureHandle>,
     }
-    let file: File =
+    let file: PictureHandlesFile =
         unwrapd_api::from_json(json).map_err(|error| WarpError::Malformed(error.to_string()))?;
     Ok(file.handles)
 }

@@ -47,9 +47,9 @@ pub(super) fn rebaked(
     tracker.stage(Stage::Bake);
     let (images, unreadable) = read_images(document, &hoped.planes)?;
     let plan = document.bake_plan(groups, &unreadable)?;
-    let surfaces: Vec<Surface> = (0..document.primitives().len())
+    let surfaces: Vec<RebakedSurface> = (0..document.primitives().len())
         .into_par_iter()
-        .map(|index| Surface::new(document, index, uvs, plan.is_normal_mapped(index)))
+        .map(|index| RebakedSurface::new(document, index, uvs, plan.is_normal_mapped(index)))
         .collect::<Result<_, _>>()?;
     let bake = Bake {
         document,
@@ -62,7 +62,7 @@ pub(super) fn rebaked(
         plan,
         files,
         tangents: (surfaces.into_iter())
-            .map(Surface::written_tangents)
+            .map(RebakedSurface::written_tangents)
             .collect(),
     })
 }
@@ -178,7 +178,7 @@ fn check_texels(texels: u64) -> Result<(), DocumentError> {
 pub(super) struct Bake<'a> {
     pub document: &'a GltfDocument,
     pub images: &'a Images,
-    pub surfaces: &'a [Surface],
+    pub surfaces: &'a [RebakedSurface],
 }
 
 impl<'a> Bake<'a> {
@@ -277,14 +277,14 @@ impl<'a> Bake<'a> {
 // Primitives with their new UVs.
 
 /// A primitive with its new UVs.
-pub(super) struct Surface {
+pub(super) struct RebakedSurface {
     /// New UVs, v down.
     pub uvs: Vec<[[f64; 2]; 3]>,
-    pub directions: Option<Directions>,
+    pub directions: Option<NormalFrames>,
 }
 
 /// Reference frames of normal maps.
-pub(super) struct Directions {
+pub(super) struct NormalFrames {
     pub normals: Vec<[[f32; 3]; 3]>,
     pub tangents: Vec<CornerTangents>,
     /// Set if the document has these normals. Otherwise they are those of the flat faces, and tangents are not
@@ -292,7 +292,7 @@ pub(super) struct Directions {
     are_given: bool,
 }
 
-impl Surface {
+impl RebakedSurface {
     pub fn new(
         document: &GltfDocument,
         index: usize,
@@ -301,7 +301,7 @@ impl Surface {
     ) -> Result<Self, DocumentError> {
         let upward = uvs.toward(index, VAxis::Up).unwrap_or_default();
         let directions = if is_normal_mapped {
-            Some(Directions::new(document, index, &upward)?)
+            Some(NormalFrames::new(document, index, &upward)?)
         } else {
             None
         };
@@ -321,7 +321,7 @@ impl Surface {
     }
 }
 
-impl Directions {
+impl NormalFrames {
     fn new(
         document: &GltfDocument,
         index: usize,

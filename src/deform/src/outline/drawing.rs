@@ -1,6 +1,6 @@
 //! The outline of a drawing's filled shapes.
 
-use super::{Frame, MOST_LOOPS, MOST_VERTICES, Outline, OutlineError, Windings};
+use super::{MOST_LOOPS, MOST_VERTICES, Outline, OutlineError, OutlineFrame, Windings};
 use kurbo::{Affine, BezPath, Circle, Ellipse, PathEl, Point, Rect, RoundedRect, Shape};
 use roxmltree::{Document, Node, ParsingOptions};
 use unwrapd_maps::plane::{doubled_polygon_area, meeting_point};
@@ -122,7 +122,7 @@ impl SvgDrawing {
     fn boundary(self) -> Result<Vec<Vec<[f64; 2]>>, OutlineError> {
         // Put all loops on one grid and refuse those that cross or touch.
         let vertices: Vec<_> = self.loops.iter().map(|l| l.vertices.clone()).collect();
-        let frame = Frame::of(&vertices)?;
+        let frame = OutlineFrame::of(&vertices)?;
         let (loops, owners): (Vec<_>, Vec<_>) = self
             .loops
             .into_iter()

@@ -9,7 +9,7 @@ mod triangulate;
 
 pub use contour::{ImageSettings, of_image};
 pub use drawing::{SvgSettings, of_svg};
-pub use triangulate::{MeshSettings, Resolution, triangulate};
+pub use triangulate::{MeshSettings, OutlineResolution, triangulate};
 use unwrapd_files::picture::ImageError;
 use unwrapd_maps::plane::{doubled_polygon_area, meeting_point};
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of};
@@ -24,7 +24,7 @@ const MOST_LOOPS: usize = 4096;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
     loops: Vec<Vec<[f64; 2]>>,
-    frame: Frame,
+    frame: OutlineFrame,
 }
 
 impl Outline {
@@ -34,7 +34,7 @@ impl Outline {
     /// Directions do not matter: pieces come out counter-clockwise, holes clockwise. Refuses polygons that cross or
     /// touch themselves or each other, exactly, and coordinates beyond 1e100.
     pub fn new(loops: Vec<Vec<[f64; 2]>>) -> Result<Self, OutlineError> {
-        let frame = Frame::of(&loops)?;
+        let frame = OutlineFrame::of(&loops)?;
         let mut loops: Vec<Vec<[f64; 2]>> = loops
             .into_iter()
             .map(|l| frame.polygon(l))
@@ -134,13 +134,13 @@ const LIMIT: f64 = 1e100;
 /// A square around an outline, to be moved to [1, 2]²: no coordinate there is too small or too large for exact
 /// predicates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Frame {
+pub(super) struct OutlineFrame {
     low: [f64; 2],
     /// A power of two.
     pub side: f64,
 }
 
-impl Frame {
+impl OutlineFrame {
     pub fn of(loops: &[Vec<[f64; 2]>]) -> Result<Self, OutlineError> {
         let boxes: Vec<[f64; 2]> = loops.iter().flat_map(|l| bounds_of(l)).collect();
         let [low, high] = bounds_of(&boxes);

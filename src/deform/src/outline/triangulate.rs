@@ -17,7 +17,7 @@ const NEAR: f64 = 0.1;
 
 /// Resolution of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Resolution {
+pub enum OutlineResolution {
     /// Approximate edge length, in units of the outline.
     EdgeLength(f64),
     /// Approximate number of triangles; an outline with many vertices needs more.
@@ -28,7 +28,7 @@ pub enum Resolution {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshSettings {
     /// Resolution.
-    pub resolution: Resolution,
+    pub resolution: OutlineResolution,
     /// Least angle of a triangle, in degrees, unless the outline itself has a smaller one; at most 30.
     pub smallest_angle: f64,
     /// Most triangles; a mesh that needs more is refused.
@@ -38,7 +38,7 @@ pub struct MeshSettings {
 impl Default for MeshSettings {
     fn default() -> Self {
         Self {
-            resolution: Resolution::Triangles(5000),
+            resolution: OutlineResolution::Triangles(5000),
             smallest_angle: 25.0,
             most_triangles: 1_000_000,
         }
@@ -58,12 +58,14 @@ pub fn triangulate(outline: &Outline, settings: &MeshSettings) -> Result<PlanarM
     let largest = |n: usize| area / n as f64 / MEAN_TO_LARGEST;
     let (mut largest_area, wanted) = match settings.resolution {
         // An equilateral triangle of the wanted edge is an average one.
-        Resolution::EdgeLength(h) if h > 0.0 && h.is_finite() => {
+        OutlineResolution::EdgeLength(h) if h > 0.0 && h.is_finite() => {
             (0.75_f64.sqrt() * 0.5 * h * h / MEAN_TO_LARGEST, None)
         }
-        Resolution::Triangles(n) if n > 0 => (largest(n), Some(n as f64)),
-        Resolution::EdgeLength(_) => return Err(OutlineError::InvalidSetting("edge_length")),
-        Resolution::Triangles(_) => return Err(OutlineError::InvalidSetting("triangles")),
+        OutlineResolution::Triangles(n) if n > 0 => (largest(n), Some(n as f64)),
+        OutlineResolution::EdgeLength(_) => {
+            return Err(OutlineError::InvalidSetting("edge_length"));
+        }
+        OutlineResolution::Triangles(_) => return Err(OutlineError::InvalidSetting("triangles")),
     };
     if largest_area < largest(settings.most_triangles) {
         return Err(OutlineError::TooManyTriangles(settings.most_triangles));

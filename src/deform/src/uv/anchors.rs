@@ -46,11 +46,11 @@ pub enum Anchor {
 pub fn parse_anchors(json: &[u8]) -> Result<Vec<Anchor>, EditError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    struct File {
+    struct AnchorsFile {
         #[serde(alias = "points")]
         anchors: Vec<Anchor>,
     }
-    let file: File =
+    let file: AnchorsFile =
         unwrapd_api::from_json(json).map_err(|error| EditError::Malformed(error.to_string()))?;
     Ok(file.anchors)
 }

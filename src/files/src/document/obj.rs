@@ -7,7 +7,7 @@
 
 use super::error::unused_not_finite;
 use super::mark::Mark;
-use super::material::{MaterialFiles, Pictures};
+use super::material::{MaterialFiles, UploadedPictures};
 use super::obj_text::{decimal, line_end, push_comment, push_face, push_statement, rewrite};
 use super::{
     DocumentError, Layout, NewUvs, Primitive, SpaceMap, Terms, Upload, Warning, WriteNotes,
@@ -340,7 +340,8 @@ impl ObjMaterials {
     /// Adds one file whose name has blanks, or several files.
     fn add(&mut self, line: &str, words: Vec<String>, resources: &BTreeMap<String, Vec<u8>>) {
         let find = |path: &str| {
-            let found = Pictures::candidates("", path).find(|name| resources.contains_key(name));
+            let found =
+                UploadedPictures::candidates("", path).find(|name| resources.contains_key(name));
             found.map(|name| (resources[&name].as_slice(), name))
         };
         let paths = match find(line) {
@@ -362,7 +363,7 @@ impl ObjMaterials {
     /// Returns the supplied files with their pictures.
     pub fn beside(&self, resources: &BTreeMap<String, Vec<u8>>) -> Vec<(String, Vec<u8>)> {
         let mut names: Vec<&str> = self.supplied.iter().map(String::as_str).collect();
-        let mut pictures = Pictures::among(resources);
+        let mut pictures = UploadedPictures::among(resources);
         for (folder, path) in self.files.pictures() {
             names.extend(pictures.find(folder, &path).map(|(name, _)| name));
         }
@@ -424,7 +425,7 @@ pub(super) fn material_paths(text: &[u8]) -> BTreeSet<String> {
         words.chain([name_of(&statement)]).collect::<Vec<_>>()
     });
     names
-        .flat_map(|name| Pictures::candidates("", &name).collect::<Vec<_>>())
+        .flat_map(|name| UploadedPictures::candidates("", &name).collect::<Vec<_>>())
         .collect()
 }
 
@@ -434,7 +435,7 @@ pub(super) fn picture_paths(path: &str, bytes: &[u8]) -> BTreeSet<String> {
     files.add(path, bytes);
     let pictures = files.pictures();
     pictures
-        .flat_map(|(folder, path)| Pictures::candidates(folder, &path).collect::<Vec<_>>())
+        .flat_map(|(folder, path)| UploadedPictures::candidates(folder, &path).collect::<Vec<_>>())
         .collect()
 }
 

@@ -4,7 +4,7 @@ use super::faces::ReadError;
 
 /// Encoding of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Encoding {
+pub(super) enum NumberEncoding {
     /// Words separated by blanks.
     Text,
     LittleEndian,
@@ -16,7 +16,7 @@ pub(super) struct Cursor<'a> {
     bytes: &'a [u8],
     at: usize,
     format: &'static str,
-    pub encoding: Encoding,
+    pub encoding: NumberEncoding,
 }
 
 impl<'a> Cursor<'a> {
@@ -25,7 +25,7 @@ impl<'a> Cursor<'a> {
             bytes,
             at: 0,
             format,
-            encoding: Encoding::Text,
+            encoding: NumberEncoding::Text,
         }
     }
 
@@ -81,27 +81,27 @@ impl<'a> Cursor<'a> {
     /// Reads a 32-bit integer.
     pub fn int(&mut self) -> Result<i32, ReadError> {
         match self.encoding {
-            Encoding::Text => self.parse("expected an integer"),
-            Encoding::LittleEndian => self.array().map(i32::from_le_bytes),
-            Encoding::BigEndian => self.array().map(i32::from_be_bytes),
+            NumberEncoding::Text => self.parse("expected an integer"),
+            NumberEncoding::LittleEndian => self.array().map(i32::from_le_bytes),
+            NumberEncoding::BigEndian => self.array().map(i32::from_be_bytes),
         }
     }
 
     /// Reads a 64-bit count or tag.
     pub fn size(&mut self) -> Result<u64, ReadError> {
         match self.encoding {
-            Encoding::Text => self.parse("expected a count or a tag"),
-            Encoding::LittleEndian => self.array().map(u64::from_le_bytes),
-            Encoding::BigEndian => self.array().map(u64::from_be_bytes),
+            NumberEncoding::Text => self.parse("expected a count or a tag"),
+            NumberEncoding::LittleEndian => self.array().map(u64::from_le_bytes),
+            NumberEncoding::BigEndian => self.array().map(u64::from_be_bytes),
         }
     }
 
     /// Reads a coordinate; NaN and infinity count as numbers here.
     pub fn float(&mut self) -> Result<f64, ReadError> {
         match self.encoding {
-            Encoding::Text => self.parse("expected a coordinate"),
-            Encoding::LittleEndian => self.array().map(f64::from_le_bytes),
-            Encoding::BigEndian => self.array().map(f64::from_be_bytes),
+            NumberEncoding::Text => self.parse("expected a coordinate"),
+            NumberEncoding::LittleEndian => self.array().map(f64::from_le_bytes),
+            NumberEncoding::BigEndian => self.array().map(f64::from_be_bytes),
         }
     }
 

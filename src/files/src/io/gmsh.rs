@@ -5,7 +5,7 @@
 //! without them. Read without a library: of the available crates `mshio` (last release 2020) reads only 4.1, `msh-rw`
 //! and `rutile` (2020, 2021) call themselves unfinished; the two versions share everything except their framing.
 
-use super::cursor::{Cursor, Encoding};
+use super::cursor::{Cursor, NumberEncoding};
 use super::elements::{Elements, push_element};
 use super::{ReadError, position};
 use std::collections::HashMap;
@@ -65,10 +65,10 @@ fn read_header(cursor: &mut Cursor) -> Result<Version, ReadError> {
     }
     if binary == 1 {
         cursor.end_line();
-        cursor.encoding = Encoding::LittleEndian;
+        cursor.encoding = NumberEncoding::LittleEndian;
         cursor.encoding = match cursor.int()? {
-            1 => Encoding::LittleEndian,
-            0x0100_0000 => Encoding::BigEndian,
+            1 => NumberEncoding::LittleEndian,
+            0x0100_0000 => NumberEncoding::BigEndian,
             _ => return Err(cursor.malformed("unknown byte order")),
         };
     }
@@ -145,7 +145,7 @@ impl<'a> Reader<'a> {
         let mut read = 0;
         while read < n {
             // Text: `tag type n-tags tags nodes`. Binary: a header `type n n-tags` for n of `tag tags nodes`.
-            let is_text = self.cursor.encoding == Encoding::Text;
+            let is_text = self.cursor.encoding == NumberEncoding::Text;
             if is_text {
                 self.tag_22()?;
             }
@@ -180,7 +180,7 @@ impl<'a> Reader<'a> {
 
     /// Moves to the numbers, which in binary files begin on the line after the keyword or the count.
     fn begin_numbers(&mut self) {
-        if self.cursor.encoding != Encoding::Text {
+        if self.cursor.encoding != NumberEncoding::Text {
             self.cursor.end_line();
         }
     }

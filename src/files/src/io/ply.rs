@@ -137,7 +137,7 @@ pub(super) enum PlyEncoding {
 }
 
 #[derive(Clone, Copy)]
-pub(super) enum Scalar {
+pub(super) enum PlyScalar {
     I8,
     U8,
     I16,
@@ -149,8 +149,8 @@ pub(super) enum Scalar {
 }
 
 enum PropertyKind {
-    Scalar(Scalar),
-    List { count: Scalar, item: Scalar },
+    Scalar(PlyScalar),
+    List { count: PlyScalar, item: PlyScalar },
 }
 
 struct Property {
@@ -252,16 +252,16 @@ fn property<'a>(words: &mut impl Iterator<Item = &'a [u8]>) -> Option<Property> 
     })
 }
 
-fn scalar(name: &[u8]) -> Option<Scalar> {
+fn scalar(name: &[u8]) -> Option<PlyScalar> {
     Some(match name {
-        b"char" | b"int8" => Scalar::I8,
-        b"uchar" | b"uint8" => Scalar::U8,
-        b"short" | b"int16" => Scalar::I16,
-        b"ushort" | b"uint16" => Scalar::U16,
-        b"int" | b"int32" => Scalar::I32,
-        b"uint" | b"uint32" => Scalar::U32,
-        b"float" | b"float32" => Scalar::F32,
-        b"double" | b"float64" => Scalar::F64,
+        b"char" | b"int8" => PlyScalar::I8,
+        b"uchar" | b"uint8" => PlyScalar::U8,
+        b"short" | b"int16" => PlyScalar::I16,
+        b"ushort" | b"uint16" => PlyScalar::U16,
+        b"int" | b"int32" => PlyScalar::I32,
+        b"uint" | b"uint32" => PlyScalar::U32,
+        b"float" | b"float32" => PlyScalar::F32,
+        b"double" | b"float64" => PlyScalar::F64,
         _ => return None,
     })
 }
@@ -277,20 +277,20 @@ pub(super) struct Data<'a> {
 
 impl Data<'_> {
     /// Reads the next number.
-    pub fn next(&mut self, scalar: Scalar) -> Result<f64, ReadError> {
+    pub fn next(&mut self, scalar: PlyScalar) -> Result<f64, ReadError> {
         let big = self.encoding == PlyEncoding::BigEndian;
         if self.encoding == PlyEncoding::Text {
             return self.next_word();
         }
         Ok(match scalar {
-            Scalar::I8 => f64::from(i8::from_le_bytes(self.take(false)?)),
-            Scalar::U8 => f64::from(u8::from_le_bytes(self.take(false)?)),
-            Scalar::I16 => f64::from(i16::from_le_bytes(self.take(big)?)),
-            Scalar::U16 => f64::from(u16::from_le_bytes(self.take(big)?)),
-            Scalar::I32 => f64::from(i32::from_le_bytes(self.take(big)?)),
-            Scalar::U32 => f64::from(u32::from_le_bytes(self.take(big)?)),
-            Scalar::F32 => f64::from(f32::from_le_bytes(self.take(big)?)),
-            Scalar::F64 => f64::from_le_bytes(self.take(big)?),
+            PlyScalar::I8 => f64::from(i8::from_le_bytes(self.take(false)?)),
+            PlyScalar::U8 => f64::from(u8::from_le_bytes(self.take(false)?)),
+            PlyScalar::I16 => f64::from(i16::from_le_bytes(self.take(big)?)),
+            PlyScalar::U16 => f64::from(u16::from_le_bytes(self.take(big)?)),
+            PlyScalar::I32 => f64::from(i32::from_le_bytes(self.take(big)?)),
+            PlyScalar::U32 => f64::from(u32::from_le_bytes(self.take(big)?)),
+            PlyScalar::F32 => f64::from(f32::from_le_bytes(self.take(big)?)),
+            PlyScalar::F64 => f64::from_le_bytes(self.take(big)?),
         })
     }
 
@@ -321,7 +321,7 @@ impl Data<'_> {
     pub fn list(
         &mut self,
         n_items: u64,
-        item: Scalar,
+        item: PlyScalar,
         mut kept: Option<&mut Vec<i64>>,
     ) -> Result<(), ReadError> {
         if let Some(kept) = &mut kept {
@@ -421,12 +421,12 @@ fn colors(
 /// Returns the number that stands for full intensity.
 fn largest(element: &Element, property: usize) -> f64 {
     match element.properties.get(property).map(|p| &p.kind) {
-        Some(PropertyKind::Scalar(Scalar::U8)) => 255.0,
-        Some(PropertyKind::Scalar(Scalar::I8)) => 127.0,
-        Some(PropertyKind::Scalar(Scalar::U16)) => 65_535.0,
-        Some(PropertyKind::Scalar(Scalar::I16)) => 32_767.0,
-        Some(PropertyKind::Scalar(Scalar::U32)) => f64::from(u32::MAX),
-        Some(PropertyKind::Scalar(Scalar::I32)) => f64::from(i32::MAX),
+        Some(PropertyKind::Scalar(PlyScalar::U8)) => 255.0,
+        Some(PropertyKind::Scalar(PlyScalar::I8)) => 127.0,
+        Some(PropertyKind::Scalar(PlyScalar::U16)) => 65_535.0,
+        Some(PropertyKind::Scalar(PlyScalar::I16)) => 32_767.0,
+        Some(PropertyKind::Scalar(PlyScalar::U32)) => f64::from(u32::MAX),
+        Some(PropertyKind::Scalar(PlyScalar::I32)) => f64::from(i32::MAX),
         _ => 1.0,
     }
 }

@@ -1,10 +1,10 @@
 //! Boundaries of charts.
 
-use super::box_tree::{Bounds, BoxTree, Visit, search_budget};
+use super::box_tree::{Bounds, BoxTree, BoxVisit, search_budget};
 use super::topology::{Start, UvTopology};
 use unwrapd_method::numerics::predicates::orient2d_sign;
 
-pub(crate) type Segment = [[f64; 2]; 2];
+pub(crate) type BoundarySegment = [[f64; 2]; 2];
 
 /// An edge with a face of its chart on one side only.
 #[derive(Clone, Copy)]
@@ -14,7 +14,7 @@ pub(crate) struct BoundaryEdge {
     /// Welded vertices of its ends.
     pub vertices: [u32; 2],
     /// UVs of its ends.
-    pub uvs: Segment,
+    pub uvs: BoundarySegment,
 }
 
 /// Boundary edges of all charts.
@@ -73,7 +73,7 @@ impl ChartBoundary {
         &self,
         margin: f64,
         mut visit: impl FnMut(&BoundaryEdge, &BoundaryEdge),
-    ) -> Visit {
+    ) -> BoxVisit {
         self.tree(margin)
             .pairs(search_budget(self.edges.len()), |i, j| {
                 visit(&self.edges[i as usize], &self.edges[j as usize]);
@@ -81,7 +81,7 @@ impl ChartBoundary {
     }
 
     /// Returns the smallest distance between edges of two charts, infinite if there is only one chart.
-    pub fn closest(&self) -> (f64, Visit) {
+    pub fn closest(&self) -> (f64, BoxVisit) {
         let charts: Vec<u32> = self.edges.iter().map(|edge| edge.chart).collect();
         self.tree(0.0)
             .closest(&charts, search_budget(self.edges.len()), |i, j| {
@@ -97,7 +97,7 @@ impl ChartBoundary {
     }
 }
 
-fn bounds([a, b]: &Segment, margin: f64) -> Bounds {
+fn bounds([a, b]: &BoundarySegment, margin: f64) -> Bounds {
     [
         [a[0].min(b[0]) - margin, a[1].min(b[1]) - margin],
         [a[0].max(b[0]) + margin, a[1].max(b[1]) + margin],
@@ -105,7 +105,7 @@ fn bounds([a, b]: &Segment, margin: f64) -> Bounds {
 }
 
 /// Returns the distance of two segments, rounded; 0 if they cross.
-pub(crate) fn segment_distance([a, b]: Segment, [c, d]: Segment) -> f64 {
+pub(crate) fn segment_distance([a, b]: BoundarySegment, [c, d]: BoundarySegment) -> f64 {
     let crosses = |a, b, c, d| orient2d_sign(a, b, c) * orient2d_sign(a, b, d) < 0;
     if crosses(a, b, c, d) && crosses(c, d, a, b) {
         return 0.0;
@@ -116,7 +116,7 @@ pub(crate) fn segment_distance([a, b]: Segment, [c, d]: Segment) -> f64 {
         .min(point_distance(d, [a, b]))
 }
 
-fn point_distance(p: [f64; 2], [a, b]: Segment) -> f64 {
+fn point_distance(p: [f64; 2], [a, b]: BoundarySegment) -> f64 {
     let along = [b[0] - a[0], b[1] - a[1]];
     let to = [p[0] - a[0], p[1] - a[1]];
     let length_squared = along[0] * along[0] + along[1] * along[1];

@@ -5,7 +5,7 @@ pub(crate) type Bounds<const D: usize = 2> = [[f64; D]; 2];
 
 /// Completeness of a search.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Visit {
+pub(crate) enum BoxVisit {
     Complete,
     /// The budget was used up before all pairs had been visited.
     Truncated,
@@ -64,13 +64,13 @@ impl<const D: usize> BoxTree<D> {
     }
 
     /// Visits every pair of boxes whose interiors meet once, in a fixed order, within a budget of comparisons.
-    pub fn pairs(&self, budget: u64, mut visit: impl FnMut(u32, u32)) -> Visit {
+    pub fn pairs(&self, budget: u64, mut visit: impl FnMut(u32, u32)) -> BoxVisit {
         let leaves = self.nodes.len() / 2;
         let mut left = budget;
         let mut stack = vec![(1, 1)];
         while let Some((a, b)) = stack.pop() {
             if left < (LEAF * LEAF) as u64 {
-                return Visit::Truncated;
+                return BoxVisit::Truncated;
             }
             if a != b && !meet(&self.nodes[a], &self.nodes[b]) {
                 left -= 1;
@@ -82,7 +82,7 @@ impl<const D: usize> BoxTree<D> {
                 self.leaf_pairs(a - leaves, b - leaves, &mut visit);
             }
         }
-        Visit::Complete
+        BoxVisit::Complete
     }
 
     /// Visits every box whose interior meets that of `bounds`, in a fixed order.
@@ -126,14 +126,14 @@ impl<const D: usize> BoxTree<D> {
         groups: &[u32],
         budget: u64,
         mut distance: impl FnMut(u32, u32) -> f64,
-    ) -> (f64, Visit) {
+    ) -> (f64, BoxVisit) {
         let leaves = self.nodes.len() / 2;
         let group_of = self.groups_of_nodes(groups);
         let mut best = f64::INFINITY;
         let mut stack = vec![(0.0, 1, 1)];
         for _ in 0..budget {
             let Some((bound, a, b)) = stack.pop() else {
-                return (best, Visit::Complete);
+                return (best, BoxVisit::Complete);
             };
             // Skip pairs that are too far apart, and nodes of one group.
             if bound >= best || (group_of[a].is_some() && group_of[a] == group_of[b]) {
@@ -152,7 +152,7 @@ impl<const D: usize> BoxTree<D> {
             );
             stack[from..].sort_by(|x, y| y.0.total_cmp(&x.0)); // the nearest is taken first
         }
-        (best, Visit::Truncated)
+        (best, BoxVisit::Truncated)
     }
 
     /// Returns the smaller of `best` and the smallest distance between items of two leaves that differ in group.

@@ -2,7 +2,7 @@
 
 use super::NAMED;
 use super::boundary::ChartBoundary;
-use super::box_tree::Visit;
+use super::box_tree::BoxVisit;
 use super::claims::{Claims, Overlap};
 use super::overlap::OrientedFaces;
 use super::padding::{PaddingVerdict, judge_padding};
@@ -163,7 +163,7 @@ fn judge_pairs(topology: &UvTopology, certificate: &mut Certificate) {
     certificate.overlapping_pairs = Some(same + between);
     certificate.overlapping_pairs_same_chart = Some(same);
     certificate.overlapping_pairs_between_charts = Some(between);
-    certificate.overlap_truncated = visit == Visit::Truncated;
+    certificate.overlap_truncated = visit == BoxVisit::Truncated;
 }
 
 /// Judges boundary edges of charts against each other.

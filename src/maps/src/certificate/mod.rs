@@ -40,7 +40,7 @@ mod topology;
 
 use crate::mesh::CornerUvs;
 pub(crate) use boundary::{ChartBoundary, segment_distance};
-pub(crate) use box_tree::Visit;
+pub(crate) use box_tree::BoxVisit;
 pub use claims::{Claims, Overlap, Padding};
 pub use judgment::{Certificate, PagesVerdict, certify};
 pub(crate) use overlap::OrientedFaces;

@@ -1,7 +1,7 @@
 //! Pairs of faces whose interiors intersect in UV space.
 
 use super::NAMED;
-use super::box_tree::{Bounds, BoxTree, Visit, bounds_of, enlarged, search_budget};
+use super::box_tree::{Bounds, BoxTree, BoxVisit, bounds_of, enlarged, search_budget};
 use super::topology::UvTopology;
 use crate::mesh::{CornerUvs, boundary_edges};
 use serde::Serialize;
@@ -45,11 +45,11 @@ impl OrientedFaces {
 
     /// Visits every pair of faces whose interiors intersect, decided exactly by separating axes; if there is none, that
     /// is usually decided from the boundary alone.
-    pub fn overlaps(&self, mut visit: impl FnMut(OverlappingPair)) -> Visit {
+    pub fn overlaps(&self, mut visit: impl FnMut(OverlappingPair)) -> BoxVisit {
         let boxes: Vec<Bounds> = self.corners.iter().map(|c| bounds_of(c)).collect();
         let tree = BoxTree::new(&boxes);
         if covers_once(&self.corners, &tree) {
-            return Visit::Complete;
+            return BoxVisit::Complete;
         }
         tree.pairs(search_budget(boxes.len()), |i, j| {
             let corners = [self.corners[i as usize], self.corners[j as usize]];
@@ -261,7 +261,7 @@ pub fn certify_planar(vertices: &[[f64; 2]], triangles: &[[u32; 3]]) -> PlanarCe
         degenerate: count(0),
         nonfinite: triangles.len() - corners.len(),
         overlapping_pairs,
-        overlap_truncated: visit == Visit::Truncated,
+        overlap_truncated: visit == BoxVisit::Truncated,
     }
 }
 
@@ -308,7 +308,7 @@ pub fn crossings(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Crossings {
             }
         }
     });
-    found.truncated = visit == Visit::Truncated;
+    found.truncated = visit == BoxVisit::Truncated;
     found
 }
 
@@ -405,7 +405,7 @@ pub(super) fn meeting_point(loops: &[Vec<[f64; 2]>]) -> Option<[f64; 2]> {
         }
     });
     // Only segments that lie in heaps exhaust the search; they would have to meet.
-    found.or_else(|| (visit == Visit::Truncated).then(|| segments[0][0]))
+    found.or_else(|| (visit == BoxVisit::Truncated).then(|| segments[0][0]))
 }
 
 /// Counts the pairs of a planar mesh's boundary edges that have a common point other than a shared vertex, exactly; a

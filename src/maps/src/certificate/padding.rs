@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::NAMED;
-use super::boundary::{ChartBoundary, Segment};
-use super::box_tree::Visit;
+use super::boundary::{BoundarySegment, ChartBoundary};
+use super::box_tree::BoxVisit;
 use super::claims::Padding;
 use super::fixed::{Fixed, UNIT_BITS, cross, difference, dot, fixed, is_exact, product};
 use crate::mesh::Resolution;
@@ -70,15 +70,15 @@ pub(super) fn judge_padding(boundary: &ChartBoundary, padding: Padding) -> Paddi
         }
     });
     verdict.pairs_too_close = too_close.len();
-    verdict.kept = too_close.is_empty() && visit == Visit::Complete;
+    verdict.kept = too_close.is_empty() && visit == BoxVisit::Complete;
     // Measure the smallest distance for the report.
     let (gap, complete) = boundary.closest();
     verdict.reached_texels =
-        (complete == Visit::Complete && gap.is_finite()).then(|| gap * f64::from(side));
+        (complete == BoxVisit::Complete && gap.is_finite()).then(|| gap * f64::from(side));
     verdict
 }
 
-fn fixed_segment(segment: Segment) -> [Fixed; 2] {
+fn fixed_segment(segment: BoundarySegment) -> [Fixed; 2] {
     segment.map(fixed)
 }
 

@@ -2,7 +2,7 @@
 
 use super::NAMED;
 use super::boundary::{BoundaryEdge, ChartBoundary};
-use super::box_tree::Visit;
+use super::box_tree::BoxVisit;
 use super::fixed::{Fixed, UNIT_BITS, cross, difference, dot, fixed, taxicab};
 use super::topology::UvTopology;
 use crate::mesh::CornerUvs;
@@ -147,7 +147,7 @@ pub(super) fn judge_bits(
             offending_pairs.push(pair);
         }
     });
-    let is_separate = pairs_in_doubt == 0 && visit == Visit::Complete;
+    let is_separate = pairs_in_doubt == 0 && visit == BoxVisit::Complete;
     BitsVerdict {
         asked,
         hold: is_bijective && is_separate && faces.is_empty(),
@@ -165,7 +165,7 @@ pub(super) fn coarsest_safe_bits(boundary: &ChartBoundary, grid_bits: u32) -> Op
     levels.into_iter().find(|&bits| {
         let mut is_separate = true;
         let visit = doubtful_pairs(boundary, bits, |_| is_separate = false);
-        is_separate && visit == Visit::Complete
+        is_separate && visit == BoxVisit::Complete
     })
 }
 
@@ -175,7 +175,11 @@ pub(super) fn coarsest_safe_bits(boundary: &ChartBoundary, grid_bits: u32) -> Op
 ///
 /// As long as all faces stay positive, faces of an injective map can come to overlap only after boundary edges of
 /// charts touch. So a map without such a pair stays injective. Ends that are one vertex with one UV move together.
-fn doubtful_pairs(boundary: &ChartBoundary, bits: u32, mut visit: impl FnMut([u32; 2])) -> Visit {
+fn doubtful_pairs(
+    boundary: &ChartBoundary,
+    bits: u32,
+    mut visit: impl FnMut([u32; 2]),
+) -> BoxVisit {
     let delta = allowance(bits);
     // The boxes that can be reached, and a little more.
     boundary.near_pairs(1.001 * largest_move(bits), |a, b| {

@@ -1,10 +1,11 @@
 //! The optimized map of a disk in space.
 
 use super::hierarchy::coarse_to_fine;
-use super::problem::{Embedding, Options, Pins, Problem, far_pair, pair_distance};
+use super::problem::{Embedding, MapProblem, Options, Pins, far_pair, pair_distance};
 use super::rest::{RestShapes, rest_shapes};
 use super::tutte::{
-    Boundary, ClosedDisk, first_bad_triangle, is_positive, outer_loop, tutte, tutte_embedding,
+    BoundarySpacing, ClosedDisk, first_bad_triangle, is_positive, outer_loop, tutte,
+    tutte_embedding,
 };
 use crate::mesh::{CUT, Disk, next, origin};
 use crate::plane::keep_apart;
@@ -46,7 +47,7 @@ pub fn parameterize(
     options: &Options,
     watch: &dyn Watch,
 ) -> Embedding {
-    let problem = Problem {
+    let problem = MapProblem {
         disk,
         rest: rest_shapes(positions, &disk.triangles),
         options,
@@ -65,7 +66,7 @@ pub fn parameterize(
 
 /// Returns the first map and the objective to minimize from it.
 fn first_map_and_objective(
-    problem: &Problem,
+    problem: &MapProblem,
     positions: &[[f64; 3]],
 ) -> (Vec<[f64; 2]>, Objective) {
     if problem.disk.triangles.len() >= LARGE && rayon::current_num_threads() > 1 {
@@ -78,7 +79,7 @@ fn first_map_and_objective(
 
 /// Returns the disk as it lies if it is flat, or unrolled if possible; otherwise, at its best size, Tutte's map if that
 /// is near enough to an optimum, or the one found coarse to fine.
-fn first_map(problem: &Problem, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
+fn first_map(problem: &MapProblem, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
     let isometric =
         flat_map(problem.disk, positions).or_else(|| unfolded_map(problem.disk, positions));
     if let Some(uv) = isometric {
@@ -109,7 +110,7 @@ fn first_map(problem: &Problem, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
 /// Returns Tutte's map and its two pins, at the size at which they are as far apart as in a nearly isometric map; that
 /// map itself if Tutte's is too far from any optimum, or the watcher wants to stop.
 fn pinned_map(
-    problem: &Problem,
+    problem: &MapProblem,
     positions: &[[f64; 3]],
     watch: &dyn Watch,
 ) -> (Vec<[f64; 2]>, [u32; 2]) {
@@ -135,7 +136,7 @@ fn pinned_map(
 /// Returns the optimum without pins of an energy that prefers a size, so that pins taken from it cost nothing; for
 /// another energy, the map found coarse to fine. Also returns whether the watcher wants to stop.
 fn nearly_isometric(
-    problem: &Problem,
+    problem: &MapProblem,
     positions: &[[f64; 3]],
     watch: &dyn Watch,
 ) -> Option<(Vec<[f64; 2]>, bool)> {
@@ -166,7 +167,7 @@ pub fn optimize(
     if let Some(triangle) = first_bad_triangle(&disk.triangles, start) {
         return Err(InvalidStart::NotPositive(triangle));
     }
-    let problem = Problem {
+    let problem = MapProblem {
         disk,
         rest: rest_shapes(positions, &disk.triangles),
         options,
@@ -247,7 +248,7 @@ pub fn start(disk: &Disk, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
         .or_else(|| hierarchical_start(disk, positions))
         .unwrap_or_else(|| {
             let closed = ClosedDisk::new(disk, positions);
-            let mut uv = tutte_embedding(&closed, Boundary::ArcLength);
+            let mut uv = tutte_embedding(&closed, BoundarySpacing::ArcLength);
             uv.truncate(disk.n_vertices);
             uv
         })

@@ -18,13 +18,13 @@ const STEP_BUDGET: usize = 5_000_000;
 const LEAST_STEPS: usize = 8;
 
 /// A disk, its rest shapes and options.
-pub(super) struct Problem<'a> {
+pub(super) struct MapProblem<'a> {
     pub disk: &'a Disk,
     pub rest: RestShapes,
     pub options: &'a Options,
 }
 
-impl Problem<'_> {
+impl MapProblem<'_> {
     /// Returns the energy with the ε that this start requires.
     fn term(&self, start: &[[f64; 2]]) -> Box<dyn Term> {
         map_term(&self.disk.triangles, &self.rest.shapes, start, self.options)

@@ -11,7 +11,7 @@ use unwrapd_method::numerics::vec3;
 
 /// Spacing of the boundary on the circle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Boundary {
+pub(super) enum BoundarySpacing {
     /// By its length in space; edges shorter than a share of the mean count as that share, so that corners stay apart.
     ArcLength,
     /// Equal angles for all edges.
@@ -26,7 +26,7 @@ const SHORTEST_ARC: f64 = 0.1;
 const FIXED: u32 = u32::MAX;
 
 /// Returns one position per vertex of the closed disk. Costs one sparse factorization.
-pub(super) fn tutte_embedding(closed: &ClosedDisk, boundary: Boundary) -> Vec<[f64; 2]> {
+pub(super) fn tutte_embedding(closed: &ClosedDisk, boundary: BoundarySpacing) -> Vec<[f64; 2]> {
     let mut uv = vec![[0.0; 2]; closed.positions.len()];
     let mut unknown = vec![0; closed.positions.len()];
     for (&v, point) in closed.boundary.iter().zip(circle(closed, boundary)) {
@@ -51,11 +51,11 @@ pub(super) fn tutte_embedding(closed: &ClosedDisk, boundary: Boundary) -> Vec<[f
     uv
 }
 
-fn circle(closed: &ClosedDisk, boundary: Boundary) -> Vec<[f64; 2]> {
+fn circle(closed: &ClosedDisk, boundary: BoundarySpacing) -> Vec<[f64; 2]> {
     let n = closed.boundary.len();
     let lengths = match boundary {
-        Boundary::ArcLength => edge_lengths(&closed.boundary, &closed.positions),
-        Boundary::EqualAngles => vec![1.0; n],
+        BoundarySpacing::ArcLength => edge_lengths(&closed.boundary, &closed.positions),
+        BoundarySpacing::EqualAngles => vec![1.0; n],
     };
     let shortest = SHORTEST_ARC * lengths.iter().sum::<f64>() / n as f64;
     let lengths: Vec<f64> = lengths.iter().map(|l| l.max(shortest)).collect();
@@ -107,7 +107,7 @@ fn system(
 ///
 /// Equal angles are tried second: they avoid squeezing at short boundary edges.
 pub(super) fn tutte(closed: &ClosedDisk) -> Option<Vec<[f64; 2]>> {
-    [Boundary::ArcLength, Boundary::EqualAngles]
+    [BoundarySpacing::ArcLength, BoundarySpacing::EqualAngles]
         .into_iter()
         .map(|boundary| tutte_embedding(closed, boundary))
         .find(|uv| first_bad_triangle(&closed.triangles, uv).is_none())

@@ -1,7 +1,7 @@
 //! Coverage of the texture.
 
 use super::faces::FaceMeasures;
-use crate::certificate::{ChartBoundary, UvTopology, Visit, segment_distance};
+use crate::certificate::{BoxVisit, ChartBoundary, UvTopology, segment_distance};
 use crate::mesh::{CornerUvs, UsedVertices};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -361,7 +361,7 @@ impl Gaps {
         // Look for charts within a texel of 1024; if there are none, search for the closest pair anywhere.
         let (nearest, visit) = nearest_charts(&boundary, faces.charts.len(), side / 1024.0);
         let within = nearest.iter().copied().fold(f64::INFINITY, f64::min);
-        let (gap, visit) = if within.is_finite() || visit == Visit::Truncated {
+        let (gap, visit) = if within.is_finite() || visit == BoxVisit::Truncated {
             (within, visit)
         } else {
             boundary.closest()
@@ -382,13 +382,13 @@ impl Gaps {
             gap_texels_4096: gap_uv.map(|gap| gap * 4096.0),
             charts_gap_lt_1texel_1024: closer_than(1024.0),
             charts_gap_lt_1texel_4096: closer_than(4096.0),
-            gap_truncated: visit == Visit::Truncated,
+            gap_truncated: visit == BoxVisit::Truncated,
         }
     }
 }
 
 /// Returns for each chart the distance to the nearest other, infinite if that is more than `reach`.
-fn nearest_charts(boundary: &ChartBoundary, n_charts: usize, reach: f64) -> (Vec<f64>, Visit) {
+fn nearest_charts(boundary: &ChartBoundary, n_charts: usize, reach: f64) -> (Vec<f64>, BoxVisit) {
     let margin = 0.5 * reach * (1.0 + 1e-9); // a pair at just this distance is found
     let mut nearest = vec![f64::INFINITY; n_charts];
     let visit = boundary.near_pairs(margin, |p, q| {

@@ -1,7 +1,7 @@
 //! Flips, mirrored charts and faces without UV area.
 
 use super::faces::FaceMeasures;
-use crate::certificate::{OrientedFaces, Overlap, UvTopology, Visit};
+use crate::certificate::{BoxVisit, OrientedFaces, Overlap, UvTopology};
 use crate::mesh::{CornerUvs, VAxis};
 use serde::Serialize;
 
@@ -112,7 +112,7 @@ impl Overlaps {
             overlap_pairs_same_chart: Some(same),
             overlap_pairs_between_charts: Some(between),
             overlap_faces: Some(overlapping.iter().filter(|&&o| o).count() as u64),
-            overlap_search_truncated: Some(visit == Visit::Truncated),
+            overlap_search_truncated: Some(visit == BoxVisit::Truncated),
         }
     }
 }

@@ -48,7 +48,7 @@ pub fn follow_softly(
     settings: &Settings,
     watch: &dyn Watch,
 ) -> Summary {
-    let mut pulled = Pulled::new(objective, x, settings);
+    let mut pulled = SoftPull::new(objective, x, settings);
     if !pulled.summary.energy_first.is_finite() {
         return pulled.summary;
     }
@@ -74,7 +74,7 @@ pub fn follow_softly(
 }
 
 /// State between iterations.
-struct Pulled {
+struct SoftPull {
     alpha: f64,
     /// Distance at which points are pulled ahead of themselves, in edges.
     pull: f64,
@@ -84,7 +84,7 @@ struct Pulled {
     trial: Vec<f64>,
 }
 
-impl Pulled {
+impl SoftPull {
     fn new(objective: &mut Objective, x: &[f64], settings: &Settings) -> Self {
         objective.linearize(x, 0.0);
         Self {

@@ -5,7 +5,7 @@ use crate::options::{BodyFormat, TRIANGLES};
 use crate::{PipelineError, limits};
 use std::collections::HashMap;
 use unwrapd_api::Limits;
-use unwrapd_deform::outline::{self, ImageSettings, MeshSettings, Resolution, SvgSettings};
+use unwrapd_deform::outline::{self, ImageSettings, MeshSettings, OutlineResolution, SvgSettings};
 use unwrapd_deform::{Body, Problem};
 use unwrapd_files::document::{
     Document, DocumentError, GroupBy, Layout, NewUvs, OutputFormat, SpaceMap, Upload, WriteOptions,
@@ -140,7 +140,7 @@ fn drawn(
 
 fn filled(outline: &outline::Outline, triangles: usize) -> Result<Elements, PipelineError> {
     let settings = MeshSettings {
-        resolution: Resolution::Triangles(triangles),
+        resolution: OutlineResolution::Triangles(triangles),
         ..MeshSettings::default()
     };
     Ok(Elements::from(&outline::triangulate(outline, &settings)?))

@@ -243,7 +243,7 @@ impl JobStore for RecordStore {
 // Pages of the job list.
 
 /// A bound value of a statement.
-enum Value {
+enum BoundValue {
     Text(String),
     Number(i64),
 }
@@ -252,12 +252,12 @@ enum Value {
 #[derive(Default)]
 struct Conditions {
     texts: Vec<String>,
-    values: Vec<Value>,
+    values: Vec<BoundValue>,
 }
 
 impl Conditions {
     /// Adds a condition, in which `?` is the placeholder of its value.
-    fn add(&mut self, condition: &str, value: Value) {
+    fn add(&mut self, condition: &str, value: BoundValue) {
         self.values.push(value);
         let place = format!("${}", self.values.len());
         self.texts.push(condition.replace('?', &place));
@@ -265,13 +265,13 @@ impl Conditions {
 
     fn words(&mut self, condition: &str, word: Option<&str>) {
         if let Some(word) = word {
-            self.add(condition, Value::Text(word.to_owned()));
+            self.add(condition, BoundValue::Text(word.to_owned()));
         }
     }
 
     fn numbers(&mut self, condition: &str, number: Option<i64>) {
         if let Some(number) = number {
-            self.add(condition, Value::Number(number));
+            self.add(condition, BoundValue::Number(number));
         }
     }
 }
@@ -286,7 +286,7 @@ async fn page(
     let (within, owner) = within(visibility, 1);
     let mut met = Conditions::default();
     met.texts.push(format!("ephemeral = 0 AND {within}"));
-    met.values.push(Value::Text(owner.to_owned()));
+    met.values.push(BoundValue::Text(owner.to_owned()));
     met.words("state = ?", listing.state.map(State::word));
     met.words("kind = ?", listing.kind.map(Kind::word));
     met.words("owner = ?", listing.owner.as_ref().map(Owner::as_str));
@@ -294,7 +294,7 @@ async fn page(
     met.numbers("created < ?", listing.until.map(|time| time.0));
     let labelled = "id IN (SELECT job FROM label WHERE digest = ?)";
     for label in listing.metadata.labels() {
-        met.add(labelled, Value::Text(label));
+        met.add(labelled, BoundValue::Text(label));
     }
     // Continue after the cursor, in the order of ids.
     let (beyond, direction) = match listing.order {
@@ -303,7 +303,8 @@ async fn page(
     };
     let after = listing.after.map(|id| id.to_string());
     met.words(beyond, after.as_deref());
-    met.values.push(Value::Number(i64::from(listing.limit)));
+    met.values
+        .push(BoundValue::Number(i64::from(listing.limit)));
     // Read the page.
     let page = format!(
         "SELECT {{columns}} FROM job WHERE {} ORDER BY id {direction} LIMIT ${}",
@@ -318,14 +319,14 @@ async fn page(
 
 fn bound(
     statement: AssertSqlSafe<String>,
-    values: Vec<Value>,
+    values: Vec<BoundValue>,
 ) -> Query<'static, Any, <Any as sqlx::Database>::Arguments> {
     let statement = sqlx::query(statement);
     values
         .into_iter()
         .fold(statement, |query, value| match value {
-            Value::Text(text) => query.bind(text),
-            Value::Number(number) => query.bind(number),
+            BoundValue::Text(text) => query.bind(text),
+            BoundValue::Number(number) => query.bind(number),
         })
 }
 

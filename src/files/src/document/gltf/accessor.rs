@@ -1,6 +1,6 @@
 //! Accessors: typed arrays over the binary data, checked against the bytes that really exist.
 
-use super::body::Body;
+use super::body::GltfBody;
 use super::json::{invalid, item, required, unsigned};
 use crate::document::DocumentError;
 use serde_json::{Value, json};
@@ -39,7 +39,7 @@ struct Sparse<'a> {
 
 impl<'a> Accessor<'a> {
     /// Opens accessor `index` of the document.
-    pub fn open(body: &'a Body, index: usize) -> Result<Self, DocumentError> {
+    pub fn open(body: &'a GltfBody, index: usize) -> Result<Self, DocumentError> {
         let object = item(&body.json, "accessors", index)?;
         Self::parse(body, object).map_err(|error| match error {
             DocumentError::InvalidGltf(message) => {
@@ -49,7 +49,7 @@ impl<'a> Accessor<'a> {
         })
     }
 
-    fn parse(body: &'a Body, object: &'a Value) -> Result<Self, DocumentError> {
+    fn parse(body: &'a GltfBody, object: &'a Value) -> Result<Self, DocumentError> {
         let component = component_type(object)?;
         let kind = object.get("type").and_then(Value::as_str).unwrap_or("");
         let (columns, rows) = shape(kind).ok_or_else(|| invalid("unknown `type`"))?;
@@ -190,7 +190,7 @@ fn shape(kind: &str) -> Option<(usize, usize)> {
 
 /// Returns the elements at the `bufferView` and `byteOffset` of `object`, all of them within the view.
 fn strided<'a>(
-    body: &'a Body,
+    body: &'a GltfBody,
     object: &Value,
     count: usize,
     size: usize,
@@ -215,7 +215,7 @@ fn strided<'a>(
 }
 
 fn parse_sparse<'a>(
-    body: &'a Body,
+    body: &'a GltfBody,
     sparse: &Value,
     count: usize,
     size: usize,

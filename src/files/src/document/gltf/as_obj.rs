@@ -1,13 +1,13 @@
 //! Output of a glTF document with new UVs as an OBJ file, with its materials and pictures as separate files.
 
 use super::accessor::Accessor;
-use super::body::Body;
+use super::body::GltfBody;
 use super::document::GltfDocument;
 use super::images;
 use super::json::{extension, item, items, unsigned};
 use super::scene::is_in_place;
 use super::textures::{self, MaterialTextures, TRANSFORM, affected, materials, texture_warnings};
-use crate::document::material::{Dropped, Map, Material, mtl_text, of_gltf};
+use crate::document::material::{Dropped, Material, TextureMap, mtl_text, of_gltf};
 use crate::document::new_obj::{self, Color, ObjPart, from_linear};
 use crate::document::{
     BakedTextures, DocumentError, Layout, NewUvs, PrimitiveNote, Warning, WriteNotes, WriteOptions,
@@ -32,7 +32,7 @@ pub(super) fn write(
         Some(baked) => textures::insert(document, &mut body, baked, 0, &options.stem, &mut notes)?,
         None => document.resources.clone(),
     };
-    let mut taken = Taken::default();
+    let mut taken = TakenNames::default();
     let stem = taken.name(&options.stem);
     let mut pictures = ObjPictures::new(&body, &resources, &stem);
     let material_names = material_names(&body.json)?;
@@ -81,7 +81,7 @@ pub(super) fn write(
 /// Collects the numbers of a primitive; the caller sets its names.
 fn part<'a>(
     document: &'a GltfDocument,
-    body: &Body,
+    body: &GltfBody,
     index: usize,
     uvs: &NewUvs,
 ) -> Result<ObjPart<'a>, DocumentError> {
@@ -112,7 +112,7 @@ fn part<'a>(
 /// Reads `COLOR_0`, if it is a color.
 fn colors(
     document: &GltfDocument,
-    body: &Body,
+    body: &GltfBody,
     index: usize,
 ) -> Result<Option<Vec<Color>>, DocumentError> {
     let attributes = &document.object(&document.primitives[index])?["attributes"];
@@ -134,7 +134,11 @@ fn colors(
     Ok(Some(own))
 }
 
-fn material_of(body: &Body, mesh: usize, primitive: usize) -> Result<Option<usize>, DocumentError> {
+fn material_of(
+    body: &GltfBody,
+    mesh: usize,
+    primitive: usize,
+) -> Result<Option<usize>, DocumentError> {
     let primitives = items(item(&body.json, "meshes", mesh)?, "primitives")?;
     match primitives.get(primitive) {
         Some(primitive) => unsigned(primitive, "material"),
@@ -145,7 +149,7 @@ fn material_of(body: &Body, mesh: usize, primitive: usize) -> Result<Option<usiz
 /// Converts the materials in use.
 fn described(
     document: &GltfDocument,
-    body: &Body,
+    body: &GltfBody,
     names: &[String],
     pictures: &mut ObjPictures,
     notes: &mut WriteNotes,
@@ -327,10 +331,10 @@ fn n_moved(json: &Value) -> Result<usize, DocumentError> {
 
 /// Pictures to which materials refer.
 struct ObjPictures<'a> {
-    body: &'a Body,
+    body: &'a GltfBody,
     resources: &'a BTreeMap<String, Vec<u8>>,
     stem: &'a str,
-    taken: Taken,
+    taken: TakenNames,
     /// For each image the name of its file; `None` if there is no file.
     names: BTreeMap<usize, Option<String>>,
     files: BTreeMap<String, Vec<u8>>,
@@ -341,12 +345,16 @@ struct ObjPictures<'a> {
 
 impl<'a> ObjPictures<'a> {
     /// Starts without pictures, for a document with these resources.
-    pub fn new(body: &'a Body, resources: &'a BTreeMap<String, Vec<u8>>, stem: &'a str) -> Self {
+    pub fn new(
+        body: &'a GltfBody,
+        resources: &'a BTreeMap<String, Vec<u8>>,
+        stem: &'a str,
+    ) -> Self {
         Self {
             body,
             resources,
             stem,
-            taken: Taken::default(),
+            taken: TakenNames::default(),
             names: BTreeMap::new(),
             files: BTreeMap::new(),
             missing: BTreeSet::new(),
@@ -356,7 +364,7 @@ impl<'a> ObjPictures<'a> {
     }
 
     /// Returns the map for a texture info.
-    pub fn map(&mut self, info: &Value) -> Option<Map> {
+    pub fn map(&mut self, info: &Value) -> Option<TextureMap> {
         let json = &self.body.json;
         let texture = unsigned(info, "index").ok().flatten();
         let object = texture.and_then(|texture| item(json, "textures", texture).ok());
@@ -365,7 +373,7 @@ impl<'a> ObjPictures<'a> {
             self.n_without_image += 1;
             return None;
         };
-        let mut map = Map::of(self.name(image)?);
+        let mut map = TextureMap::of(self.name(image)?);
         if let Some(transform) = extension(info, TRANSFORM) {
             let pair = |key: &str, default: f64| {
                 let at = |k: usize| transform.get(key)?.get(k)?.as_f64();
@@ -467,9 +475,9 @@ impl<'a> ObjPictures<'a> {
 /// Names in use, regardless of case, as file names may have to differ in more than that; each with the number of
 /// requests for it.
 #[derive(Default)]
-struct Taken(HashMap<String, u32>);
+struct TakenNames(HashMap<String, u32>);
 
-impl Taken {
+impl TakenNames {
     /// Returns the name without characters that would end it or have another meaning, and with a number if it is taken.
     pub fn name(&mut self, wanted: &str) -> String {
         let words: String = wanted
@@ -498,7 +506,7 @@ impl Taken {
 
 /// Returns unique names of materials.
 fn material_names(json: &Value) -> Result<Vec<String>, DocumentError> {
-    let mut taken = Taken::default();
+    let mut taken = TakenNames::default();
     let materials = items(json, "materials")?.iter().enumerate();
     let names = materials.map(|(index, material)| {
         let name = own_name(material).map_or_else(|| format!("material{index}"), str::to_owned);
@@ -517,7 +525,7 @@ fn object_names(json: &Value) -> Result<Vec<String>, DocumentError> {
             *name = own_name(node);
         }
     }
-    let mut taken = Taken::default();
+    let mut taken = TakenNames::default();
     let names = names.into_iter().enumerate().map(|(index, name)| {
         let name = name.map_or_else(|| format!("mesh{index}"), str::to_owned);
         taken.name(&name)

@@ -13,12 +13,12 @@ pub(super) enum Target {
 
 /// JSON in which every buffer view lies in `buffers[0]`, and the bytes of that buffer.
 #[derive(Debug, Clone)]
-pub(super) struct Body {
+pub(super) struct GltfBody {
     pub json: Value,
     pub bin: Vec<u8>,
 }
 
-impl Body {
+impl GltfBody {
     /// Returns the bytes of a buffer view and its stride.
     pub fn view(&self, index: usize) -> Result<(&[u8], Option<usize>), DocumentError> {
         let view = item(&self.json, "bufferViews", index)?;

@@ -1,6 +1,6 @@
 //! Buffers: found, checked, decompressed and joined into one, so that all other code sees a single array of bytes.
 
-use super::body::Body;
+use super::body::GltfBody;
 use super::compression;
 use super::json::{
     array_mut, invalid, items, object_mut, parse, remove, remove_extension, required, unsigned,
@@ -23,7 +23,7 @@ pub(super) fn join(
     mut json: Value,
     bin: Option<&[u8]>,
     upload: &Upload,
-) -> Result<Body, DocumentError> {
+) -> Result<GltfBody, DocumentError> {
     let buffers = load(&json, bin, upload)?;
     // Buffers that views other than compressed ones need.
     let views = items(&json, "bufferViews")?;
@@ -40,7 +40,7 @@ pub(super) fn join(
             .get_mut(buffer)
             .ok_or_else(|| invalid(format!("buffers[{buffer}] does not exist")))? = true;
     }
-    let mut body = Body {
+    let mut body = GltfBody {
         json: Value::Null,
         bin: Vec::new(),
     };
@@ -162,7 +162,7 @@ fn relocate(
 }
 
 /// Reserves space for all compressed views; refuses views that together claim too much for their compressed bytes.
-fn reserve(body: &mut Body, json: &Value, buffers: &[Buffer]) -> Result<(), DocumentError> {
+fn reserve(body: &mut GltfBody, json: &Value, buffers: &[Buffer]) -> Result<(), DocumentError> {
     let (mut claimed, mut aligned) = (0_usize, 0);
     for view in items(json, "bufferViews")? {
         if let Some((_, extension)) = compression::of_view(view) {
@@ -180,7 +180,7 @@ fn reserve(body: &mut Body, json: &Value, buffers: &[Buffer]) -> Result<(), Docu
     Ok(())
 }
 
-fn decode(view: &mut Value, buffers: &[Buffer], body: &mut Body) -> Result<(), DocumentError> {
+fn decode(view: &mut Value, buffers: &[Buffer], body: &mut GltfBody) -> Result<(), DocumentError> {
     let Some((name, extension)) = compression::of_view(view) else {
         return Ok(());
     };

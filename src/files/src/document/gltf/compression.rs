@@ -1,7 +1,7 @@
 //! `KHR_draco_mesh_compression`: primitives decoded into plain accessors.
 
 use super::accessor::{self, Component};
-use super::body::{Body, Target};
+use super::body::{GltfBody, Target};
 use super::json::{
     extension, invalid, item, item_mut, items, primitive_mut, remove, remove_extension, required,
     unsigned,
@@ -27,7 +27,7 @@ pub(super) fn most_decoded(compressed: usize) -> usize {
 }
 
 /// Decodes every compressed primitive. If the file also has uncompressed data, that is used instead.
-pub(super) fn decompress(body: &mut Body) -> Result<(), DocumentError> {
+pub(super) fn decompress(body: &mut GltfBody) -> Result<(), DocumentError> {
     let mut budget = most_decoded(body.bin.len());
     for mesh in 0..items(&body.json, "meshes")?.len() {
         for primitive in 0..items(item(&body.json, "meshes", mesh)?, "primitives")?.len() {
@@ -69,7 +69,11 @@ fn accessor_of(primitive: &Value, name: &str) -> Result<usize, DocumentError> {
 }
 
 /// Returns whether an accessor of the primitive gets its data only from the compressed stream.
-fn lacks_data(body: &Body, primitive: &Value, compressed: &Value) -> Result<bool, DocumentError> {
+fn lacks_data(
+    body: &GltfBody,
+    primitive: &Value,
+    compressed: &Value,
+) -> Result<bool, DocumentError> {
     let mut accessors = Vec::new();
     for (name, _) in attribute_ids(compressed)? {
         accessors.push(accessor_of(primitive, name)?);
@@ -87,7 +91,7 @@ fn lacks_data(body: &Body, primitive: &Value, compressed: &Value) -> Result<bool
 }
 
 fn decode_primitive(
-    body: &mut Body,
+    body: &mut GltfBody,
     mut primitive: Value,
     compressed: &Value,
     budget: &mut usize,
@@ -203,7 +207,7 @@ fn number(kind: DataType, bytes: &[u8]) -> f64 {
 
 /// Writes the faces as a triangle list.
 fn store_indices(
-    body: &mut Body,
+    body: &mut GltfBody,
     primitive: &mut Value,
     mesh: &Mesh,
     budget: &mut usize,

@@ -1,7 +1,7 @@
 //! A glTF document: read, inspected and moved.
 
 use super::accessor::Accessor;
-use super::body::Body;
+use super::body::GltfBody;
 use super::json::{self, invalid, item, items, unsigned};
 use super::links::Origin;
 use super::primitives::{self, Collected};
@@ -18,7 +18,7 @@ use unwrapd_maps::mesh::CornerUvs;
 /// A glTF document, decompressed.
 #[derive(Clone)]
 pub struct GltfDocument {
-    pub(super) body: Body,
+    pub(super) body: GltfBody,
     /// State of the document when it was read.
     pub(super) origin: Origin,
     /// GLB chunks that are neither JSON nor the binary buffer.

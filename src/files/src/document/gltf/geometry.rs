@@ -1,7 +1,7 @@
 //! Surfaces moved by a map of space.
 
 use super::accessor::{self, Accessor, Component};
-use super::body::{Body, Target};
+use super::body::{GltfBody, Target};
 use super::document::GltfDocument;
 use super::json::{as_unsigned, invalid, item, items, object_mut, primitive_mut, remove, unsigned};
 use super::primitives::Positions;
@@ -28,7 +28,7 @@ impl GltfDocument {
 /// Gives the primitives moved positions, normals and tangents in new accessors of f32; shared accessors stay shared.
 /// Morph targets are differences of positions and stay unchanged.
 fn move_surfaces(
-    body: &mut Body,
+    body: &mut GltfBody,
     primitives: &[Primitive],
     map: &dyn SpaceMap,
 ) -> Result<(), DocumentError> {
@@ -46,7 +46,7 @@ fn move_surfaces(
 }
 
 struct SurfaceMoves<'a> {
-    body: &'a mut Body,
+    body: &'a mut GltfBody,
     positions: Positions,
     map: &'a dyn SpaceMap,
     /// Number of bytes that may still be written.
@@ -161,7 +161,7 @@ impl GltfDocument {
 /// unknown meaning are refused, as they cannot be interpolated.
 fn subdivide(
     document: &GltfDocument,
-    body: &mut Body,
+    body: &mut GltfBody,
     index: usize,
     cut: &Subdivision,
 ) -> Result<(), DocumentError> {
@@ -261,7 +261,7 @@ fn interpolated(
 }
 
 fn push(
-    body: &mut Body,
+    body: &mut GltfBody,
     like: &Accessor,
     is_position: bool,
     values: &[f32],

@@ -1,6 +1,6 @@
 //! Images outside the document.
 
-use super::body::{Body, Target};
+use super::body::{GltfBody, Target};
 use super::json::{item, item_mut, items, remove, required};
 use crate::document::{DocumentError, uri};
 use crate::io::{Content, Format, detect, format_of_content};
@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Returns for each image the first one with the same bytes; itself if it cannot be read.
 pub(super) fn first_of_equals(
-    body: &Body,
+    body: &GltfBody,
     resources: &BTreeMap<String, Vec<u8>>,
 ) -> Result<Vec<usize>, DocumentError> {
     let mut known: HashMap<Cow<[u8]>, usize> = HashMap::new();
@@ -38,7 +38,7 @@ pub(super) fn supplied(
 /// Embeds every supplied image into the binary buffer, so that one file holds all. Returns the URIs of those that stay
 /// outside.
 pub(super) fn embed(
-    body: &mut Body,
+    body: &mut GltfBody,
     resources: &BTreeMap<String, Vec<u8>>,
 ) -> Result<Vec<String>, DocumentError> {
     let mut outside = Vec::new();
@@ -71,7 +71,7 @@ pub(super) type Beside = (Vec<(String, Vec<u8>)>, Vec<String>);
 
 /// Returns the bytes of an image's file, wherever it is stored.
 pub(super) fn bytes<'a>(
-    body: &'a Body,
+    body: &'a GltfBody,
     index: usize,
     resources: &'a BTreeMap<String, Vec<u8>>,
 ) -> Result<Cow<'a, [u8]>, DocumentError> {

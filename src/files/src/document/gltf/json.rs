@@ -137,7 +137,7 @@ const NAME: usize = 16;
 
 /// Bytes of values in memory.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Size {
+pub(super) struct MemorySize {
     /// After parsing a text: arrays grow by doubling.
     read: usize,
     /// After copying: arrays have their exact length.
@@ -147,12 +147,12 @@ pub(super) struct Size {
 /// Parses the JSON of a text; refuses it beforehand if it would take too much memory.
 pub(super) fn parse(text: &[u8]) -> Result<Value, DocumentError> {
     let not_json = |error: serde_json::Error| invalid(format!("not JSON: {error}"));
-    let size: Size = serde_json::from_slice(text).map_err(not_json)?;
+    let size: MemorySize = serde_json::from_slice(text).map_err(not_json)?;
     size.check()?;
     serde_json::from_slice(text).map_err(not_json)
 }
 
-impl Size {
+impl MemorySize {
     /// Returns the size of an existing value.
     pub fn of(value: &Value) -> Self {
         let mut size = Self::VALUE;
@@ -226,14 +226,14 @@ impl Size {
     }
 }
 
-impl AddAssign for Size {
+impl AddAssign for MemorySize {
     fn add_assign(&mut self, other: Self) {
         self.read = self.read.saturating_add(other.read);
         self.copied = self.copied.saturating_add(other.copied);
     }
 }
 
-impl<'de> Deserialize<'de> for Size {
+impl<'de> Deserialize<'de> for MemorySize {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(Counter)
     }
@@ -243,39 +243,39 @@ impl<'de> Deserialize<'de> for Size {
 struct Counter;
 
 impl<'de> Visitor<'de> for Counter {
-    type Value = Size;
+    type Value = MemorySize;
 
     fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
         formatter.write_str("JSON")
     }
 
-    fn visit_bool<E: Error>(self, _: bool) -> Result<Size, E> {
-        Ok(Size::VALUE)
+    fn visit_bool<E: Error>(self, _: bool) -> Result<MemorySize, E> {
+        Ok(MemorySize::VALUE)
     }
 
-    fn visit_i64<E: Error>(self, _: i64) -> Result<Size, E> {
-        Ok(Size::VALUE)
+    fn visit_i64<E: Error>(self, _: i64) -> Result<MemorySize, E> {
+        Ok(MemorySize::VALUE)
     }
 
-    fn visit_u64<E: Error>(self, _: u64) -> Result<Size, E> {
-        Ok(Size::VALUE)
+    fn visit_u64<E: Error>(self, _: u64) -> Result<MemorySize, E> {
+        Ok(MemorySize::VALUE)
     }
 
-    fn visit_f64<E: Error>(self, _: f64) -> Result<Size, E> {
-        Ok(Size::VALUE)
+    fn visit_f64<E: Error>(self, _: f64) -> Result<MemorySize, E> {
+        Ok(MemorySize::VALUE)
     }
 
-    fn visit_str<E: Error>(self, _: &str) -> Result<Size, E> {
-        Ok(Size::VALUE)
+    fn visit_str<E: Error>(self, _: &str) -> Result<MemorySize, E> {
+        Ok(MemorySize::VALUE)
     }
 
-    fn visit_unit<E: Error>(self) -> Result<Size, E> {
-        Ok(Size::VALUE)
+    fn visit_unit<E: Error>(self) -> Result<MemorySize, E> {
+        Ok(MemorySize::VALUE)
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Size, A::Error> {
-        let (mut size, mut n) = (Size::VALUE, 0);
-        while let Some(item) = items.next_element::<Size>()? {
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<MemorySize, A::Error> {
+        let (mut size, mut n) = (MemorySize::VALUE, 0);
+        while let Some(item) = items.next_element::<MemorySize>()? {
             size += item;
             n += 1;
         }
@@ -283,10 +283,10 @@ impl<'de> Visitor<'de> for Counter {
         Ok(size)
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, mut members: A) -> Result<Size, A::Error> {
-        let (mut size, mut n) = (Size::VALUE, 0);
+    fn visit_map<A: MapAccess<'de>>(self, mut members: A) -> Result<MemorySize, A::Error> {
+        let (mut size, mut n) = (MemorySize::VALUE, 0);
         while members.next_key::<IgnoredAny>()?.is_some() {
-            size += members.next_value::<Size>()?;
+            size += members.next_value::<MemorySize>()?;
             size.hold_name(0);
             n += 1;
         }

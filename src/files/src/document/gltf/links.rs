@@ -1,6 +1,6 @@
 //! References of a document to accessors, buffer views, images, samplers and textures.
 
-use super::body::Body;
+use super::body::GltfBody;
 use super::json::{array_mut, as_unsigned, items, required, unsigned};
 use crate::document::DocumentError;
 use serde_json::{Value, json};
@@ -17,7 +17,7 @@ pub(super) enum Collection {
 }
 
 /// An object of a collection.
-pub(super) type Object = (Collection, usize);
+pub(super) type GltfObject = (Collection, usize);
 
 impl Collection {
     pub const ALL: [Self; 5] = [
@@ -48,7 +48,10 @@ impl Collection {
 
 /// Calls `place` for every reference to an object of a collection, with its owner, the object, and the number.
 /// References in unknown extensions are left out; `origin.rs` has them.
-pub(super) fn visit(json: &mut Value, place: &mut dyn FnMut(Option<Object>, Object, &mut Value)) {
+pub(super) fn visit(
+    json: &mut Value,
+    place: &mut dyn FnMut(Option<GltfObject>, GltfObject, &mut Value),
+) {
     let Some(root) = json.as_object_mut() else {
         return;
     };
@@ -75,8 +78,8 @@ pub(super) fn visit(json: &mut Value, place: &mut dyn FnMut(Option<Object>, Obje
 }
 
 struct Visitor<'a> {
-    owner: Option<Object>,
-    place: &'a mut dyn FnMut(Option<Object>, Object, &mut Value),
+    owner: Option<GltfObject>,
+    place: &'a mut dyn FnMut(Option<GltfObject>, GltfObject, &mut Value),
 }
 
 impl Visitor<'_> {
@@ -247,18 +250,18 @@ fn names_texture(key: &str) -> bool {
 #[derive(Debug, Clone)]
 pub(super) struct Origin {
     /// Objects without a reference at that time: they stay unchanged.
-    unused: BTreeSet<Object>,
+    unused: BTreeSet<GltfObject>,
     /// Number of objects per collection at that time.
     lengths: BTreeMap<Collection, usize>,
 }
 
 /// For each object its new index; `None` if it is removed.
 #[derive(Debug, Default)]
-pub(super) struct Places(BTreeMap<Collection, Vec<Option<usize>>>);
+pub(super) struct NewIndices(BTreeMap<Collection, Vec<Option<usize>>>);
 
-impl Places {
+impl NewIndices {
     /// Returns the new index of an object; its present one by default.
-    pub fn of(&self, (collection, index): Object) -> usize {
+    pub fn of(&self, (collection, index): GltfObject) -> usize {
         let places = self.0.get(&collection);
         let place = places.and_then(|places| *places.get(index)?);
         place.unwrap_or(index)
@@ -279,9 +282,9 @@ impl Origin {
     /// Removes objects that were referenced when the document was read, or were created since, and are not referenced
     /// now, with their bytes. Returns the new indices of the others. New objects take the places of removed ones;
     /// objects to which unknown extensions may refer keep their places.
-    pub fn clean(&self, body: &mut Body) -> Result<Places, DocumentError> {
+    pub fn clean(&self, body: &mut GltfBody) -> Result<NewIndices, DocumentError> {
         let unknown = Unknown::of(&body.json);
-        let pinned: BTreeSet<Object> = (Collection::ALL.into_iter())
+        let pinned: BTreeSet<GltfObject> = (Collection::ALL.into_iter())
             .flat_map(|collection| unknown.numbers.iter().map(move |&n| (collection, n)))
             .filter(|(collection, n)| n < &self.lengths[collection])
             .collect();
@@ -311,10 +314,10 @@ impl Origin {
     fn places(
         &self,
         lengths: &BTreeMap<Collection, usize>,
-        live: &BTreeSet<Object>,
-        pinned: &BTreeSet<Object>,
-    ) -> (Places, Vec<Object>) {
-        let (mut places, mut held) = (Places::default(), Vec::new());
+        live: &BTreeSet<GltfObject>,
+        pinned: &BTreeSet<GltfObject>,
+    ) -> (NewIndices, Vec<GltfObject>) {
+        let (mut places, mut held) = (NewIndices::default(), Vec::new());
         for collection in Collection::ALL {
             let old = self.lengths[&collection];
             let is_live = |n: &usize| live.contains(&(collection, *n));
@@ -351,14 +354,18 @@ fn lengths(json: &Value) -> BTreeMap<Collection, usize> {
         .collect()
 }
 
-fn objects(lengths: &BTreeMap<Collection, usize>) -> impl Iterator<Item = Object> {
+fn objects(lengths: &BTreeMap<Collection, usize>) -> impl Iterator<Item = GltfObject> {
     let all = lengths.iter();
     all.flat_map(|(&collection, &n)| (0..n).map(move |index| (collection, index)))
 }
 
 /// Returns all objects that are referenced by the rest of the document, by `kept`, or by objects so referenced.
-fn live(json: &mut Value, kept: &BTreeSet<Object>, pinned: &BTreeSet<Object>) -> BTreeSet<Object> {
-    let mut live: BTreeSet<Object> = kept.union(pinned).copied().collect();
+fn live(
+    json: &mut Value,
+    kept: &BTreeSet<GltfObject>,
+    pinned: &BTreeSet<GltfObject>,
+) -> BTreeSet<GltfObject> {
+    let mut live: BTreeSet<GltfObject> = kept.union(pinned).copied().collect();
     let mut names = Vec::new();
     visit(json, &mut |owner, object, _| match owner {
         None => drop(live.insert(object)),
@@ -375,7 +382,7 @@ fn live(json: &mut Value, kept: &BTreeSet<Object>, pinned: &BTreeSet<Object>) ->
 }
 
 /// Moves objects to their new indices, and updates all references.
-fn move_objects(json: &mut Value, places: &Places) {
+fn move_objects(json: &mut Value, places: &NewIndices) {
     visit(json, &mut |_, object, number| {
         let place = places.of(object);
         if place != object.1 {
@@ -405,7 +412,7 @@ fn move_objects(json: &mut Value, places: &Places) {
 const ALIGNMENT: usize = 4;
 
 /// Removes the bytes that lie in no buffer view. Views that overlap still do so.
-fn repack_bytes(body: &mut Body) -> Result<(), DocumentError> {
+fn repack_bytes(body: &mut GltfBody) -> Result<(), DocumentError> {
     // Sort the ranges of all views.
     let mut ranges = Vec::new();
     for (index, view) in items(&body.json, "bufferViews")?.iter().enumerate() {

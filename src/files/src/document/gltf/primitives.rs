@@ -1,7 +1,7 @@
 //! The triangles of a document.
 
 use super::accessor::{Accessor, Component};
-use super::body::Body;
+use super::body::GltfBody;
 use super::json::{invalid, items, unsigned};
 use crate::document::{DocumentError, Primitive};
 use serde_json::Value;
@@ -27,7 +27,7 @@ pub(super) struct Collected {
 ///
 /// If several primitives share their accessors, each gets only the vertices that it uses: exporters like to put a whole
 /// scene into one array.
-pub(super) fn collect(body: &Body) -> Result<Collected, DocumentError> {
+pub(super) fn collect(body: &GltfBody) -> Result<Collected, DocumentError> {
     let mut primitives = Vec::new();
     let mut used = Vec::new();
     let mut positions = Positions::new(body)?;
@@ -83,7 +83,7 @@ struct Read {
 }
 
 fn read(
-    body: &Body,
+    body: &GltfBody,
     primitive: &Value,
     positions: &mut Positions,
 ) -> Result<Option<Read>, DocumentError> {
@@ -120,7 +120,7 @@ fn read(
 
 /// Checks that all attributes and morph targets have an element for each vertex, so that vertices can be split.
 fn check_attributes(
-    body: &Body,
+    body: &GltfBody,
     primitive: &Value,
     n_vertices: usize,
 ) -> Result<(), DocumentError> {
@@ -144,7 +144,7 @@ fn check_attributes(
 
 /// Returns the vertex indices of a primitive, all in range; without indices the vertices follow one another.
 pub(super) fn indices(
-    body: &Body,
+    body: &GltfBody,
     primitive: &Value,
     n_vertices: usize,
 ) -> Result<Vec<u32>, DocumentError> {
@@ -208,7 +208,7 @@ pub(super) struct Positions {
 }
 
 impl Positions {
-    pub fn new(body: &Body) -> Result<Self, DocumentError> {
+    pub fn new(body: &GltfBody) -> Result<Self, DocumentError> {
         let mut n_users = HashMap::new();
         for mesh in items(&body.json, "meshes")? {
             for primitive in items(mesh, "primitives")? {
@@ -225,7 +225,11 @@ impl Positions {
         self.n_users.get(&accessor).is_some_and(|n| *n > 1)
     }
 
-    pub fn read(&mut self, body: &Body, index: usize) -> Result<Rc<Vec<[f32; 3]>>, DocumentError> {
+    pub fn read(
+        &mut self,
+        body: &GltfBody,
+        index: usize,
+    ) -> Result<Rc<Vec<[f32; 3]>>, DocumentError> {
         if let Some(positions) = self.shared.get(&index) {
             return Ok(Rc::clone(positions));
         }

@@ -1,7 +1,7 @@
 //! One primitive with its new UV set.
 
 use super::accessor::{self, Accessor, Component};
-use super::body::{Body, Target};
+use super::body::{GltfBody, Target};
 use super::document::GltfDocument;
 use super::json::{
     as_unsigned, invalid, item, items, object_mut, primitive_mut, remove, required, unsigned,
@@ -23,7 +23,7 @@ type VertexKey = ([u32; 2], [u32; 4]);
 /// Writes the UVs of primitive `index`, v down, into `body`, a copy of the document's.
 pub(super) fn rewrite(
     document: &GltfDocument,
-    body: &mut Body,
+    body: &mut GltfBody,
     index: usize,
     uvs: &[Corners],
     choice: &Choice,
@@ -349,7 +349,7 @@ fn split<K: Copy + Eq + Hash>(
 /// Replaces every attribute and morph target by new accessors with the vertices `gather`.
 fn gather_vertices(
     document: &GltfDocument,
-    body: &mut Body,
+    body: &mut GltfBody,
     primitive: &mut Value,
     gather: &[u32],
 ) -> Result<(), DocumentError> {
@@ -380,8 +380,8 @@ fn gather_vertices(
 /// Creates an accessor with the elements `gather` of accessor `index`, byte for byte. If these include all elements,
 /// `min` and `max` stay valid; else they are computed. An accessor without data stays so.
 fn gathered(
-    source: &Body,
-    body: &mut Body,
+    source: &GltfBody,
+    body: &mut GltfBody,
     index: usize,
     gather: &[u32],
 ) -> Result<usize, DocumentError> {
@@ -432,7 +432,7 @@ struct NewIndices<'a> {
 /// Writes new indices, as wide as the vertices need and at least as wide as the old ones.
 fn write_indices(
     document: &GltfDocument,
-    body: &mut Body,
+    body: &mut GltfBody,
     primitive: &mut Value,
     new: &NewIndices,
     note: &mut PrimitiveNote,
@@ -501,7 +501,7 @@ fn old_indices(
 
 /// Creates an accessor of f32 vectors.
 fn push_floats(
-    body: &mut Body,
+    body: &mut GltfBody,
     values: impl Iterator<Item = f32>,
     count: usize,
     kind: &str,

@@ -1,6 +1,6 @@
 //! Nodes that show meshes.
 
-use super::json::{Size, array_mut, as_unsigned, invalid, item, items, unsigned};
+use super::json::{MemorySize, array_mut, as_unsigned, invalid, item, items, unsigned};
 use crate::document::DocumentError;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
@@ -45,16 +45,16 @@ pub(super) fn separate_meshes(json: &mut Value) -> Result<(), DocumentError> {
 }
 
 /// Returns the size of the document including all copies.
-fn size_when_separate(json: &Value) -> Result<Size, DocumentError> {
+fn size_when_separate(json: &Value) -> Result<MemorySize, DocumentError> {
     let mut times: BTreeMap<usize, usize> = BTreeMap::new();
     for node in items(json, "nodes")? {
         if let Some(mesh) = unsigned(node, "mesh")? {
             *times.entry(mesh).or_default() += 1;
         }
     }
-    let mut size = Size::of(json);
+    let mut size = MemorySize::of(json);
     for (mesh, n_nodes) in times {
-        size += Size::of(item(json, "meshes", mesh)?).times(n_nodes - 1);
+        size += MemorySize::of(item(json, "meshes", mesh)?).times(n_nodes - 1);
     }
     Ok(size)
 }

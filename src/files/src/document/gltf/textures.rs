@@ -1,6 +1,6 @@
 //! Textures and the UV sets that they sample.
 
-use super::body::Body;
+use super::body::GltfBody;
 use super::document::{self, GltfDocument};
 use super::images;
 use super::json::{
@@ -231,7 +231,7 @@ const CLAMP_TO_EDGE: usize = 33071;
 /// that other primitives use too is copied.
 pub(super) fn insert(
     document: &GltfDocument,
-    body: &mut Body,
+    body: &mut GltfBody,
     baked: &BakedTextures,
     set: u32,
     stem: &str,
@@ -315,7 +315,7 @@ fn sampler(json: &mut Value, [mag, min]: [Option<usize>; 2]) -> Result<usize, Do
 /// Returns the material itself if only these primitives have it, else a copy, which is assigned to them.
 fn own_material(
     document: &GltfDocument,
-    body: &mut Body,
+    body: &mut GltfBody,
     of_material: &MaterialPlanes,
 ) -> Result<usize, DocumentError> {
     let old = of_material.material;

@@ -1,9 +1,9 @@
 //! Output of the document with a new UV set as files.
 
-use super::body::Body;
+use super::body::GltfBody;
 use super::document::{self, GltfDocument};
 use super::json::{item_mut, remove_extension};
-use super::links::{Collection, Places};
+use super::links::{Collection, NewIndices};
 use super::rewrite::rewrite;
 use super::texcoord_set::{self, Choice, Textures};
 use super::textures::{self, affected, remove_transform, texture_warnings};
@@ -127,7 +127,7 @@ fn mark(
 }
 
 /// Updates textures and images in notes to the numbers of the written file.
-fn renumber(notes: &mut WriteNotes, places: &Places) {
+fn renumber(notes: &mut WriteNotes, places: &NewIndices) {
     for baked in &mut notes.textures_baked {
         baked.texture = places.of((Collection::Textures, baked.texture));
     }
@@ -210,7 +210,7 @@ fn drop_manifold(json: &mut Value, notes: &mut WriteNotes) -> Result<(), Documen
 }
 
 fn files(
-    mut body: Body,
+    mut body: GltfBody,
     chunks: &[(u32, Vec<u8>)],
     resources: &BTreeMap<String, Vec<u8>>,
     options: &WriteOptions,

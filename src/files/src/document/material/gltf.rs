@@ -1,7 +1,7 @@
 //! Conversion of materials to glTF.
 
 use super::mtl::Dropped;
-use super::{Map, Material, Pictures};
+use super::{Material, TextureMap, UploadedPictures};
 use crate::document::uri::encoded;
 use crate::document::{Warning, error};
 use serde_json::{Map as Members, Value, json};
@@ -12,7 +12,7 @@ const CLAMP_TO_EDGE: usize = 33071;
 
 /// Materials of a new glTF file with their textures.
 pub(in crate::document) struct GltfMaterials<'a> {
-    pictures: Pictures<'a>,
+    pictures: UploadedPictures<'a>,
     /// Files of the images.
     pub resources: BTreeMap<String, Vec<u8>>,
     materials: Vec<Value>,
@@ -27,7 +27,7 @@ impl<'a> GltfMaterials<'a> {
     /// Starts without materials; their pictures are among these files.
     pub fn new(resources: &'a BTreeMap<String, Vec<u8>>) -> Self {
         Self {
-            pictures: Pictures::among(resources),
+            pictures: UploadedPictures::among(resources),
             resources: BTreeMap::new(),
             materials: Vec::new(),
             images: Vec::new(),
@@ -91,7 +91,7 @@ impl<'a> GltfMaterials<'a> {
     }
 
     /// Adds a texture to `parent`, if the picture exists.
-    fn put(&mut self, parent: &mut Value, slot: &str, map: Option<&Map>, folder: &str) {
+    fn put(&mut self, parent: &mut Value, slot: &str, map: Option<&TextureMap>, folder: &str) {
         if let Some(info) = map.and_then(|map| self.info(map, folder)) {
             parent[slot] = info;
         }
@@ -118,7 +118,7 @@ impl<'a> GltfMaterials<'a> {
         }
     }
 
-    fn info(&mut self, map: &Map, folder: &str) -> Option<Value> {
+    fn info(&mut self, map: &TextureMap, folder: &str) -> Option<Value> {
         let (name, bytes) = self.pictures.find(folder, &map.path)?;
         if !self.resources.contains_key(name) {
             self.resources.insert(name.to_owned(), bytes.to_vec());
@@ -276,7 +276,7 @@ const CARRIED: [(&str, &[&str]); 5] = [
 pub(in crate::document) fn material(
     object: &Value,
     name: String,
-    mut map: impl FnMut(&Value) -> Option<Map>,
+    mut map: impl FnMut(&Value) -> Option<TextureMap>,
     lost: &mut Dropped,
 ) -> Material {
     let new = Material::named(name);
@@ -313,7 +313,7 @@ pub(in crate::document) fn material(
         ior: number(of("KHR_materials_ior", "ior"), new.ior),
         emission: emission.map(|x| x * glow),
         emission_map: at("/emissiveTexture").and_then(&mut map),
-        normal_map: normal_map.map(|map| Map { strength, ..map }),
+        normal_map: normal_map.map(|map| TextureMap { strength, ..map }),
         coat: [
             clearcoat("clearcoatFactor"),
             clearcoat("clearcoatRoughnessFactor"),

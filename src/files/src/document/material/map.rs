@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A picture on a surface.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::document) struct Map {
+pub(in crate::document) struct TextureMap {
     /// Path of the file, as in the material file.
     pub path: String,
     /// Factors of u and v, v up.
@@ -22,7 +22,7 @@ pub(in crate::document) struct Map {
     pub lost_options: Vec<String>,
 }
 
-impl Map {
+impl TextureMap {
     /// Creates the map of a whole picture without options.
     pub fn of(path: impl Into<String>) -> Self {
         Self {
@@ -134,13 +134,13 @@ fn numbers(mut rest: &str, n: usize) -> (Vec<f64>, &str) {
 // Pictures of material files, among the supplied files.
 
 /// Files of an upload.
-pub(in crate::document) struct Pictures<'a> {
+pub(in crate::document) struct UploadedPictures<'a> {
     resources: &'a BTreeMap<String, Vec<u8>>,
     /// Paths of pictures that were not supplied.
     pub missing: BTreeSet<String>,
 }
 
-impl<'a> Pictures<'a> {
+impl<'a> UploadedPictures<'a> {
     /// Searches among the files of an upload.
     pub fn among(resources: &'a BTreeMap<String, Vec<u8>>) -> Self {
         Self {

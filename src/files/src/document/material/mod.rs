@@ -11,7 +11,7 @@ mod map;
 mod mtl;
 
 pub(super) use gltf::{GltfMaterials, material as of_gltf};
-pub(super) use map::{Map, Pictures};
+pub(super) use map::{TextureMap, UploadedPictures};
 pub(super) use mtl::{Dropped, MaterialFiles, mtl_text};
 
 /// A material.
@@ -20,19 +20,19 @@ pub(super) struct Material {
     pub name: String,
     pub color: [f64; 3],
     pub alpha: f64,
-    pub color_map: Option<Map>,
+    pub color_map: Option<TextureMap>,
     /// `true` if the alpha of `color_map` counts.
     pub is_cut_out: bool,
     pub metallic: f64,
     pub roughness: f64,
     /// Roughness in green, metalness in blue.
-    pub metallic_roughness_map: Option<Map>,
+    pub metallic_roughness_map: Option<TextureMap>,
     /// `Ks`; ½ by default.
     pub specular: [f64; 3],
     pub ior: f64,
     pub emission: [f64; 3],
-    pub emission_map: Option<Map>,
-    pub normal_map: Option<Map>,
+    pub emission_map: Option<TextureMap>,
+    pub normal_map: Option<TextureMap>,
     /// `true` if `normal_map` is called a bump map, which may also mean one of heights.
     pub is_bump: bool,
     /// Strength and roughness of a coat.

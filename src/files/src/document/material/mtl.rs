@@ -1,7 +1,7 @@
 //! Reader of material files.
 
 use super::map::next_word;
-use super::{Map, Material};
+use super::{Material, TextureMap};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
@@ -65,7 +65,9 @@ impl MaterialFiles {
                 .words
                 .iter()
                 .filter(|(keyword, _)| is_map(keyword));
-            maps.filter_map(|(_, rest)| Some((statements.folder.as_str(), Map::parse(rest)?.path)))
+            maps.filter_map(|(_, rest)| {
+                Some((statements.folder.as_str(), TextureMap::parse(rest)?.path))
+            })
         })
     }
 
@@ -171,8 +173,8 @@ impl MtlReader<'_> {
         Some(color.map(|x| x.max(0.0)))
     }
 
-    fn map(&mut self, keyword: &'static str) -> Option<Map> {
-        let map = Map::parse(self.words.get(keyword)?)?;
+    fn map(&mut self, keyword: &'static str) -> Option<TextureMap> {
+        let map = TextureMap::parse(self.words.get(keyword)?)?;
         self.used.insert(keyword);
         let options = map.lost_options.iter();
         self.lost
@@ -181,8 +183,11 @@ impl MtlReader<'_> {
     }
 
     /// Returns whether `map_d` is the alpha of `map_Kd`; another picture cannot be combined with it.
-    fn is_cut_out(&mut self, color_map: Option<&Map>) -> bool {
-        let alpha = self.words.get("map_d").and_then(|rest| Map::parse(rest));
+    fn is_cut_out(&mut self, color_map: Option<&TextureMap>) -> bool {
+        let alpha = self
+            .words
+            .get("map_d")
+            .and_then(|rest| TextureMap::parse(rest));
         let is_same =
             matches!((color_map, &alpha), (Some(color), Some(alpha)) if color.shows_same(alpha));
         if is_same {
@@ -192,8 +197,12 @@ impl MtlReader<'_> {
     }
 
     /// Returns the map of roughness and metalness if both are channels of one picture.
-    fn metallic_roughness_map(&mut self) -> Option<Map> {
-        let parse = |keyword| self.words.get(keyword).and_then(|rest| Map::parse(rest));
+    fn metallic_roughness_map(&mut self) -> Option<TextureMap> {
+        let parse = |keyword| {
+            self.words
+                .get(keyword)
+                .and_then(|rest| TextureMap::parse(rest))
+        };
         let (roughness, metallic) = (parse("map_pr")?, parse("map_pm")?);
         let channels = [roughness.channel, metallic.channel];
         if !roughness.shows_same(&metallic) || channels != [Some('g'), Some('b')] {
@@ -204,7 +213,7 @@ impl MtlReader<'_> {
     }
 
     /// Returns a normal map, and whether it is only called a bump map, as in many tools.
-    fn normal_map(&mut self) -> (Option<Map>, bool) {
+    fn normal_map(&mut self) -> (Option<TextureMap>, bool) {
         let normal = self.map("norm");
         let bump = self.map("map_bump").or_else(|| self.map("bump"));
         match (normal, bump) {
@@ -333,7 +342,7 @@ fn push_color(text: &mut String, keyword: &str, color: [f64; 3]) -> std::fmt::Re
     writeln!(text, "{keyword} {r} {g} {b}")
 }
 
-fn push_map(text: &mut String, keyword: &str, options: &str, map: &Map) -> std::fmt::Result {
+fn push_map(text: &mut String, keyword: &str, options: &str, map: &TextureMap) -> std::fmt::Result {
     write!(text, "{keyword}{options}")?;
     for (option, [u, v], neutral) in [("-s", map.scale, 1.0), ("-o", map.offset, 0.0)] {
         if [u, v] != [neutral; 2] {
