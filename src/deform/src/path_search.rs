@@ -12,7 +12,7 @@ use unwrapd_method::solver::{
     Continued, Handles, LeastProgress, Settings, SoftTargets, Summary, Watch, follow_softly,
 };
 
-/// Bends, each all to one side, that are tried before the flow: they bring handles that change places past each other.
+/// Bends to one side that are tried before soft targets: they bring handles that change places past each other.
 const FIRST: usize = 2;
 
 /// Largest share of missing handles at which these are taken to be blocked individually: they get paths of their own,
@@ -21,7 +21,7 @@ const FEW: f64 = 0.25;
 
 impl Problem {
     /// Finds the best map within a bounded effort. Straight paths come first, then paths bent to one side and the
-    /// other, then the flow, then other bends. The first that lead to all targets are taken; with
+    /// other, then soft targets, then other bends. The first that lead to all targets are taken; with
     /// [`search`](Self::search) all bends are tried. A path on which handles creep is abandoned, and only the one that
     /// led farthest is continued. Last, missing handles are tried alone.
     pub(super) fn solve_ways(
@@ -68,24 +68,24 @@ where
     if best.is_enough(search) {
         return Ok(best.into_solution(&trial));
     }
-    // The flow, after which few missing handles are tried alone.
-    let mut flowed = None;
+    // Soft targets, after which few missing handles are tried alone.
+    let mut softly = None;
     if !best.has_arrived() && trial.problem.stations.len() == 1 {
-        let missing = flowed_from::<D>(&mut trial, start)?;
+        let missing = pulled_softly::<D>(&mut trial, start)?;
         if missing.is_stopped() || missing.share() <= FEW && !search {
             return Ok(missing.into_solution(&trial));
         }
-        flowed = Some(missing);
+        softly = Some(missing);
     }
     // Other bends; the best attempt may then continue more slowly.
     best = bent(&mut trial, start, others, best)?;
-    let has_flowed = flowed.as_ref().is_some_and(Missing::is_none);
-    if best.is_paused() && !has_flowed {
+    let have_arrived_softly = softly.as_ref().is_some_and(Missing::is_none);
+    if best.is_paused() && !have_arrived_softly {
         best.go_on(&mut trial, LeastProgress::PATIENT)?;
     }
-    // Choose between the flow and the best attempt.
-    match flowed {
-        Some(missing) if has_flowed && best.has_arrived() => {
+    // Choose between soft targets and the best attempt.
+    match softly {
+        Some(missing) if have_arrived_softly && best.has_arrived() => {
             Ok(if best.energy() < missing.energy() {
                 best.into_solution(&trial)
             } else {
@@ -124,9 +124,9 @@ where
     Ok(best)
 }
 
-/// Lets the handles flow from `start`, then moves them from there to their targets, all together or those that are
+/// Pulls the handles softly from `start`, then moves them from there to their targets, all together or those that are
 /// near; if few are missing, moves these alone.
-fn flowed_from<'a, const D: usize>(
+fn pulled_softly<'a, const D: usize>(
     trial: &mut Trial<'a>,
     start: &[f64],
 ) -> Result<Missing<'a, D>, ProblemError>
@@ -134,7 +134,7 @@ where
     Matrix<D>: Square<D> + Rotation<D>,
 {
     let mut x = start.to_vec();
-    flow_to(trial, &trial.problem.stations[0], &mut x);
+    pull_softly(trial, &trial.problem.stations[0], &mut x);
     let energy = trial.total.energy_last;
     let mut missing = Missing::new(trial.problem, start, x, energy);
     missing.together(trial)?;
@@ -144,14 +144,14 @@ where
     Ok(missing)
 }
 
-// Handles that flow to their targets, each as fast as the others let it.
+// Handles pulled softly to their targets, each as fast as the others let it.
 
-/// Most iterations of a flow. More let slow handles come nearer to their targets.
+/// Most iterations with soft targets. More let slow handles come nearer to their targets.
 const MOST: usize = 500;
 
 /// Moves the map `x` until the handles come no nearer to these targets; handles that can reach their targets are then
 /// close to them.
-fn flow_to(trial: &mut Trial, targets: &Handles, x: &mut [f64]) {
+fn pull_softly(trial: &mut Trial, targets: &Handles, x: &mut [f64]) {
     let dim = trial.problem.body.dim();
     // Hold the vertices that are at their targets; pull the others and all points.
     let place = |v: u32| &x[dim * v as usize..dim * (v as usize + 1)];
@@ -174,7 +174,7 @@ fn flow_to(trial: &mut Trial, targets: &Handles, x: &mut [f64]) {
         targets,
         alpha: 0.0,
     };
-    // Let them flow.
+    // Pull them softly.
     trial.objective.fix(&held);
     trial.objective.pull_at(constraints(rows, ends.clone()));
     let goal = SoftTargets {

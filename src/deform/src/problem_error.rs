@@ -7,6 +7,7 @@ use unwrapd_method::solver::HandlesError;
 
 /// Reason why a problem cannot be solved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ProblemError {
     /// The file is not a problem.
     #[error("the problem file cannot be parsed: {0}")]

@@ -73,6 +73,7 @@ pub fn parse_handles(json: &[u8]) -> Result<Vec<PictureHandle>, WarpError> {
 
 /// Reason why a picture cannot be warped.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum WarpError {
     /// The file is not a list of handles.
     #[error("the handles cannot be parsed: {0}")]
@@ -270,6 +271,7 @@ const MOST_CELLS: usize = 512;
 
 /// Reason why a picture gets no grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum GridError {
     /// The picture has no pixel.
     #[error("the picture has no pixels")]

@@ -24,6 +24,7 @@ pub fn epsilon(smallest_rest_area: f64, smallest_start_area: f64) -> f64 {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum BarrierKind {
     /// The inverse spline of the paper. No element inverts, and elements of ordinary size do not feel it.
     #[default]

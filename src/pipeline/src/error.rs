@@ -14,6 +14,7 @@ use unwrapd_maps::mesh::{ElementError, MeshError};
 
 /// Reason why a file could not be processed. Every variant has a stable [`code`](Self::code).
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum PipelineError {
     /// An option is out of range.
     #[error("{0}")]

@@ -2,6 +2,7 @@
 
 /// Reason why islands cannot have their placements. Islands are numbered by their position in the list, from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum IslandError {
     /// An island is named by a face that does not exist or has no area.
     #[error("island {0} is named by a face that does not exist or names a vertex twice")]

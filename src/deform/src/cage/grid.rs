@@ -233,6 +233,7 @@ fn overlaps(triangle: &[[f64; 3]; 3], [low, high]: &Bounds<3>) -> bool {
 
 /// Reason why surfaces get no cage.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CageError {
     /// A surface is broken.
     #[error("surface {surface}: {error}")]

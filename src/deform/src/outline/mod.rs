@@ -71,6 +71,7 @@ impl Outline {
 
 /// Reason why a picture or drawing gives no mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum OutlineError {
     /// The picture cannot be decoded.
     #[error(transparent)]

@@ -196,6 +196,7 @@ pub(super) const MOST_ANCHORS: usize = 1000;
 
 /// Reason why UVs cannot be edited.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum EditError {
     /// The file is not a list of anchors.
     #[error("the anchors cannot be parsed: {0}")]

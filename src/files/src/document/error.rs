@@ -3,6 +3,7 @@ use unwrapd_api::Warning;
 
 /// Reason why a file cannot be read or written.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum DocumentError {
     /// The file is valid but has no triangle.
     #[error("the file has no triangles")]

@@ -15,6 +15,7 @@ pub struct IndexedTriangles<T = f32> {
 
 /// Reason why a file cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReadError {
     /// The file does not follow its format.
     #[error("{format}, {place} {at}: {cause}")]

@@ -17,6 +17,7 @@ const MOST_BYTES: u64 = 16 * MOST_PIXELS;
 
 /// Reason why a picture cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ImageError {
     /// The file is neither PNG nor JPEG.
     #[error("the picture is not PNG or JPEG")]

@@ -240,6 +240,7 @@ fn fold(n_vertices: usize, triangles: &[[u32; 3]]) -> Option<[usize; 2]> {
 
 /// Reason why triangles or tetrahedra cannot be deformed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ElementError {
     /// There is nothing to deform.
     #[error("the mesh has no {0}")]

@@ -30,6 +30,7 @@ pub struct Handles {
 
 /// Mismatch among the handles, or between the handles and the map.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum HandlesError {
     /// The number of target coordinates is not `dim` per handle.
     #[error("{handles} handles have {found} coordinates of targets, not {dim} each")]

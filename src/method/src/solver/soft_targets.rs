@@ -1,4 +1,4 @@
-//! Points that flow to their targets, each as fast as the others let it.
+//! Points pulled softly to their targets, each as fast as the others let it.
 
 use super::objective::Objective;
 use super::relaxation::{LineSearch, Relaxation, line_search, newton_direction};
@@ -20,11 +20,11 @@ const LONG: f64 = 0.9;
 /// obstacles.
 const WINDOW: usize = 20;
 
-/// Least progress between two checks, as a share of the remaining distance. A smaller share flows on while points only
+/// Least progress between two checks, as a share of the remaining distance. A smaller share goes on while points only
 /// creep.
 const LEAST_GAIN: f64 = 0.02;
 
-/// Targets of a flow.
+/// Targets that points are pulled to softly.
 #[derive(Clone, Copy, Debug)]
 pub struct SoftTargets<'a> {
     /// A target for each of the objective's constraints, coordinates one after another.

@@ -293,6 +293,7 @@ impl Expression {
 
 /// Reason why a formula is not an energy. Columns count characters, from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum FormulaError {
     /// The text is too long.
     #[error("the formula is longer than {longest} bytes")]
