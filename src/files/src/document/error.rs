@@ -1,3 +1,5 @@
+//! Errors of reading and writing documents.
+
 use thiserror::Error;
 use unwrapd_api::Warning;
 

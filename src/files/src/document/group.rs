@@ -1,3 +1,5 @@
+//! Primitives that share a UV space, and their grouping by mesh, material or scene.
+
 use super::DocumentError;
 use crate::io::IndexedTriangles;
 use serde::{Deserialize, Serialize};

@@ -1,3 +1,5 @@
+//! UVs to write, options of writing, and notes on the result.
+
 use super::{BakedTexture, DocumentError, KeptTexture, Primitive, Terms, Warning};
 use crate::io::Format;
 use serde::{Deserialize, Serialize};
