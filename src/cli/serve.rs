@@ -392,7 +392,7 @@ impl ExposureArgs {
                      create`, or let anybody in with --allow-anonymous"
                 ));
             }
-            tracing::warn!("NO API KEYS: whoever reaches {address} may do everything");
+            tracing::warn!("NO API KEYS: anyone who can reach {address} may do everything");
         }
         Ok(keys)
     }

@@ -84,7 +84,7 @@ pub enum DimensionError {
     /// It is an energy of triangles.
     #[error("this energy exists only in the plane")]
     PlanarOnly,
-    /// The formula is none of this dimension.
+    /// The formula does not define an energy of this dimension.
     #[error(transparent)]
     Formula(#[from] FormulaError),
 }
