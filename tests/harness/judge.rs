@@ -27,7 +27,7 @@ pub struct Judgment {
     pub twice: Vec<String>,
     /// Compute children, folders of attempts, or files of no job that are left.
     pub orphans: Vec<String>,
-    /// Results whose UVs are not proven, or not those of the mesh that was sent.
+    /// Results whose UVs are not proven, not those of the mesh that was sent, or that came too late for their client.
     pub unverified: Vec<String>,
 }
 
@@ -117,8 +117,10 @@ impl Judgment {
                 self.lost.push(format!("{id} has no whole {role}"));
             }
         }
-        if clients.ended(id).is_none_or(|seen| !seen.is_still(&now)) {
-            self.twice.push(format!("{id} changed after its end"));
+        match clients.ended(id) {
+            Some(seen) if seen.is_still(&now) => {}
+            Some(_) => self.twice.push(format!("{id} changed after its end")),
+            None => (self.unverified).push(format!("{id} ended after its client gave up")),
         }
         if let Err(why) = verified(&now, clients.triangles(*number)) {
             self.unverified.push(format!("{id}: {why}"));

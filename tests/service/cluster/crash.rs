@@ -9,7 +9,7 @@ use crate::harness::fault::Fault;
 const JOBS: usize = 20;
 const MOMENTS: usize = 2;
 /// Jobs that have not ended by then are lost.
-const PATIENCE: Duration = Duration::from_mins(2);
+const PATIENCE: Duration = Duration::from_mins(10);
 
 macro_rules! faults {
     ($($name:ident: $fault:ident, $seed:literal;)*) => {$(
