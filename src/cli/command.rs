@@ -84,10 +84,12 @@ pub(super) enum CliCommand {
     Verify(measure::VerifyArgs),
     /// Pack the UV islands of all meshes into one atlas without changing their shapes
     ///
-    /// Islands are only turned by quarters, shifted, and scaled by one common factor. Their defects
-    /// remain: islands without area keep their shape and have a place, too. The exit status is 4, not certified, if a triangle is flipped, degenerate or
-    /// overlapping, a chart is mirrored, or the padding is not kept. OUT is still written, and a
-    /// warning names the defects.
+    /// Islands are only rotated, shifted and scaled by one common factor. `--rotate quarter` keeps
+    /// rows of texels straight. Vertices are rounded to the grid of the atlas; those of triangles
+    /// that rounding would flip are moved farther. Defects of islands remain: islands without area
+    /// keep their shape and have a place, too. The exit status is 4, not certified, if a triangle is
+    /// flipped, degenerate or overlapping, a chart is mirrored, or the padding is not kept. OUT is
+    /// still written, and a warning names the defects.
     Repack(unwrap::RepackArgs),
     /// Pull UVs by anchors without flipping a face
     ///

@@ -19,11 +19,8 @@ export function chartsAsked({ useInputMeshUvs, normalSeamWeight, fixWinding: _, 
 export function layoutAsked(options, area) {
   const { padding = 0, texelsPerUnit = 0, resolution = 0, bilinear = true, bruteForce, ...others } = options;
   const { rotateCharts = true, rotateChartsToAxis = true, ...ignored } = others;
-  warnOf('PackOptions', {
-    ...ignored,
-    ...(rotateCharts ? {} : { rotateCharts }),
-    ...(rotateChartsToAxis ? {} : { rotateChartsToAxis }),
-  });
+  warnOf('PackOptions', { ...ignored, ...(rotateChartsToAxis && !rotateCharts ? { rotateCharts } : {}) });
+  const turned = rotateCharts ? 'quarter' : 'none';
   const needed = (area * texelsPerUnit ** 2) / FILL;
   const side = resolution || (texelsPerUnit > 0 ? Math.ceil(Math.sqrt(needed)) : SIDE);
   const texture = Math.min(65536, Math.max(16, side));
@@ -33,6 +30,7 @@ export function layoutAsked(options, area) {
     padding: Math.min(padding + (bilinear ? FILTERED : 0), Math.floor(texture / 8)),
     pages: Math.min(10, Math.max(1, pages)),
     packing: bruteForce ? 'tight' : 'fast',
+    rotate: rotateChartsToAxis ? 'any' : turned,
     texelsPerUnit: texelsPerUnit > 0 ? texelsPerUnit : undefined,
   };
 }

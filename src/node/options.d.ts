@@ -8,6 +8,8 @@ interface Layout {
   pages?: number;
   texelsPerUnit?: number;
   packing?: 'fast' | 'tight';
+  /** Permitted rotations of charts in the layout. */
+  rotate?: 'any' | 'quarter' | 'none';
   threads?: number;
 }
 

@@ -2,10 +2,12 @@
 
 use std::collections::BTreeSet;
 
+use unwrapd_layout::atlas::Rotation;
 use unwrapd_layout::charts::{Cut, Quality};
 use unwrapd_maps::certificate::{Claims, certify, chart_ids};
 use unwrapd_pipeline::{
-    Cutting, KeptMaps, Mapping, PipelineError, Seams, Settings, Unobserved, Unwrapped, unwrap_along,
+    Cutting, KeptMaps, Layout, Mapping, PipelineError, Seams, Settings, Unobserved, Unwrapped,
+    unwrap_along,
 };
 
 use crate::zoo::{self, Mesh};
@@ -111,6 +113,10 @@ fn islands_are_repacked_as_they_are() {
             cut: Cut::Keep,
             kept_maps: KeptMaps::AsGiven,
             ..Cutting::default()
+        },
+        layout: Layout {
+            rotate: Rotation::Quarter,
+            ..Layout::default()
         },
         ..Settings::default()
     };

@@ -205,7 +205,7 @@ pub fn unwrap_meshes(
     unwrap_around(meshes, options, &[], observer)
 }
 
-/// Packs the UV islands of meshes into one atlas. Islands only undergo quarter turns, shifts and a common scale.
+/// Packs the UV islands of meshes into one atlas. Islands are rotated, shifted and scaled by one common factor.
 pub fn repack_meshes(
     meshes: &[MeshArrays],
     options: &RepackOptions,

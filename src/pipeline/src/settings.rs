@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use unwrapd_api::options::{options, within};
-use unwrapd_layout::atlas::Texture;
+use unwrapd_layout::atlas::{Rotation, Texture};
 use unwrapd_layout::charts::{Bound, Bounded, Cut, Quality, Symmetry};
 use unwrapd_maps::mesh::Resolution;
 use unwrapd_method::barrier::BarrierKind;
@@ -52,6 +52,9 @@ options! {
         pub texels_per_unit: Option<f64>, in 1e-9..=1e9, value "T";
         /// Search budget for the fullest layout.
         pub packing: PackingMode = PackingMode::Fast;
+        /// Permitted rotations of charts in the layout. Without rotation, new charts have the top of
+        /// the mesh up, and islands stay as they lie.
+        pub rotate: Rotation = Rotation::Any;
     }
 }
 
@@ -120,7 +123,7 @@ pub enum KeptMaps {
     /// Optimize each map from its present position.
     #[default]
     Optimized,
-    /// Keep each map, except for quarter turns, shifts and one common scale. Its defects stay, too.
+    /// Keep the shape of each map: it is rotated, shifted and scaled by one common factor. Its defects stay, too.
     AsGiven,
 }
 

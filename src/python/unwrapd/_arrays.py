@@ -116,7 +116,7 @@ def repack(
 ) -> Any:
     """Pack the UV islands of a mesh, or of several, into one atlas.
 
-    Islands keep their maps but for quarter turns, shifts and one scale for all. Parameters and results are those of
+    Islands keep their shapes: they are rotated, shifted and scaled by one common factor. Parameters and results are those of
     `unwrap`; `uvs` are (V, 2) or (F, 3, 2), v up.
     """
     meshes, is_list = _taken(mesh, faces, uvs, None, True)

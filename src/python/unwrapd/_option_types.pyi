@@ -14,6 +14,7 @@ class Layout(TypedDict, total=False):
     pages: int | None
     texels_per_unit: float | None
     packing: Literal["fast", "tight"] | None
+    rotate: Literal["any", "quarter", "none"] | None
     threads: int | None
 
 class UnwrapOptions(Layout, total=False):

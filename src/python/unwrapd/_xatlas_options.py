@@ -97,8 +97,8 @@ class ChartOptions(_Options):
 
 
 class PackOptions(_Options):
-    """How charts are laid out. `max_chart_size`, `blockAlign` and, where they are False, `rotate_charts` and
-    `rotate_charts_to_axis` have no effect, which a warning says."""
+    """How charts are laid out. `max_chart_size` and `blockAlign` have no effect, which a warning says; nor has
+    `rotate_charts` where it is False and `rotate_charts_to_axis` is True."""
 
     max_chart_size: int
     padding: int
@@ -132,7 +132,11 @@ class PackOptions(_Options):
 
     def _given(self, area: float) -> dict[str, Any]:
         """The options here, for meshes of this area."""
-        self._warn_of(["max_chart_size", "blockAlign", "rotate_charts_to_axis", "rotate_charts"])
+        self._warn_of(["max_chart_size", "blockAlign"])
+        rotate = "quarter" if self.rotate_charts else "none"
+        if self.rotate_charts_to_axis:
+            self._warn_of(["rotate_charts"])
+            rotate = "any"
         side, pages, density = self.resolution or self._SIDE, 1, self.texels_per_unit
         if density > 0.0:
             needed = area * density**2 / self._FILL
@@ -153,6 +157,7 @@ class PackOptions(_Options):
             "padding": min(padding, resolution // 8),
             "pages": pages,
             "packing": "tight" if self.bruteForce else "fast",
+            "rotate": rotate,
         }
         if given["padding"] < self.padding:
             text = (

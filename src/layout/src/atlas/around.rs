@@ -13,14 +13,14 @@ use super::sheet::Sheet;
 use super::snap::Repair;
 use super::stay::{AroundError, Stay};
 use super::stays::{Staying, too_near};
-use super::{Atlas, AtlasOptions, ChartMap, GRID_SIDE, OnRead, doubled_area};
+use super::{Atlas, AtlasOptions, ChartMap, GRID_SIDE, OnRead, Rotation, doubled_area};
 
 /// Cells by which the used part of a page is rounded down at most, and one more.
 const FRAME: u32 = 4;
 /// Layouts tried until no vertex moves farther than its chart's room.
 const ROUNDS: usize = 6;
 
-/// Packs charts around some that stay. The atlas has those first that are packed, then those that stay.
+/// Packs charts around some that stay, turned by quarters at most. The atlas has those first that are packed, then those that stay.
 pub fn pack_around(
     charts: &[ChartMap],
     stays: &[Stay],
@@ -55,6 +55,14 @@ fn around(
     on_read: &OnRead,
 ) -> Result<Atlas, AroundError> {
     let texture = options.texture;
+    // Who moves islands wants to find the others as they were.
+    let options = &AtlasOptions {
+        rotation: match options.rotation {
+            Rotation::Any => Rotation::Quarter,
+            rotation => rotation,
+        },
+        ..options.clone()
+    };
     let plan = Plan::largest_first(&outlines(charts)?, options);
     let on_page = plan.order.len() / texture.pages.max(1) as usize;
     let cells = texture.raster(raster(on_page, options.most_cells));
@@ -69,6 +77,7 @@ fn around(
             padding,
             border: (padding / 2.0).max(SLACK),
             on_read,
+            is_alike: false,
             extent: Extent::Full,
             taken: None,
         };

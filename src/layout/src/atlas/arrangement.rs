@@ -94,6 +94,20 @@ impl Arrangement {
         }
     }
 
+    /// Gives copies of the chart at a place its pose; returns the first place that is concerned.
+    pub(super) fn copy_pose(&mut self, place: usize, kind: &[usize]) -> usize {
+        let chart = self.order[place];
+        let pose = self.pose[chart];
+        let mut first = place;
+        for (other, &copy) in self.order.iter().enumerate() {
+            if kind[copy] == kind[chart] && self.pose[copy] != pose {
+                self.pose[copy] = pose;
+                first = first.min(other);
+            }
+        }
+        first
+    }
+
     /// Another place among the first `n` of the order, or another pose, for one chart; returns the first place that is concerned,
     /// and whether the chart there is to be [fitted](Self::fit).
     pub(super) fn change(

@@ -36,6 +36,8 @@ pub(super) struct Packing<'a> {
     /// Cells kept free between charts, and at each border.
     pub padding: f64,
     pub border: f64,
+    /// Whether charts that have copies are not turned: they lie alike as they are.
+    pub is_alike: bool,
     /// How far pages are used from the start.
     pub extent: Extent,
     /// Pages on which cells are taken before the first chart is placed.
@@ -161,6 +163,9 @@ impl Packing<'_> {
             let mask = Mask::new(outline, scale * stretch, distances);
             let turned = match self.plan.turns[i] {
                 QuarterTurns::Only(turns) => vec![Turned::new(mask, turns)],
+                QuarterTurns::Any if self.is_alike && outline.has_copies => {
+                    vec![Turned::new(mask, 0)]
+                }
                 // The first chart goes to the corner of a square, whichever way it is turned.
                 QuarterTurns::Any
                     if self.plan.order.first() == Some(&i)
@@ -176,11 +181,13 @@ impl Packing<'_> {
     }
 }
 
-/// A number that sizes which differ by a sixteenth or less may share.
+/// A number that sizes which differ by a quarter or less may share.
+///
+/// With a sixteenth a scatter of 10,000 sizes reads 2.4 times as many words and is fuller by .0016.
 fn rough(size: u32) -> u32 {
     let finer = size
         .checked_ilog2()
-        .map_or(0, |bits| bits.saturating_sub(4));
+        .map_or(0, |bits| bits.saturating_sub(2));
     size >> finer << finer
 }
 

@@ -2,7 +2,7 @@
 use super::attempt::{Attempt, Packing};
 use super::plan::{HOPE, QuarterTurns};
 use super::stays::Staying;
-use super::{AtlasOptions, Scale};
+use super::{AtlasOptions, Rotation, Scale};
 use unwrapd_method::numerics::random::Random;
 use unwrapd_method::solver::Control;
 
@@ -111,8 +111,11 @@ fn grown(
                 trial.order.insert(j, chart);
             }
             _ => {
-                let turns = QuarterTurns::Only(random.below(4) as u32);
-                trial.turns[trial.order[i]] = turns;
+                let turns = match options.rotation {
+                    Rotation::Any | Rotation::Quarter => random.below(4) as u32,
+                    Rotation::None => 0,
+                };
+                trial.turns[trial.order[i]] = QuarterTurns::Only(turns);
             }
         }
         let tried = Packing {

@@ -24,6 +24,7 @@ mod arrangement;
 mod attempt;
 mod bitmap;
 mod clear;
+mod copies;
 mod draft;
 mod enough;
 mod largest;
@@ -63,6 +64,7 @@ pub type OnRead<'a> = dyn Fn(u64) -> Control + Sync + 'a;
 /// Neither listens nor interferes.
 pub(crate) const UNHEARD: &OnRead<'static> = &|_| Control::Continue;
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use unwrapd_method::solver::Control;
 
@@ -80,14 +82,18 @@ pub struct ChartMap<'a> {
     pub triangles: &'a [[u32; 3]],
 }
 
-/// How charts may be turned.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Turns {
-    /// To any angle that packs well.
+/// Permitted rotations of charts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
+pub enum Rotation {
+    /// Any angle.
     #[default]
     Any,
-    /// By quarters from how they lie.
-    Quarters,
+    /// Quarter turns.
+    Quarter,
+    /// No rotation.
+    None,
 }
 
 /// Where charts may end.
@@ -120,8 +126,8 @@ pub struct AtlasOptions {
     pub scale: Scale,
     /// Smallest distance between two charts, in texels; half of it is kept to the borders of pages.
     pub padding_texels: u32,
-    /// How charts may be turned.
-    pub turns: Turns,
+    /// Permitted rotations of charts.
+    pub rotation: Rotation,
     /// Where charts may end.
     pub borders: Borders,
     /// Multiple of the usual effort of the search for the best order and angles, which depends on the number of charts.
@@ -138,7 +144,7 @@ impl Default for AtlasOptions {
             texture: Texture::square(1024),
             scale: Scale::Largest,
             padding_texels: 2,
-            turns: Turns::Any,
+            rotation: Rotation::Any,
             borders: Borders::Free,
             patience: 1,
             search_words: 500_000_000,

@@ -7,8 +7,6 @@ pub(super) enum Bounds {
     Rectangle,
     /// The longer side of the bounding page, whose sides along u and v are that halved so often: one chart has it to itself.
     Page([u32; 2]),
-    /// Nothing: the chart stays as it is.
-    Given,
 }
 
 /// Hull edges tried at most; the hull of a round chart is thinned to this many.
@@ -21,7 +19,6 @@ pub(super) fn direction(hull: &[[f64; 2]], bounds: Bounds) -> [f64; 2] {
     match bounds {
         Bounds::Rectangle => smallest_rectangle(hull),
         Bounds::Page(halvings) => smallest_page(hull, halvings).0,
-        Bounds::Given => [1.0, 0.0],
     }
 }
 

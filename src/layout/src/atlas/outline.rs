@@ -2,7 +2,8 @@
 use rayon::prelude::*;
 use std::sync::Arc;
 
-use super::{AtlasError, ChartMap};
+use super::copies::Shape;
+use super::{AtlasError, ChartMap, Rotation};
 use unwrapd_maps::plane::Straightness;
 
 /// A chart's outline, turned to the angle at which it is packed.
@@ -17,6 +18,12 @@ pub(super) struct Outline {
     pub extent: [f64; 2],
     /// The axes of the outline in the plane of the map.
     pub straightness: Straightness,
+    /// In the plane of the map.
+    pub shape: Shape,
+    /// Rotations that the options permit.
+    permitted: Rotation,
+    /// `true` if others on the pages are copies of it: all of them lie alike.
+    pub has_copies: bool,
     /// The horizontal axis in the plane of the map, and what is subtracted after turning to it.
     axis: [f64; 2],
     low: [f64; 2],
@@ -29,6 +36,9 @@ impl Outline {
         let boundary: Arc<[_]> = boundary(map).into_iter().map(|e| e.map(at)).collect();
         let outline = Self {
             straightness: Straightness::of(&boundary),
+            shape: Shape::new(&boundary),
+            permitted: Rotation::Any,
+            has_copies: false,
             boundary,
             n_triangles: map.triangles.len(),
             size: area.max(0.0).sqrt(),
@@ -72,37 +82,66 @@ impl Outline {
         }
     }
 
+    /// Limits the rotations, counted from how the outline lies in the map.
+    pub(super) fn limited_to(self, permitted: Rotation) -> Self {
+        Self { permitted, ..self }
+    }
+
+    /// Rotations that are tried: a chart with straight sides along the axes only takes quarter turns.
+    pub(super) fn rotation(&self) -> Rotation {
+        match (self.permitted, self.straightness) {
+            (Rotation::Any, Straightness::Upright(_)) => Rotation::Quarter,
+            (permitted, _) => permitted,
+        }
+    }
+
     /// Turned upright, if it leans; none of another.
     pub(super) fn straightened(&self) -> Option<Self> {
         match self.straightness {
-            Straightness::Leaning(axis) => {
+            Straightness::Leaning(axis) if self.permitted == Rotation::Any => {
                 Some(self.turned(axis).with(Straightness::Upright(axis)))
             }
             _ => None,
         }
     }
 
-    /// Turned upright, if it has an upright position in which it is no longer than this. Otherwise
-    /// it has none from now on.
-    pub(super) fn upright_within(&self, side: f64) -> Self {
-        let turned = match self.straightness {
-            Straightness::Upright(axis) => self.turned(axis),
-            Straightness::Leaning(_) | Straightness::Round => return self.clone(),
-        };
-        if turned.extent[0].max(turned.extent[1]) <= side {
-            turned
-        } else {
-            self.with(Straightness::Round)
+    /// Turned upright, if it is straight; none of another.
+    pub(super) fn upright(&self) -> Option<Self> {
+        match self.straightness {
+            Straightness::Upright(axis) => Some(self.turned(axis)),
+            Straightness::Leaning(_) | Straightness::Round => None,
         }
     }
 
-    /// Whether it is turned by quarters only.
-    pub(super) fn is_upright(&self) -> bool {
-        matches!(self.straightness, Straightness::Upright(_))
+    /// Turned upright, if it is straight and no longer than this then. One that is longer leans from now on: whether it had better
+    /// be upright shows in the layouts.
+    pub(super) fn upright_within(&self, side: f64) -> Self {
+        match (self.upright(), self.straightness) {
+            (Some(upright), _) if upright.extent[0].max(upright.extent[1]) <= side => upright,
+            (Some(_), Straightness::Upright(axis)) => self.with(Straightness::Leaning(axis)),
+            _ => self.clone(),
+        }
+    }
+
+    /// Turned as another is of which it is a copy, turned by an angle beyond that in the plane of the map.
+    pub(super) fn turned_like(&self, first: &Self, angle: f64) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        let turned = |[c, s]: [f64; 2]| [c * cos - s * sin, c * sin + s * cos];
+        let straightness = match first.straightness {
+            Straightness::Upright(axis) => Straightness::Upright(turned(axis)),
+            Straightness::Leaning(axis) => Straightness::Leaning(turned(axis)),
+            Straightness::Round => Straightness::Round,
+        };
+        self.turned(turned(first.axis)).with(straightness)
+    }
+
+    /// How it is turned on the page, as far as its shape tells.
+    pub(super) fn lean(&self) -> f64 {
+        self.shape.angle - self.axis[1].atan2(self.axis[0])
     }
 
     /// Taken for one with other axes.
-    pub(super) fn with(&self, straightness: Straightness) -> Self {
+    fn with(&self, straightness: Straightness) -> Self {
         Self {
             straightness,
             ..self.clone()

@@ -44,9 +44,20 @@ pub fn pack_draft(
             None => (searched(draft, options, on_read), None),
         },
     };
-    if found.is_none()
-        && let Some((outlines, layout)) = (draft.as_ref()).and_then(|d| d.tight(options, on_read))
-    {
+    let tight = match found {
+        None => draft
+            .as_ref()
+            .and_then(|draft| draft.tight(options, on_read)),
+        Some(_) => None,
+    };
+    // A crowd has been squeezed only once: large charts in rows may be fuller.
+    let is_crowd = draft.as_ref().is_some_and(Draft::is_crowded);
+    let found = found.or_else(|| {
+        (is_crowd || tight.is_none())
+            .then(|| best(&first, draft.as_ref(), &slack, options, on_read))?
+    });
+    let is_fuller = |scale: f64| found.as_ref().is_none_or(|(_, found)| scale > found.scale);
+    if let Some((outlines, layout)) = tight.filter(|(_, tight)| is_fuller(tight.scale)) {
         let snapped = snapped(charts, &outlines, &layout, Repair::Open);
         if !is_cramped(&snapped, &layout, &mut slack.clone()) {
             return Ok(atlas(charts, &layout, &slack, snapped, options));
@@ -95,16 +106,25 @@ pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasEr
     )
 }
 
-/// A draft that has been searched, here if it has not been before; none of a crowd.
+/// A draft that has been searched, here if it has not been before.
 pub(super) fn searched(
     draft: Option<&Draft>,
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Option<Draft> {
-    let mut draft = draft.filter(|draft| !draft.is_crowded())?.clone();
-    if !draft.is_searched() {
-        let words = options.patience * Look::Last.words(draft.n_charts());
-        draft.improve(Look::Last, words.min(options.search_words), on_read);
+    let mut draft = draft?.clone();
+    if draft.is_searched() {
+        return Some(draft);
+    }
+    let words = options.patience * Look::Last.words(draft.n_charts());
+    let improve =
+        |draft: &mut Draft| draft.improve(Look::Last, words.min(options.search_words), on_read);
+    improve(&mut draft);
+    if let Some(mut straight) = draft.straightened() {
+        improve(&mut straight);
+        if straight.is_worth_straightening(&draft) {
+            return Some(straight);
+        }
     }
     Some(draft)
 }
@@ -117,7 +137,8 @@ pub(super) fn best(
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Option<(Plan, Layout)> {
-    let mut plans: Vec<Plan> = draft.map(Draft::plan).into_iter().collect();
+    let searched = draft.filter(|draft| !draft.is_crowded());
+    let mut plans: Vec<Plan> = searched.map(Draft::plan).into_iter().collect();
     plans.push(first.clone());
     let shared = AtlasOptions {
         search_words: options.search_words / 2 / plans.len() as u64,

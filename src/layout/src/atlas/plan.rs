@@ -1,12 +1,20 @@
 //! In which order charts are placed, and how each is turned.
+use super::copies::{Shape, copies};
 use super::orientation::{self, Bounds};
 use super::outline::Outline;
 use super::texture::Texture;
-use super::{AtlasOptions, Turns};
+use super::{AtlasOptions, Rotation};
+use std::f64::consts::TAU;
 use unwrapd_method::numerics::hull::convex_hull;
 
 /// The share of a page that charts are hoped to fill.
 pub(super) const HOPE: f64 = 0.75;
+
+/// Copies that lie like each other differ by less, in radians.
+const ALIKE: f64 = 1e-2;
+
+/// Charts for each of which a shape needs a copy at least: among many, two are equal by chance.
+const CHARTS_PER_COPY: usize = 100;
 
 /// What a layout is made from.
 #[derive(Clone, Debug)]
@@ -44,14 +52,24 @@ impl Plan {
     pub(super) fn largest_first(outlines: &[Outline], options: &AtlasOptions) -> Self {
         let texture = options.texture;
         let total: f64 = outlines.iter().map(|o| o.size * o.size).sum();
-        let level = |outline: &Outline| match options.turns {
-            Turns::Any => level(outline, total / f64::from(texture.pages), texture),
-            Turns::Quarters => turned(outline, Bounds::Given),
+        let is_alone = outlines.iter().filter(|o| o.n_triangles > 0).count() == 1;
+        let page = total / f64::from(texture.pages);
+        let level = |outline: &Outline| match options.rotation {
+            Rotation::Any => outline
+                .upright()
+                .filter(|_| is_alone)
+                .unwrap_or_else(|| level(outline, page, texture)),
+            rotation => outline.clone().limited_to(rotation),
         };
-        let outlines: Vec<Outline> = outlines.iter().map(level).collect();
+        let mut outlines = alike(outlines.to_vec(), 0, options.rotation, level);
+        mark_copies(&mut outlines);
+        let turns = match options.rotation {
+            Rotation::Any | Rotation::Quarter => QuarterTurns::Any,
+            Rotation::None => QuarterTurns::Only(0),
+        };
         Self {
             order: by_size(&outlines.iter().collect::<Vec<_>>()),
-            turns: vec![QuarterTurns::Any; outlines.len()],
+            turns: vec![turns; outlines.len()],
             near: None,
             outlines,
         }
@@ -69,13 +87,63 @@ impl Plan {
     }
 }
 
+/// Charts from the `n_level`-th on turned by `level`, but copies of one before as that is.
+pub(super) fn alike(
+    mut outlines: Vec<Outline>,
+    n_level: usize,
+    rotation: Rotation,
+    level: impl Fn(&Outline) -> Outline,
+) -> Vec<Outline> {
+    let shapes: Vec<Shape> = outlines.iter().map(|outline| outline.shape).collect();
+    for (i, (first, angle)) in copies(&shapes).into_iter().enumerate().skip(n_level) {
+        outlines[i] = if first < i && rotation == Rotation::Any {
+            outlines[i].turned_like(&outlines[first], angle)
+        } else {
+            level(&outlines[i])
+        };
+    }
+    outlines
+}
+
+/// Marks the charts that have copies which lie alike. Returns for each chart the first that it is such a copy of.
+pub(super) fn mark_copies(outlines: &mut [Outline]) -> Vec<usize> {
+    let kinds = kinds(outlines);
+    let mut n_alike = vec![0; outlines.len()];
+    for &first in &kinds {
+        n_alike[first] += 1;
+    }
+    let least = outlines.len().div_ceil(CHARTS_PER_COPY).max(2);
+    for (outline, &first) in outlines.iter_mut().zip(&kinds) {
+        outline.has_copies = n_alike[first] >= least;
+    }
+    kinds
+}
+
+/// For each chart the first that it is a copy of and lies like.
+fn kinds(outlines: &[Outline]) -> Vec<usize> {
+    let shapes: Vec<Shape> = outlines.iter().map(|outline| outline.shape).collect();
+    let lies_like = |(i, (first, _)): (usize, (usize, f64))| {
+        let turned = (outlines[i].lean() - outlines[first].lean()).rem_euclid(TAU);
+        if turned.min(TAU - turned) < ALIKE {
+            first
+        } else {
+            i
+        }
+    };
+    copies(&shapes)
+        .into_iter()
+        .enumerate()
+        .map(lies_like)
+        .collect()
+}
+
 /// A chart turned upright, or else to its smallest rectangle; one that is longer than the side of a
 /// page with charts of an area of `total` may lie across it. One that is most of such a page decides its side, and is
 /// turned to the smallest page.
 pub(super) fn level(outline: &Outline, total: f64, texture: Texture) -> Outline {
     let is_most = 2.0 * outline.size * outline.size > total;
     let outline = outline.upright_within((total / HOPE).sqrt());
-    if outline.is_upright() {
+    if outline.rotation() != Rotation::Any {
         return outline;
     }
     turned(

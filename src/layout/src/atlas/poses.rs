@@ -2,6 +2,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::sync::{Arc, OnceLock};
 
+use super::Rotation;
 use super::mask::{Distances, Mask};
 use super::orientation::smallest_page;
 use super::outline::Outline;
@@ -14,7 +15,7 @@ const ANGLES: usize = 16;
 /// What is kept free beside the padding, in cells: distances are looked up roughly.
 const ROOM: f64 = 0.1;
 
-/// The ways in which an outline may lie, each rastered when it is first asked for: 64, or the quarter turns of one that is upright.
+/// The ways in which an outline may lie, each rastered when it is first asked for: 64, four quarter turns, or one.
 ///
 /// Pose `4 a + t` is turned by t quarters and a sixteenths of a quarter.
 pub(super) struct Poses {
@@ -31,11 +32,15 @@ pub(super) struct Poses {
 
 impl Poses {
     pub(super) fn new(outline: &Outline, scale: f64, distances: Distances) -> Self {
-        let angles = if outline.is_upright() { 1 } else { ANGLES };
+        let (angles, quarters) = match outline.rotation() {
+            Rotation::Any => (ANGLES, 4),
+            Rotation::Quarter => (1, 4),
+            Rotation::None => (1, 1),
+        };
         let angle = |a: usize| FRAC_PI_2 * a as f64 / ANGLES as f64;
         Self {
             outlines: (0..angles).map(|a| outline.rotated(angle(a))).collect(),
-            masks: (0..4 * angles).map(|_| OnceLock::new()).collect(),
+            masks: (0..quarters * angles).map(|_| OnceLock::new()).collect(),
             distinct: OnceLock::new(),
             body: OnceLock::new(),
             least_page: OnceLock::new(),
@@ -56,11 +61,6 @@ impl Poses {
             }
             distinct
         })
-    }
-
-    /// Whether both look alike in each pose.
-    pub(super) fn are_like(&self, other: &Self) -> bool {
-        self.masks.len() == other.masks.len() && self.mask(0).is_like(other.mask(0))
     }
 
     /// The pose at the next angle, or that before.

@@ -8,8 +8,6 @@ use unwrapd_layout::charts::MappedChart;
 
 /// Maximum cost of cuts, as a share of the square.
 pub const MOST_COST: f64 = 1.0;
-/// Loss of fill that is accepted for upright charts, as a share of the square.
-const STRAIGHT: f64 = 0.01;
 /// Looks at candidates, one after another, each with the number of best candidates that get it.
 pub const LOOKS: [(Look, usize); 3] = [
     (Look::First, usize::MAX),
@@ -160,7 +158,7 @@ impl<'a> Search<'a> {
         for look in [Look::Second, Look::Last] {
             self.look(&mut straight, look);
         }
-        (straight.value() >= best.value() - STRAIGHT).then_some(straight)
+        (straight.draft.is_worth_straightening(&best.draft)).then_some(straight)
     }
 }
 

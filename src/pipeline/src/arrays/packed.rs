@@ -7,9 +7,7 @@ use super::clearance::open_charts;
 use super::compact::{Before, Drafted, MOST_CHARTS, compacted};
 use super::plan::Plan;
 use crate::PipelineError;
-use unwrapd_layout::atlas::{
-    self, Atlas, AtlasError, AtlasOptions, Draft, OnRead, Placed, Scale, Turns,
-};
+use unwrapd_layout::atlas::{self, Atlas, AtlasError, AtlasOptions, Draft, OnRead, Placed, Scale};
 use unwrapd_layout::charts::{Folds, MappedChart};
 use unwrapd_method::solver::Control;
 
@@ -40,7 +38,7 @@ pub fn packed(
     plan: &Plan,
     on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
-    if options.turns == Turns::Any {
+    if plan.is_turned_up {
         charts.par_iter_mut().for_each(MappedChart::turn_up);
     }
     match options.scale {

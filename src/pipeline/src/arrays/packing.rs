@@ -43,7 +43,7 @@ pub fn atlas_options(
                 Scale::TexelsPerUnit(texels / density(charts))
             }),
         padding_texels: padding_texels(settings, plan),
-        turns: plan.turns,
+        rotation: plan.rotation,
         borders: settings.borders,
         patience: settings.layout.packing.passes(),
         search_words: search_words((settings, plan), n_meshes),

@@ -3,7 +3,7 @@
 use super::settings::Settings;
 use crate::PipelineError;
 use crate::options::{KeptMaps, Mapping};
-use unwrapd_layout::atlas::Turns;
+use unwrapd_layout::atlas::Rotation;
 use unwrapd_layout::charts::{Bound, Cut, Folds, Symmetry};
 use unwrapd_maps::embed::{self, Pins};
 use unwrapd_method::barrier::BarrierKind;
@@ -37,8 +37,10 @@ pub struct Plan {
     pub compaction: Option<f64>,
     /// Effort of the search for layouts.
     pub search: Search,
-    /// Permitted turns of charts.
-    pub turns: Turns,
+    /// Permitted rotations of charts.
+    pub rotation: Rotation,
+    /// `true` if charts are first turned so that the top of the mesh is up.
+    pub is_turned_up: bool,
     /// Bits per coordinate at which the map must stay bijective.
     pub safe_bits: Option<u32>,
 }
@@ -81,7 +83,10 @@ impl Plan {
     /// If the energy is a formula that is not an energy of triangles.
     pub fn new(settings: &Settings) -> Result<Self, PipelineError> {
         let Settings {
-            cutting, mapping, ..
+            cutting,
+            mapping,
+            layout,
+            ..
         } = settings;
         let cut = cutting.cut;
         let start = match (cut, cutting.kept_maps) {
@@ -118,9 +123,11 @@ impl Plan {
                 Cut::Fast => Search::Brief,
                 _ => Search::Full,
             },
-            turns: match start {
-                Start::Final => Turns::Quarters,
-                Start::New | Start::Present => Turns::Any,
+            rotation: layout.rotate,
+            is_turned_up: match start {
+                Start::New => true,
+                Start::Present => layout.rotate == Rotation::Any,
+                Start::Final => false,
             },
             safe_bits: mapping.quantization_safe,
         })

@@ -270,8 +270,8 @@ fn from_grid(corners: &GridCorners, v_axis: VAxis) -> Corners {
 
 // Packing of existing UVs.
 
-/// Packs the islands of all primitives of a group into one atlas. Islands only undergo quarter turns, shifts and a
-/// common scale. Those with a placement in the options stay there, and the others are packed around them. Faces that
+/// Packs the islands of all primitives of a group into one atlas. Islands are rotated, shifted and scaled by one
+/// common factor. Those with a placement in the options stay there, and the others are packed around them. Faces that
 /// are flipped or overlap within an island remain so, and the certificate counts them.
 pub fn repack_document(
     upload: &Upload,

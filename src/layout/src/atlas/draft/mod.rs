@@ -11,13 +11,13 @@ use super::arrangement::Arrangement;
 use super::layout::{SLIVERS, padding};
 use super::mask::{Distances, Rounding};
 use super::outline::{Outline, outlines};
-use super::plan::{HOPE, Plan, by_size, level};
+use super::plan::{HOPE, Plan, alike, by_size, level, mark_copies};
 use super::poses::Poses;
 use super::sheet::Sheet;
 use super::spot::Corner;
 use super::texture::{Form, Texture};
 use super::tight::Page;
-use super::{AtlasError, AtlasOptions, ChartMap, Turns};
+use super::{AtlasError, AtlasOptions, ChartMap, Rotation};
 
 /// Cells along the side of the square page that the charts are expected to need. With 64 worse cuts are chosen; with 256 a trial
 /// costs four times as much, and less is found in the same time.
@@ -25,8 +25,8 @@ const RASTER: u32 = 96;
 /// The same of more charts than so many for each page, each of which has fewer cells.
 const FINE_RASTER: u32 = 256;
 const FEW: usize = 64;
-/// Several small charts count as one; a layout of more than so many for each page is not searched: a trial takes too long to find
-/// anything in time.
+/// Several small charts count as one; of more than so many for each page the first layout is squeezed and nothing else: a trial takes
+/// too long to find anything in time.
 const CROWD: usize = 64;
 /// A chart is small whose rectangle has less than such a half perimeter, as a share of that side: it finds a place between the others.
 const SMALL: f64 = 0.12;
@@ -37,6 +37,8 @@ const MOST_SIDES: u32 = 16;
 /// Cells of all pages of a sheet at most, unless one side of the page takes more: those of a coarse page of [`MOST_SIDES`]. A search
 /// keeps dozens of sheets, of two bytes a cell or so.
 const MOST_CELLS: u64 = ((RASTER * MOST_SIDES) as u64).pow(2);
+/// Loss of fill that is accepted for upright charts.
+const STRAIGHT: f64 = 0.02;
 /// Charts at most: of more the large ones leave room enough for the small ones.
 const MOST_CHARTS: usize = 512;
 
@@ -50,6 +52,9 @@ const MOST_CHARTS: usize = 512;
 /// What that costs is counted in words read, so the result is the same on every machine and for any number of threads.
 #[derive(Clone)]
 pub struct Draft {
+    /// The charts, turned as in their first pose.
+    level: Vec<Outline>,
+    /// For each chart its poses, which copies share.
     poses: Vec<Arc<Poses>>,
     raster: Raster,
     state: Arrangement,
@@ -59,7 +64,7 @@ pub struct Draft {
     by_size: Vec<usize>,
     /// How many of them are large.
     n_large: usize,
-    /// For each chart the first that looks like it in each pose.
+    /// For each chart the first that it is a copy of.
     kind: Arc<[usize]>,
 }
 
@@ -72,16 +77,16 @@ struct Raster {
     scale: f64,
     /// Cells kept free between charts.
     padding: f64,
+    rotation: Rotation,
     texture: Texture,
 }
 
 impl Draft {
     /// The charts in the order of their sizes; nothing for so many, or so few words, that a search would see only a few layouts,
-    /// where a needle is longer than the raster, where the charts have no area, or where they may not be turned by any angle.
+    /// where a needle is longer than the raster, or where the charts have no area.
     pub fn new(charts: &[ChartMap], options: &AtlasOptions) -> Result<Option<Self>, AtlasError> {
         let outlines = outlines(charts)?;
-        let is_worth_it = outlines.len() <= MOST_CHARTS && options.search_words > 0;
-        if !is_worth_it || options.turns == Turns::Quarters {
+        if outlines.len() > MOST_CHARTS || options.search_words == 0 {
             return Ok(None);
         }
         Ok(Self::of(&Plan::largest_first(&outlines, options), options))
@@ -103,6 +108,7 @@ impl Draft {
             side,
             scale: cells * (HOPE * texture.share() * f64::from(texture.pages) / area).sqrt(),
             padding: padding(options, plan.order.len(), cells),
+            rotation: options.rotation,
             texture,
         };
         let extents = plan.order.iter().flat_map(|&i| plan.outlines[i].extent);
@@ -111,50 +117,62 @@ impl Draft {
         if longest > f64::from(raster.largest(largest)) {
             return None;
         }
-        let poses = plan.outlines.iter().map(|o| raster.poses(o)).collect();
-        let mut draft = Self::largest_first(poses, raster);
+        let mut draft = Self::largest_first(plan.outlines.clone(), &[], raster);
         draft.lay_out().then_some(draft)
     }
 
     /// The same with some parts, which come last among the charts, in place of one chart. They are laid out when that is
     /// [improved](Self::improve): until then it fills nothing.
     pub fn replaced(&self, chart: usize, parts: &[ChartMap]) -> Result<Self, AtlasError> {
-        let mut poses = self.poses.clone();
+        let (mut charts, mut poses) = (self.level.clone(), self.poses.clone());
+        charts.remove(chart);
         poses.remove(chart);
+        let n_others = charts.len();
+        charts.extend(outlines(parts)?);
         let page = HOPE * (self.raster.cells() / self.raster.scale).powi(2);
-        let outlines = outlines(parts)?;
-        let texture = self.raster.texture;
-        let leveled = outlines
-            .iter()
-            .map(|outline| level(outline, page * texture.share(), texture));
-        poses.extend(leveled.map(|outline| self.raster.poses(&outline)));
-        Ok(Self::largest_first(poses, self.raster))
+        let (rotation, texture) = (self.raster.rotation, self.raster.texture);
+        let level = alike(charts, n_others, rotation, |outline| match rotation {
+            Rotation::Any => level(outline, page * texture.share(), texture),
+            _ => outline.clone().limited_to(rotation),
+        });
+        Ok(Self::largest_first(level, &poses, self.raster))
+    }
+
+    /// Whether this layout, of [straightened](Self::straightened) charts, is about as full as that of the charts as they leaned.
+    pub fn is_worth_straightening(&self, leaning: &Self) -> bool {
+        self.fill() >= leaning.fill() - STRAIGHT
     }
 
     /// The same with charts upright that lean, to be laid out anew; none where no chart does.
     pub fn straightened(&self) -> Option<Self> {
-        let straight = |poses: &Arc<Poses>| poses.outline(0).straightened();
-        let straight: Vec<Option<Outline>> = self.poses.iter().map(straight).collect();
+        let straight: Vec<Option<Outline>> = self.level.iter().map(Outline::straightened).collect();
         straight.iter().any(Option::is_some).then_some(())?;
-        let both = self.poses.iter().zip(straight);
-        let poses = both.map(|(poses, straight)| match straight {
-            Some(outline) => self.raster.poses(&outline),
-            None => poses.clone(),
-        });
-        Some(Self::largest_first(poses.collect(), self.raster))
+        let straight = straight.into_iter().zip(&self.level);
+        let level = straight.map(|(straight, level)| straight.unwrap_or_else(|| level.clone()));
+        Some(Self::largest_first(level.collect(), &[], self.raster))
     }
 
-    /// The charts in the order of their sizes, not yet placed.
-    fn largest_first(poses: Vec<Arc<Poses>>, raster: Raster) -> Self {
-        let level: Vec<&Outline> = poses.iter().map(|poses| poses.outline(0)).collect();
-        let by_size = by_size(&level);
+    /// The charts in the order of their sizes, not yet placed; the first of them with these poses, as far as they still hold.
+    fn largest_first(mut level: Vec<Outline>, known: &[Arc<Poses>], raster: Raster) -> Self {
+        let kind = mark_copies(&mut level);
+        let mut poses: Vec<Arc<Poses>> = Vec::with_capacity(level.len());
+        for (chart, &first) in kind.iter().enumerate() {
+            let holds =
+                |known: &&Arc<Poses>| known.outline(0).has_copies == level[chart].has_copies;
+            poses.push(match known.get(chart).filter(holds) {
+                _ if first < chart => poses[first].clone(),
+                Some(known) => known.clone(),
+                None => raster.poses(&level[chart]),
+            });
+        }
+        let by_size = by_size(&level.iter().collect::<Vec<_>>());
         let is_large = |&&chart: &&usize| {
-            let [width, height] = poses[chart].outline(0).extent;
+            let [width, height] = level[chart].extent;
             (width + height) * raster.scale > SMALL * raster.cells()
         };
         Self {
             n_large: by_size.iter().take_while(is_large).count().max(1),
-            kind: kinds(&poses),
+            kind: kind.into(),
             state: Arrangement {
                 order: by_size.clone(),
                 pose: vec![0; poses.len()],
@@ -162,6 +180,7 @@ impl Draft {
                 side: 0,
                 cost: f64::INFINITY,
             },
+            level,
             poses,
             raster,
             pages: Vec::new(),
@@ -199,7 +218,7 @@ impl Draft {
         (1.0 - self.raster.padding / self.raster.cells()) / longest
     }
 
-    /// Whether there are so many charts that only the first layout is known.
+    /// Whether there are so many charts that their order is not searched.
     pub fn is_crowded(&self) -> bool {
         self.n_charts() > CROWD * self.raster.texture.pages as usize
     }
@@ -216,15 +235,6 @@ impl Draft {
             pages => squeezed_side(pages),
         }
     }
-}
-
-/// For each chart the first that looks like it in each pose.
-fn kinds(poses: &[Arc<Poses>]) -> Arc<[usize]> {
-    let like = |(chart, of): (usize, &Arc<Poses>)| {
-        let first = poses[..chart].iter().position(|known| known.are_like(of));
-        first.unwrap_or(chart)
-    };
-    poses.iter().enumerate().map(like).collect()
 }
 
 /// The side of the largest page, infinite without pages.

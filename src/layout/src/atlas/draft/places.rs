@@ -51,18 +51,24 @@ impl Draft {
         pages.filter(|page| !page.charts.is_empty()).collect()
     }
 
-    /// The charts turned, and a layout in which they lie as near to each other as they may; none where that is not found.
+    /// The charts turned, and a layout in which they lie as near to each other as they may; none where that is not found, or where
+    /// so many charts leave no room for the padding.
     pub(in crate::atlas) fn tight(
         &self,
         options: &AtlasOptions,
         on_read: &OnRead,
     ) -> Option<(Vec<Outline>, Layout)> {
+        let longer = f64::from(options.texture.resolution.longer());
+        let asked = f64::from(options.packed_texels()) * self.raster.cells() / longer;
+        if self.raster.padding < asked {
+            return None;
+        }
         let refined = |page: &Page| Page {
             squeezed: page.squeezed.refined(FINE),
             ..page.clone()
         };
         let pages: Vec<Page> = self.pages.iter().map(refined).collect();
-        let level: Vec<&Outline> = self.poses.iter().map(|poses| poses.outline(0)).collect();
+        let level: Vec<&Outline> = self.level.iter().collect();
         tight::layout(&level, &pages, FINE * self.raster.scale, (options, on_read))
     }
 
@@ -76,10 +82,11 @@ impl Draft {
             cost,
         } = &self.state;
         let share = |cells: u32| f64::from(cells.saturating_sub(1)) / f64::from(*side.max(&1));
-        let posed = || self.poses.iter().zip(pose);
+        let posed = self.level.iter().zip(pose);
+        let angle = |pose: usize| Poses::angle(pose - pose % 4);
         Plan {
-            outlines: posed()
-                .map(|(poses, &pose)| poses.outline(pose).clone())
+            outlines: posed
+                .map(|(level, &pose)| level.rotated(angle(pose)))
                 .collect(),
             turns: pose
                 .iter()

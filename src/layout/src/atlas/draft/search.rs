@@ -87,8 +87,8 @@ impl Draft {
         self.n_large + small.div_ceil(SMALL_PER_LARGE)
     }
 
-    /// Searches a fuller layout; reads about so many words, less where nothing is left to be tried, and none of a crowd. The layout
-    /// never gets worse.
+    /// Searches a fuller layout; reads about so many words, less where nothing is left to be tried. A crowd is only squeezed, for the
+    /// last look. The layout never gets worse.
     pub fn improve(&mut self, look: Look, words: u64, on_read: &OnRead) {
         let told = AtomicU64::new(0);
         let count = |read| {
@@ -102,25 +102,17 @@ impl Draft {
 
     fn improve_within(&mut self, look: Look, words: u64, on_read: &OnRead) {
         let is_laid_out = self.is_laid_out() || self.lay_out();
-        if self.state.order.is_empty() || !is_laid_out || self.is_crowded() {
+        if self.state.order.is_empty() || !is_laid_out || (self.is_crowded() && look != Look::Last)
+        {
             return;
         }
         let course = look.course();
         let [annealing, squeezing, moving] = course.shares.map(|share| share * words as f64);
-        let each = (annealing / f64::from(course.starts)) as u64;
-        let starts = (0..course.starts).into_par_iter().with_max_len(1);
-        let mut found: Vec<Arrangement> = starts
-            .map(|start| {
-                self.annealed(
-                    each,
-                    &mut Random::new(look.seed() + u64::from(start)),
-                    on_read,
-                )
-            })
-            .collect();
-        found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        found.dedup_by_key(|state| state.key(&self.kind));
-        found.truncate(course.squeezed);
+        let found = if self.is_crowded() {
+            vec![self.state.clone()]
+        } else {
+            self.arrangements((look, &course), annealing, on_read)
+        };
         let fullest = found.first().cloned();
         let each = (squeezing / course.squeezed as f64) as u64;
         let settled: Vec<Option<Self>> = (found.into_par_iter().with_max_len(1))
@@ -137,9 +129,33 @@ impl Draft {
         {
             self.state = fullest;
         }
-        if moving > 0.0 {
+        if moving > 0.0 && !self.is_crowded() {
             self.relocate(moving as u64, look.seed(), on_read);
         }
+    }
+
+    /// The best arrangements of annealings from several seeds while about so many words are read, the best first.
+    fn arrangements(
+        &self,
+        (look, course): (Look, &Course),
+        words: f64,
+        on_read: &OnRead,
+    ) -> Vec<Arrangement> {
+        let each = (words / f64::from(course.starts)) as u64;
+        let starts = (0..course.starts).into_par_iter().with_max_len(1);
+        let mut found: Vec<Arrangement> = starts
+            .map(|start| {
+                self.annealed(
+                    each,
+                    &mut Random::new(look.seed() + u64::from(start)),
+                    on_read,
+                )
+            })
+            .collect();
+        found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        found.dedup_by_key(|state| state.key(&self.kind));
+        found.truncate(course.squeezed);
+        found
     }
 
     /// The draft with another arrangement, squeezed; none where charts could not be brought apart.
@@ -186,12 +202,13 @@ impl Draft {
             let temperature = first * (last / first).powf(progress);
             let bound = state.cost - temperature * (1.0 - random.unit()).ln();
             let mut trial = state.clone();
-            let (first, is_fitted) = trial.change(large, &self.poses, random);
+            let (place, is_fitted) = trial.change(large, &self.poses, random);
             if is_fitted {
-                prefixes.hold(&mut sheet, &state, &self.poses, first);
+                prefixes.hold(&mut sheet, &state, &self.poses, place);
                 sheet.capacity = largest;
-                trial.fit(first, &self.poses, &mut sheet, random);
+                trial.fit(place, &self.poses, &mut sheet, random);
             }
+            let first = trial.copy_pose(place, &self.kind);
             if !known.insert(trial.key(&self.kind)) {
                 sheet.work += WORDS_IF_KNOWN;
                 in_vain += 1;

@@ -1,6 +1,7 @@
 //! A chart that is pushed about.
 use super::contour::{Run, runs};
 use super::field::Field;
+use crate::atlas::Rotation;
 use crate::atlas::outline::Outline;
 
 /// Where a body is and how it is turned.
@@ -57,8 +58,7 @@ pub(in crate::atlas) struct Body {
     pub(super) half: [f64; 2],
     /// How far it reaches.
     pub(super) radius: f64,
-    /// Whether it is turned by quarters only.
-    pub(super) is_upright: bool,
+    pub(super) rotation: Rotation,
 }
 
 impl Body {
@@ -75,7 +75,11 @@ impl Body {
             field,
             half,
             radius: half[0].hypot(half[1]).max(1.0),
-            is_upright: outline.is_upright(),
+            rotation: if outline.has_copies {
+                Rotation::None
+            } else {
+                outline.rotation()
+            },
         }
     }
 

@@ -1,6 +1,7 @@
 //! The equations of a step that separates bodies.
 use super::body::{Body, Pose};
 use super::contacts::{Contact, Pairs, Scene};
+use crate::atlas::Rotation;
 use unwrapd_method::numerics::cholesky::SymmetricPattern;
 use unwrapd_method::numerics::conjugate_gradients::ConjugateGradients;
 
@@ -32,10 +33,9 @@ pub(super) struct Equations {
 fn row(body: &Body, pose: &Pose, contact: &Contact) -> Row {
     let Contact { point, out, .. } = contact;
     let arm = [point[0] - pose.middle[0], point[1] - pose.middle[1]];
-    let turning = if body.is_upright {
-        0.0
-    } else {
-        (arm[0] * out[1] - arm[1] * out[0]) / body.radius
+    let turning = match body.rotation {
+        Rotation::Any => (arm[0] * out[1] - arm[1] * out[0]) / body.radius,
+        Rotation::Quarter | Rotation::None => 0.0,
     };
     [out[0], out[1], turning]
 }

@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use super::body::Pose;
 use super::contacts::{Pairs, Scene};
 use super::equations::Equations;
+use crate::atlas::Rotation;
 use unwrapd_method::numerics::random::Random;
 
 /// Poses tried anywhere, and near where the body is.
@@ -55,7 +56,7 @@ impl Scene<'_> {
         let mut best = vec![(self.rough_energy(poses, body, &here, f64::INFINITY), here)];
         for k in 0..ANYWHERE + NEARBY {
             let pose = if k < ANYWHERE {
-                self.anywhere(body, random)
+                self.anywhere(body, &here, random)
             } else {
                 self.nearby(body, &here, random)
             };
@@ -97,13 +98,13 @@ impl Scene<'_> {
         energy
     }
 
-    fn anywhere(&self, body: usize, random: &mut Random) -> Pose {
+    fn anywhere(&self, body: usize, here: &Pose, random: &mut Random) -> Pose {
         let middle = self.reach.map(|reach| random.unit() * reach);
         let angle = random.unit() * TAU;
-        let angle = if self.bodies[body].is_upright {
-            FRAC_PI_2 * (angle / FRAC_PI_2).floor()
-        } else {
-            angle
+        let angle = match self.bodies[body].rotation {
+            Rotation::Any => angle,
+            Rotation::Quarter => FRAC_PI_2 * (angle / FRAC_PI_2).floor(),
+            Rotation::None => here.angle,
         };
         Pose::new(middle, angle)
     }
@@ -112,12 +113,15 @@ impl Scene<'_> {
         let mut about = |width: f64| width * (2.0 * random.unit() - 1.0);
         let by = self.reach.map(|reach| about(WAY * reach));
         let angle = about(ANGLE);
-        let angle = if random.unit() < QUARTERS {
+        let quarters = if random.unit() < QUARTERS {
             FRAC_PI_2 * (1 + random.below(3)) as f64
-        } else if self.bodies[body].is_upright {
-            0.0
         } else {
-            angle
+            0.0
+        };
+        let angle = match self.bodies[body].rotation {
+            Rotation::Any if quarters == 0.0 => angle,
+            Rotation::Any | Rotation::Quarter => quarters,
+            Rotation::None => 0.0,
         };
         here.moved(by, angle)
     }
