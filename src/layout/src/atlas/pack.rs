@@ -50,7 +50,7 @@ pub fn pack_draft(
             .and_then(|draft| draft.tight(options, on_read)),
         Some(_) => None,
     };
-    // A crowd has been squeezed only once: large charts in rows may be fuller.
+    // The order of a crowd is not searched: placing the largest charts first may be fuller.
     let is_crowd = draft.as_ref().is_some_and(Draft::is_crowded);
     let found = found.or_else(|| {
         (is_crowd || tight.is_none())
@@ -106,7 +106,7 @@ pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasEr
     )
 }
 
-/// A draft that has been searched, here if it has not been before.
+/// Returns the draft after a search, which is made here unless it was made before.
 pub(super) fn searched(
     draft: Option<&Draft>,
     options: &AtlasOptions,
@@ -120,9 +120,13 @@ pub(super) fn searched(
     let improve =
         |draft: &mut Draft| draft.improve(Look::Last, words.min(options.search_words), on_read);
     improve(&mut draft);
-    if let Some(mut straight) = draft.straightened() {
+    // At a given scale, a little less fill may be too little.
+    let straight = draft
+        .straightened()
+        .filter(|_| options.scale == Scale::Largest);
+    if let Some(mut straight) = straight {
         improve(&mut straight);
-        if straight.is_worth_straightening(&draft) {
+        if straight.fill() >= draft.fill() - Draft::STRAIGHT {
             return Some(straight);
         }
     }

@@ -158,7 +158,7 @@ impl<'a> Search<'a> {
         for look in [Look::Second, Look::Last] {
             self.look(&mut straight, look);
         }
-        (straight.draft.is_worth_straightening(&best.draft)).then_some(straight)
+        (straight.value() >= best.value() - Draft::STRAIGHT).then_some(straight)
     }
 }
 

@@ -25,8 +25,8 @@ const RASTER: u32 = 96;
 /// The same of more charts than so many for each page, each of which has fewer cells.
 const FINE_RASTER: u32 = 256;
 const FEW: usize = 64;
-/// Several small charts count as one; of more than so many for each page the first layout is squeezed and nothing else: a trial takes
-/// too long to find anything in time.
+/// Maximum number of charts per page whose order is searched; several small charts count as one. With more, a trial takes too long, and
+/// the first layout is only squeezed.
 const CROWD: usize = 64;
 /// A chart is small whose rectangle has less than such a half perimeter, as a share of that side: it finds a place between the others.
 const SMALL: f64 = 0.12;
@@ -37,8 +37,6 @@ const MOST_SIDES: u32 = 16;
 /// Cells of all pages of a sheet at most, unless one side of the page takes more: those of a coarse page of [`MOST_SIDES`]. A search
 /// keeps dozens of sheets, of two bytes a cell or so.
 const MOST_CELLS: u64 = ((RASTER * MOST_SIDES) as u64).pow(2);
-/// Loss of fill that is accepted for upright charts.
-const STRAIGHT: f64 = 0.02;
 /// Charts at most: of more the large ones leave room enough for the small ones.
 const MOST_CHARTS: usize = 512;
 
@@ -138,10 +136,8 @@ impl Draft {
         Ok(Self::largest_first(level, &poses, self.raster))
     }
 
-    /// Whether this layout, of [straightened](Self::straightened) charts, is about as full as that of the charts as they leaned.
-    pub fn is_worth_straightening(&self, leaning: &Self) -> bool {
-        self.fill() >= leaning.fill() - STRAIGHT
-    }
+    /// Loss of fill that is accepted for [straightened](Self::straightened) charts.
+    pub const STRAIGHT: f64 = 0.02;
 
     /// The same with charts upright that lean, to be laid out anew; none where no chart does.
     pub fn straightened(&self) -> Option<Self> {
@@ -152,7 +148,7 @@ impl Draft {
         Some(Self::largest_first(level.collect(), &[], self.raster))
     }
 
-    /// The charts in the order of their sizes, not yet placed; the first of them with these poses, as far as they still hold.
+    /// Sorts the charts by size without placing them. `known` are poses of the first charts; they are reused where they still apply.
     fn largest_first(mut level: Vec<Outline>, known: &[Arc<Poses>], raster: Raster) -> Self {
         let kind = mark_copies(&mut level);
         let mut poses: Vec<Arc<Poses>> = Vec::with_capacity(level.len());
@@ -218,7 +214,7 @@ impl Draft {
         (1.0 - self.raster.padding / self.raster.cells()) / longest
     }
 
-    /// Whether there are so many charts that their order is not searched.
+    /// Returns `true` if there are too many charts to search their order.
     pub fn is_crowded(&self) -> bool {
         self.n_charts() > CROWD * self.raster.texture.pages as usize
     }
