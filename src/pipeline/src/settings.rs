@@ -53,7 +53,7 @@ options! {
         /// Search budget for the fullest layout.
         pub packing: PackingMode = PackingMode::Fast;
         /// Permitted rotations of charts in the layout. Without rotation, new charts have the top of
-        /// the mesh up, and islands stay as they lie.
+        /// the mesh up, and islands keep their angles.
         pub rotate: Rotation = Rotation::Any;
     }
 }

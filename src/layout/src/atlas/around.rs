@@ -20,7 +20,7 @@ const FRAME: u32 = 4;
 /// Layouts tried until no vertex moves farther than its chart's room.
 const ROUNDS: usize = 6;
 
-/// Packs charts around some that stay, turned by quarters at most. The atlas has those first that are packed, then those that stay.
+/// Packs charts around others that stay, with quarter turns at most. The atlas has the packed charts first.
 pub fn pack_around(
     charts: &[ChartMap],
     stays: &[Stay],
@@ -55,7 +55,7 @@ fn around(
     on_read: &OnRead,
 ) -> Result<Atlas, AroundError> {
     let texture = options.texture;
-    // Who moves islands wants to find the others as they were.
+    // Other islands keep their angles, up to quarter turns, while one is arranged by hand.
     let options = &AtlasOptions {
         rotation: match options.rotation {
             Rotation::Any => Rotation::Quarter,

@@ -94,7 +94,7 @@ impl Arrangement {
         }
     }
 
-    /// Gives copies of the chart at a place its pose; returns the first place that is concerned.
+    /// Gives the pose of the chart at a place to its copies; returns the first place that changed.
     pub(super) fn copy_pose(&mut self, place: usize, kind: &[usize]) -> usize {
         let chart = self.order[place];
         let pose = self.pose[chart];

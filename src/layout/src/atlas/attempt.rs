@@ -36,7 +36,7 @@ pub(super) struct Packing<'a> {
     /// Cells kept free between charts, and at each border.
     pub padding: f64,
     pub border: f64,
-    /// Whether charts that have copies are not turned: they lie alike as they are.
+    /// `true` if charts that have copies are not turned, so that copies lie alike.
     pub is_alike: bool,
     /// How far pages are used from the start.
     pub extent: Extent,
@@ -181,9 +181,8 @@ impl Packing<'_> {
     }
 }
 
-/// A number that sizes which differ by a quarter or less may share.
-///
-/// With a sixteenth a scatter of 10,000 sizes reads 2.4 times as many words and is fuller by .0016.
+/// Rounds a size down to a class that is at most a quarter wide. Narrower classes read more than twice as many words for a scatter of
+/// sizes, and hardly fill more.
 fn rough(size: u32) -> u32 {
     let finer = size
         .checked_ilog2()

@@ -1,23 +1,22 @@
-//! Charts of equal shape, however they are turned.
+//! Charts of equal shape, up to rotation.
 //!
-//! A shape is told by moments of its outline. In polar coordinates about the middle of the outline, the k-th is the mean of rᵏ e^(ikφ)
-//! along it, the first weighted with r² once more, as it would be 0 otherwise. A turn by δ multiplies the k-th by e^(ikδ). A strong
-//! k-th moment says how a shape is turned, up to a k-th of a turn, the others say up to which, as far as the shape is not symmetric.
-//! Turned back by that angle, they are those of every copy. Mirrored copies have the conjugate moments; they are shapes of their own.
+//! Shapes are compared by moments of their outlines. In polar coordinates about the centroid of the outline, the k-th moment is the mean
+//! of rᵏ e^(ikφ) along it; the first, which would be 0, is weighted with r². A rotation by δ multiplies the k-th by e^(ikδ). The first
+//! strong moment gives the angle of a shape up to a k-th of a turn, and the others choose among these, unless the shape is symmetric.
+//! Rotated back by this angle, all copies have the same moments. Mirrored copies have the conjugate ones: they are another shape.
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use unwrapd_maps::plane::Segment;
 
-/// The last tells how an octagon is turned.
+/// Number of moments. The last gives the angle of an octagon.
 const MOMENTS: usize = 8;
-/// Lengths, radii and moments of copies differ by less, as shares: those of the equal parts of machine parts do, and of 10,000 bricks of
-/// random sizes hardly any.
+/// Largest relative difference of lengths, radii and moments of copies. Equal parts of machines stay well below.
 const EQUAL: f64 = 1e-4;
-/// The strongest moment of a shape that is not round.
+/// Least size of the strongest moment of a shape that is not round.
 const ROUND: f64 = 0.01;
-/// The first moment that has such a share of the strongest says how a shape is turned.
+/// Least size of the moment that gives the angle, as a share of the strongest.
 const STRONG: f64 = 0.5;
-/// A direction for which the moments of few shapes are symmetric, in radians.
+/// Direction along which the sum of the moments is maximal for the chosen angle, in radians: one that few symmetries have.
 const GENERIC: f64 = 0.7;
 /// The four points of Gauss and Legendre on the unit interval, exact for polynomials up to the seventh degree, and their weights.
 const POINTS: [[f64; 2]; 4] = [
@@ -27,20 +26,20 @@ const POINTS: [[f64; 2]; 4] = [
     [0.930_568_155_797_026_3, 0.173_927_422_568_726_93],
 ];
 
-/// What tells a shape from others, and how it is turned.
+/// Moments of an outline, and its angle.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Shape {
     length: f64,
     /// Root of the mean squared distance from the middle.
     radius: f64,
-    /// Moments of the shape turned back by `angle`, over the power of the radius that makes them numbers.
+    /// Moments of the shape rotated back by `angle`, at a radius of 1.
     moments: [[f64; 2]; MOMENTS],
-    /// How it is turned, in radians.
+    /// Angle in radians, counter-clockwise.
     pub angle: f64,
 }
 
 impl Shape {
-    /// Of an outline with these edges.
+    /// Computes the moments of an outline that consists of these edges; O(n).
     pub(super) fn new(edges: &[Segment]) -> Self {
         let length: f64 = edges
             .iter()
@@ -96,7 +95,7 @@ impl Shape {
     }
 }
 
-/// How a shape with these moments is turned.
+/// Returns the angle of a shape with these moments; 0 if it is round.
 fn angle(moments: &[[f64; 2]; MOMENTS]) -> f64 {
     let size = |[x, y]: &[f64; 2]| x.hypot(*y);
     let strongest = moments.iter().map(size).fold(0.0, f64::max);
@@ -115,7 +114,7 @@ fn angle(moments: &[[f64; 2]; MOMENTS]) -> f64 {
     best.unwrap_or(0.0)
 }
 
-/// The moments of a shape turned back by an angle.
+/// Returns the moments of the shape rotated clockwise by an angle.
 fn turned_back(moments: &[[f64; 2]; MOMENTS], angle: f64) -> [[f64; 2]; MOMENTS] {
     let mut turned = *moments;
     for (k, moment) in (1..).zip(&mut turned) {
@@ -129,9 +128,9 @@ fn product([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     [a * c - b * d, a * d + b * c]
 }
 
-/// For each shape the first that it is a copy of, itself if there is none before, and the angle by which it is turned beyond that.
+/// Returns for each shape the first shape that it is a copy of, possibly itself, and its angle relative to that one.
 pub(super) fn copies(shapes: &[Shape]) -> Vec<(usize, f64)> {
-    // The first shapes of their kinds by their lengths, in steps of what lengths may differ by.
+    // First shapes of their kinds, by length in steps of the tolerance.
     let mut firsts: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
     let step = |length: f64| (length.ln() / EQUAL).floor() as i64;
     let mut found = Vec::with_capacity(shapes.len());

@@ -35,16 +35,16 @@ const ATTEMPTS: [usize; 2] = [12, 400];
 /// every attempt costs more.
 const NEAR: f64 = 1.003;
 const NEAR_IF_MANY: f64 = 1.005;
-/// Words of a search for many charts, unless the best scale is not yet so near to one that failed, or to the next: the first leaves up to
-/// a fifth of the pages empty.
+/// Maximum number of words of a search for many charts, once the best scale is within `FAIR` of one that failed or of the next: the
+/// first leaves up to a fifth of the pages empty.
 const WORDS_IF_MANY: u64 = 150_000_000;
 const FAIR: f64 = 1.01;
-/// The share of the pages that many charts are expected to fill with their padding: .90 of bricks, .87 of a scatter of sizes. And the
-/// part of what an attempt left over that the next scale fills: one that does not fit is in vain.
+/// Share of the pages that many charts are expected to fill with their padding, and share of the room after an attempt that the next
+/// scale aims at, as one that does not fit is in vain.
 const HOPE_IF_MANY: f64 = 0.87;
 const HASTE: f64 = 0.995;
-/// Shares of the fullest scale at which a layout in which copies lie alike, in rows, is taken instead. It may be fuller; the last
-/// costs 6 % of the fill. With many charts it is not looked for beyond the fullest scale.
+/// Scales at which a layout with copies alike is tried, relative to the fullest. It may be fuller, as copies lie in rows; the last
+/// scale costs 6 % of the fill. With many charts, only scales up to 1 are tried.
 const ALIKE: [f64; 5] = [1.06, 1.03, 1.0, 0.985, 0.97];
 /// The same for a layout that is known from a coarser raster, and by how much the scale is lowered should it not fit.
 const NEAR_IF_KNOWN: f64 = 1.0005;
@@ -135,13 +135,13 @@ pub(super) fn layout(
 /// Charts whose area takes a smaller share of their room than this are lines: the difference of roots would be rounding.
 pub(super) const SLIVERS: f64 = 1e-9;
 
-/// The layout at a scale in which copies of a chart lie alike, if there are any and they fit.
+/// Returns a layout with copies alike at a scale; `None` if there are no copies or they do not fit.
 fn alike(packing: &Packing, scale: f64) -> Option<(f64, Attempt)> {
     let plan = packing.plan;
     if !plan.outlines.iter().any(|outline| outline.has_copies) {
         return None;
     }
-    // The page is known: they lie in rows.
+    // The whole page is used from the start, so that copies lie in rows.
     let alike = Packing {
         is_alike: true,
         extent: Extent::Full,
@@ -151,7 +151,7 @@ fn alike(packing: &Packing, scale: f64) -> Option<(f64, Attempt)> {
     (f64::from(attempt.side) <= packing.target()).then_some((scale, attempt))
 }
 
-/// The scale for each cell of the side that is used.
+/// Returns the scale per cell of the used side.
 fn density((scale, attempt): &(f64, Attempt)) -> f64 {
     scale / f64::from(attempt.side.max(1))
 }
@@ -220,8 +220,8 @@ fn best(packing: &Packing, search_words: u64) -> Option<(f64, Attempt)> {
     best
 }
 
-/// The scale at which a layout would fill the page if it grew evenly. A crowd has the full width from the start: the rows that it uses
-/// say how large a share of a page its charts fill, and that changes little with the scale.
+/// Returns the scale at which a layout would fill the page if it grew evenly. A crowd has the full width from the start: the share of
+/// its rows that its charts fill changes little with the scale.
 fn grown(packing: &Packing, demand: &Demand, scale: f64, attempt: &Attempt) -> f64 {
     if packing.is_crowded() {
         let [_, rows] = packing.form().reach(packing.whole());
@@ -232,9 +232,9 @@ fn grown(packing: &Packing, demand: &Demand, scale: f64, attempt: &Attempt) -> f
     }
 }
 
-/// The cells that charts take with their padding and the raster's rounding: a polynomial of the scale in cells to the mesh unit.
+/// Cells that charts take with their padding and the raster's rounding, as a polynomial of the scale in cells per mesh unit.
 struct Demand {
-    /// The charts' area, what is around them for each unit of the scale, and what is around them in any case.
+    /// Coefficients of the square, the linear and the constant term: area, margin along outlines, margin at corners.
     terms: [f64; 3],
     /// Cells of all pages.
     pages: f64,
@@ -271,13 +271,13 @@ impl Demand {
         }
     }
 
-    /// The share of the pages at a scale.
+    /// Returns the share of the pages that charts take at a scale.
     fn share(&self, scale: f64) -> f64 {
         let [a, b, c] = self.terms;
         (a * scale * scale + b * scale + c) / self.pages
     }
 
-    /// The scale for a share of the pages, the root of a quadratic; and at most the scale at which the longest chart fits.
+    /// Returns the scale at which charts take a share of the pages, at most that at which the longest chart fits.
     fn scale(&self, share: f64) -> f64 {
         let [a, b, c] = self.terms;
         let missing = (share * self.pages - c).max(1.0);

@@ -18,11 +18,11 @@ pub(super) struct Outline {
     pub extent: [f64; 2],
     /// The axes of the outline in the plane of the map.
     pub straightness: Straightness,
-    /// In the plane of the map.
+    /// Moments in the plane of the map.
     pub shape: Shape,
     /// Rotations that the options permit.
     permitted: Rotation,
-    /// `true` if others on the pages are copies of it: all of them lie alike.
+    /// `true` if it has copies on the pages. Copies lie alike.
     pub has_copies: bool,
     /// The horizontal axis in the plane of the map, and what is subtracted after turning to it.
     axis: [f64; 2],
@@ -82,12 +82,12 @@ impl Outline {
         }
     }
 
-    /// Limits the rotations, counted from how the outline lies in the map.
+    /// Limits the rotations, relative to the map.
     pub(super) fn limited_to(self, permitted: Rotation) -> Self {
         Self { permitted, ..self }
     }
 
-    /// Rotations that are tried: a chart with straight sides along the axes only takes quarter turns.
+    /// Returns the rotations to try: quarter turns for an upright chart.
     pub(super) fn rotation(&self) -> Rotation {
         match (self.permitted, self.straightness) {
             (Rotation::Any, Straightness::Upright(_)) => Rotation::Quarter,
@@ -105,7 +105,7 @@ impl Outline {
         }
     }
 
-    /// Turned upright, if it is straight; none of another.
+    /// Returns the outline turned upright; `None` if it is not straight.
     pub(super) fn upright(&self) -> Option<Self> {
         match self.straightness {
             Straightness::Upright(axis) => Some(self.turned(axis)),
@@ -113,8 +113,7 @@ impl Outline {
         }
     }
 
-    /// Turned upright, if it is straight and no longer than this then. One that is longer leans from now on: whether it had better
-    /// be upright shows in the layouts.
+    /// Returns a straight outline turned upright if it is then no longer than `side`. A longer one counts as leaning: the layouts decide.
     pub(super) fn upright_within(&self, side: f64) -> Self {
         match (self.upright(), self.straightness) {
             (Some(upright), _) if upright.extent[0].max(upright.extent[1]) <= side => upright,
@@ -123,7 +122,7 @@ impl Outline {
         }
     }
 
-    /// Turned as another is of which it is a copy, turned by an angle beyond that in the plane of the map.
+    /// Returns the outline turned like `first`, of which it is a copy at `angle` in the plane of the map.
     pub(super) fn turned_like(&self, first: &Self, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
         let turned = |[c, s]: [f64; 2]| [c * cos - s * sin, c * sin + s * cos];
@@ -135,7 +134,7 @@ impl Outline {
         self.turned(turned(first.axis)).with(straightness)
     }
 
-    /// How it is turned on the page, as far as its shape tells.
+    /// Returns its angle on the page, which copies that lie alike share.
     pub(super) fn lean(&self) -> f64 {
         self.shape.angle - self.axis[1].atan2(self.axis[0])
     }

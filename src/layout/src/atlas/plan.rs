@@ -10,10 +10,10 @@ use unwrapd_method::numerics::hull::convex_hull;
 /// The share of a page that charts are hoped to fill.
 pub(super) const HOPE: f64 = 0.75;
 
-/// Copies that lie like each other differ by less, in radians.
+/// Largest difference between the angles of copies that lie alike, in radians.
 const ALIKE: f64 = 1e-2;
 
-/// Charts for each of which a shape needs a copy at least: among many, two are equal by chance.
+/// Number of charts per copy that a shape must have: among thousands of charts, some are equal by chance.
 const CHARTS_PER_COPY: usize = 100;
 
 /// What a layout is made from.
@@ -87,7 +87,7 @@ impl Plan {
     }
 }
 
-/// Charts from the `n_level`-th on turned by `level`, but copies of one before as that is.
+/// Turns the charts from index `n_level` on: copies like the first of their kind, others by `level`.
 pub(super) fn alike(
     mut outlines: Vec<Outline>,
     n_level: usize,
@@ -105,7 +105,7 @@ pub(super) fn alike(
     outlines
 }
 
-/// Marks the charts that have copies which lie alike. Returns for each chart the first that it is such a copy of.
+/// Marks the charts that have copies. Returns the first copy of each chart, possibly itself.
 pub(super) fn mark_copies(outlines: &mut [Outline]) -> Vec<usize> {
     let kinds = kinds(outlines);
     let mut n_alike = vec![0; outlines.len()];
@@ -119,7 +119,7 @@ pub(super) fn mark_copies(outlines: &mut [Outline]) -> Vec<usize> {
     kinds
 }
 
-/// For each chart the first that it is a copy of and lies like.
+/// Returns for each chart the first copy that lies alike, possibly itself.
 fn kinds(outlines: &[Outline]) -> Vec<usize> {
     let shapes: Vec<Shape> = outlines.iter().map(|outline| outline.shape).collect();
     let lies_like = |(i, (first, _)): (usize, (usize, f64))| {

@@ -39,7 +39,7 @@ pub struct Plan {
     pub search: Search,
     /// Permitted rotations of charts.
     pub rotation: Rotation,
-    /// `true` if charts are first turned so that the top of the mesh is up.
+    /// `true` if charts are first turned so that the top of the mesh points up.
     pub is_turned_up: bool,
     /// Bits per coordinate at which the map must stay bijective.
     pub safe_bits: Option<u32>,

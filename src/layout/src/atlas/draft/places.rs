@@ -51,8 +51,8 @@ impl Draft {
         pages.filter(|page| !page.charts.is_empty()).collect()
     }
 
-    /// The charts turned, and a layout in which they lie as near to each other as they may; none where that is not found, or where
-    /// so many charts leave no room for the padding.
+    /// Returns the rotated charts and a layout that keeps exactly the padding; `None` if none is found, or if the charts leave no room
+    /// for the padding.
     pub(in crate::atlas) fn tight(
         &self,
         options: &AtlasOptions,

@@ -87,8 +87,8 @@ impl Draft {
         self.n_large + small.div_ceil(SMALL_PER_LARGE)
     }
 
-    /// Searches a fuller layout; reads about so many words, less where nothing is left to be tried. A crowd is only squeezed, for the
-    /// last look. The layout never gets worse.
+    /// Searches for a fuller layout and keeps the present one if none is found. Reads about `words` words, or fewer if nothing is left to
+    /// try. A crowd is only squeezed, at the last look.
     pub fn improve(&mut self, look: Look, words: u64, on_read: &OnRead) {
         let told = AtomicU64::new(0);
         let count = |read| {
@@ -134,7 +134,7 @@ impl Draft {
         }
     }
 
-    /// The best arrangements of annealings from several seeds while about so many words are read, the best first.
+    /// Anneals from several seeds, reading about `words` words in all; returns the best arrangements, the best first.
     fn arrangements(
         &self,
         (look, course): (Look, &Course),
