@@ -2,7 +2,8 @@
 use proptest::prelude::*;
 use std::sync::Mutex;
 use unwrapd_layout::atlas::{
-    AtlasError, AtlasOptions, ChartMap, Draft, GRID_BITS, Look, Placed, Rotation, Texture, pack,
+    AtlasError, AtlasOptions, ChartMap, CoarseLayout, Effort, GRID_BITS, Placed, Rotation, Texture,
+    pack,
 };
 use unwrapd_maps::mesh::Resolution;
 use unwrapd_maps::plane::are_disjoint;
@@ -286,9 +287,9 @@ fn more_charts_than_are_searched_are_squeezed() {
     let charts: Vec<Chart> = (0..100)
         .map(|i| blob(1.0 + f64::from(i % 9) / 3.0, 2 + i % 4, 0.3))
         .collect();
-    let fill = |search_words| {
+    let fill = |budget_words| {
         let options = AtlasOptions {
-            search_words,
+            budget_words,
             ..AtlasOptions::default()
         };
         let atlas = pack(&maps(&charts), &options).unwrap();
@@ -345,9 +346,9 @@ fn a_hole_receives_a_small_chart() {
 fn a_search_finds_what_the_first_layout_does_not() {
     // Placed by size the bars of a square of side 5 lie crosswise; every one of them fits along another.
     let charts: Vec<Chart> = [5, 4, 4, 3, 3, 2, 2, 1, 1].map(bar).into();
-    let with = |search_words| {
+    let with = |budget_words| {
         let options = AtlasOptions {
-            search_words,
+            budget_words,
             ..AtlasOptions::default()
         };
         let atlas = pack(&maps(&charts), &options).unwrap();
@@ -404,20 +405,20 @@ fn charts_of_which_one_is_enlarged_lie_on_the_raster() {
 fn a_draft_becomes_fuller_when_a_chart_is_cut() {
     let options = AtlasOptions::default();
     let whole = bar(4);
-    let mut draft = Draft::new(&maps(&[bar(1), whole, bar(1)]), &options)
+    let mut layout = CoarseLayout::new(&maps(&[bar(1), whole, bar(1)]), &options)
         .unwrap()
         .unwrap();
-    draft.improve(Look::Last, 20_000_000, &|_| Control::Continue);
+    layout.improve(Effort::High, 20_000_000, &|_| Control::Continue);
     // The bar lies across the square, whose side is 5 / √2: 6 of 12.5.
-    assert!((0.46..0.48).contains(&draft.fill()), "{}", draft.fill());
+    assert!((0.46..0.48).contains(&layout.fill()), "{}", layout.fill());
     let parts = [bar(2), bar(2)];
-    let mut cut = draft.replaced(1, &maps(&parts)).unwrap();
-    cut.improve(Look::Last, 20_000_000, &|_| Control::Continue);
+    let mut cut = layout.replaced(1, &maps(&parts)).unwrap();
+    cut.improve(Effort::High, 20_000_000, &|_| Control::Continue);
     // 6 of 9.
     assert!(cut.fill() > 0.55, "{}", cut.fill());
     let again = {
-        let mut again = draft.replaced(1, &maps(&parts)).unwrap();
-        again.improve(Look::Last, 20_000_000, &|_| Control::Continue);
+        let mut again = layout.replaced(1, &maps(&parts)).unwrap();
+        again.improve(Effort::High, 20_000_000, &|_| Control::Continue);
         again.fill()
     };
     assert!(again == cut.fill());
@@ -426,11 +427,11 @@ fn a_draft_becomes_fuller_when_a_chart_is_cut() {
 #[test]
 fn a_search_ends_when_all_has_been_tried() {
     let squares = [bar(1), bar(1)];
-    let draft = Draft::new(&maps(&squares), &AtlasOptions::default()).unwrap();
+    let layout = CoarseLayout::new(&maps(&squares), &AtlasOptions::default()).unwrap();
     let told = Mutex::new(Vec::new());
-    draft
+    layout
         .unwrap()
-        .improve(Look::First, 1_000_000_000, &|words| {
+        .improve(Effort::Low, 1_000_000_000, &|words| {
             told.lock().unwrap().push(words);
             Control::Continue
         });
@@ -451,8 +452,8 @@ fn crowds_and_needles_have_no_draft() {
         vec![[0, 1, 2]],
     ));
     for charts in [crowd, vec![needle], long] {
-        let draft = Draft::new(&maps(&charts), &AtlasOptions::default());
-        assert!(draft.unwrap().is_none());
+        let layout = CoarseLayout::new(&maps(&charts), &AtlasOptions::default());
+        assert!(layout.unwrap().is_none());
     }
 }
 
@@ -687,8 +688,8 @@ fn what_leans_can_be_laid_straight() {
     };
     let straightened = |corners: u32| {
         let charts = [polygon(corners), polygon(corners)];
-        let draft = Draft::new(&maps(&charts), &AtlasOptions::default());
-        draft.expect("charts").expect("few").straightened()
+        let layout = CoarseLayout::new(&maps(&charts), &AtlasOptions::default());
+        layout.expect("charts").expect("few").straightened()
     };
     // All of a square runs along two directions anyway, of a hexagon a third, of a round chart next to nothing.
     assert!(straightened(4).is_none());

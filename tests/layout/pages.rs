@@ -33,7 +33,7 @@ fn options(width: u32, height: u32, pages: u32) -> AtlasOptions {
             resolution: Resolution { width, height },
             pages,
         },
-        search_words: 2_000_000,
+        budget_words: 2_000_000,
         ..AtlasOptions::default()
     }
 }
@@ -124,7 +124,7 @@ fn the_page_that_grows_most_decides_how_far_charts_are_apart_on_all() {
         let charts = fans(n);
         let options = AtlasOptions {
             padding_texels: 16,
-            search_words: 20_000_000,
+            budget_words: 20_000_000,
             ..options(512, 512, pages)
         };
         let atlas = pack(&maps(&charts), &options).expect("a layout");
@@ -193,7 +193,7 @@ fn a_scale_that_one_placement_misses_is_searched_and_squeezed_for() {
     let charts = fans(9);
     for pages in [1, 2] {
         let largest = AtlasOptions {
-            search_words: 50_000_000,
+            budget_words: 50_000_000,
             ..options(512, 512, pages)
         };
         let fullest = pack(&maps(&charts), &largest).expect("a layout");

@@ -1,19 +1,25 @@
-//! Charts packed around others that stay where they are.
+//! Charts packed around islands that stay in place.
 //!
-//! The cells of those that stay are taken before the first chart is placed; nothing else is known of them. The pages are used as
-//! they are, so that only the scale of the others is searched for: the largest at which each finds a place, in an order that is
-//! searched for, too.
-use super::attempt::{Extent, Packing, SLACK};
-use super::largest::placed;
-use super::layout::{Layout, padding, raster};
-use super::outline::outlines;
-use super::pack::{self, is_cramped, snapped};
-use super::plan::Plan;
-use super::sheet::Sheet;
-use super::snap::Repair;
-use super::stay::{AroundError, Stay};
-use super::stays::{Staying, too_near};
-use super::{Atlas, AtlasOptions, ChartMap, GRID_SIDE, OnRead, Rotation, doubled_area};
+//! The cells of the islands are occupied before the first chart is placed. Pages keep their size, so the search is for the largest
+//! scale of the other charts at which each finds a place, and for an order of the charts that allows it.
+use thiserror::Error;
+
+use super::grid::{Repair, Snapped, snapped};
+use super::layout::{Attempt, Extent, Layout, Packing, SLACK, padding, raster};
+use super::mask::{Distances, Mask, Rounding, Run};
+use super::occupancy::Occupancy;
+use super::outline::{Outline, outlines};
+use super::pack::{self, is_cramped, on_grid};
+use super::page::Texture;
+use super::plan::{HOPE, Plan, QuarterTurns};
+use super::{
+    Atlas, AtlasError, AtlasOptions, ChartMap, GRID_SIDE, OnRead, Placed, Rotation, Scale,
+    doubled_area,
+};
+use unwrapd_maps::plane::{BoxIndex, search_budget, segment_distance};
+use unwrapd_method::numerics::bounds::{Bounds, bounds_of, touch, widened};
+use unwrapd_method::numerics::random::Random;
+use unwrapd_method::solver::Control;
 
 /// Cells by which the used part of a page is rounded down at most, and one more.
 const FRAME: u32 = 4;
@@ -100,7 +106,7 @@ fn around(
         } else {
             Repair::Nothing
         };
-        let snapped = snapped(charts, &plan.outlines, &layout, repair);
+        let snapped = on_grid(charts, &plan.outlines, &layout, repair);
         if repair == Repair::Nothing || !is_cramped(&snapped, &layout, &mut slack) {
             return Ok(pack::atlas(charts, &layout, &slack, snapped, options));
         }
@@ -109,14 +115,319 @@ fn around(
 }
 
 /// Pages on which the cells of charts that stay are taken.
-fn taken(packing: &Packing, staying: &[Staying]) -> Sheet {
+fn taken(packing: &Packing, staying: &[Staying]) -> Occupancy {
     let whole = packing.whole();
     // Charts that stay may reach into the borders, which are free of others.
     let frame = (packing.reach() + packing.border).ceil() as u32 + FRAME;
-    let mut sheet = Sheet::new(packing.form(), whole, frame, whole);
+    let mut occupancy = Occupancy::new(packing.form(), whole, frame, whole);
     for chart in staying {
         let (body, corner) = chart.body(packing.texture, packing.cells, packing.border);
-        sheet.cover(&body, chart.page, corner);
+        occupancy.cover(&body, chart.page, corner);
     }
-    sheet
+    occupancy
+}
+
+/// A chart that stays where it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Stay<'a> {
+    /// Its map, of which the unit is the longer side of a page and the origin the lower left corner of the first.
+    pub map: ChartMap<'a>,
+    /// What it is a part of: parts of one island keep no distance.
+    pub island: usize,
+}
+
+/// Why charts cannot be packed around others.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum AroundError {
+    /// One that stays leaves the page that its middle is on, or all pages.
+    #[error("island {island} leaves its page")]
+    OffPage {
+        /// The island.
+        island: usize,
+    },
+    /// Two that stay are nearer than the padding, or overlap.
+    #[error("islands {} and {} are {texels} texels apart", islands[0], islands[1])]
+    TooNear {
+        /// Both.
+        islands: [usize; 2],
+        /// Their distance; 0 where they overlap.
+        texels: f64,
+    },
+    /// The others do not fit around those that stay.
+    #[error("the other charts do not fit")]
+    NoRoom,
+    /// The charts cannot be placed at all.
+    #[error(transparent)]
+    Atlas(#[from] AtlasError),
+}
+
+/// Scales tried after the first at which the charts fit.
+const ATTEMPTS: usize = 12;
+/// The search ends when the largest scale and one that failed are as near as this.
+const NEAR: f64 = 1.003;
+/// By how much the scale grows as long as the charts fit.
+const LARGER: f64 = 1.15;
+/// By how much the scale shrinks where they do not, at most and at least.
+const SMALLER: [f64; 2] = [0.5, 0.95];
+/// The share of what area allows from which on a scale is too small to be of use: there is no room.
+const LEAST: f64 = 0.01;
+/// The share of the pages that is hoped to be free at least.
+const LEAST_FREE: f64 = 1e-3;
+/// By how much the scale grows with each order that allows it, and how many in vain end the search.
+const GROWTH: f64 = 1.004;
+const MOST_IDLE: u64 = 100;
+const SEED: u64 = 1;
+
+/// The scale, in cells per mesh unit, and a place for every chart; none where one finds none.
+pub(super) fn placed(
+    packing: &Packing,
+    staying: &[Staying],
+    options: &AtlasOptions,
+) -> Option<(f64, Attempt)> {
+    let cells = f64::from(packing.cells);
+    if packing.plan.order.is_empty() {
+        // The unit of what stays is that of a page.
+        return Some((cells, packing.attempt(cells, &mut 0).ok()?));
+    }
+    match options.scale {
+        Scale::Largest => {
+            let found = largest(packing, staying, options.budget_words)?;
+            Some(grown(packing, found, options))
+        }
+        Scale::TexelsPerUnit(texels) => {
+            let scale = texels * cells / f64::from(options.texture.resolution.longer());
+            Some((scale, packing.attempt(scale, &mut 0).ok()?))
+        }
+    }
+}
+
+/// The same at the largest scale that is found.
+fn largest(packing: &Packing, staying: &[Staying], budget_words: u64) -> Option<(f64, Attempt)> {
+    let texture = packing.texture;
+    let pages = f64::from(texture.pages) * texture.share();
+    let taken: f64 = staying.iter().map(|chart| chart.outline.size.powi(2)).sum();
+    let free = (pages - taken).max(LEAST_FREE * pages) * f64::from(packing.cells).powi(2);
+    let most = (free / packing.plan.area()).sqrt();
+    // Charts without area: at this scale the longest is as long as a page.
+    let most = if most.is_finite() {
+        most
+    } else {
+        f64::from(packing.cells) / packing.plan.longest().max(1.0 / f64::from(packing.cells))
+    };
+    let mut scale = HOPE.sqrt() * most;
+    let mut best: Option<(f64, Attempt)> = None;
+    let (mut failed, mut work, mut tried) = (f64::INFINITY, 0, 0);
+    while scale >= LEAST * most {
+        match packing.attempt(scale, &mut work) {
+            Ok(attempt) => best = Some((scale, attempt)),
+            Err(share) => {
+                failed = scale;
+                scale *= share.sqrt().clamp(SMALLER[0], SMALLER[1]);
+            }
+        }
+        if let Some((good, _)) = best {
+            let is_ended = (packing.on_read)(0) == Control::Finish || work > budget_words;
+            if is_ended || tried == ATTEMPTS || failed < good * NEAR {
+                break;
+            }
+            tried += 1;
+            scale = if failed.is_finite() {
+                (good * failed).sqrt()
+            } else {
+                LARGER * good
+            };
+        }
+    }
+    best
+}
+
+/// The same at a larger scale, if another order or other quarter turns are found by chance that allow it; a crowd hardly gains by
+/// that.
+fn grown(
+    packing: &Packing,
+    (mut scale, mut best): (f64, Attempt),
+    options: &AtlasOptions,
+) -> (f64, Attempt) {
+    let n = packing.plan.order.len();
+    let mut plan = packing.plan.clone();
+    let mut random = Random::new(SEED);
+    let (mut work, mut idle) = (0, 0);
+    let most_idle = MOST_IDLE * options.patience;
+    while n > 1 && !packing.is_crowded() && idle < most_idle && work < options.budget_words {
+        if (packing.on_read)(0) == Control::Finish {
+            break;
+        }
+        let mut trial = plan.clone();
+        let [i, j] = [random.below(n), random.below(n)];
+        match random.below(3) {
+            0 => trial.order.swap(i, j),
+            1 => {
+                let chart = trial.order.remove(i);
+                trial.order.insert(j, chart);
+            }
+            _ => {
+                let turns = match options.rotation {
+                    Rotation::Any | Rotation::Quarter => random.below(4) as u32,
+                    Rotation::None => 0,
+                };
+                trial.turns[trial.order[i]] = QuarterTurns::Only(turns);
+            }
+        }
+        let tried = Packing {
+            plan: &trial,
+            ..*packing
+        };
+        match tried.attempt(GROWTH * scale, &mut work) {
+            Ok(attempt) => {
+                (scale, best, plan, idle) = (GROWTH * scale, attempt, trial, 0);
+            }
+            Err(_) => idle += 1,
+        }
+    }
+    (scale, best)
+}
+
+/// How far a chart may reach beyond its page, in units of u and v: less than half a step of the grid, so that it does not when it is
+/// rounded.
+const BEYOND: f64 = 1.0 / 33_554_432.0;
+/// What rounding may take of a distance, in longer sides of a page.
+const ROUNDED: f64 = 1e-9;
+
+/// A chart that stays on its page.
+pub(super) struct Staying {
+    pub page: u32,
+    /// In longer sides of a page, from the lower left corner of the first one.
+    pub outline: Outline,
+    island: usize,
+    bounds: Bounds,
+    snapped: Snapped,
+}
+
+impl Staying {
+    /// All of them, each within its page.
+    pub(super) fn all(stays: &[Stay], texture: Texture) -> Result<Vec<Self>, AroundError> {
+        let maps: Vec<ChartMap> = stays.iter().map(|stay| stay.map).collect();
+        let outlined = outlines(&maps)?.into_iter().zip(stays);
+        let staying = outlined.map(|(outline, stay)| {
+            let corners: Vec<[f64; 2]> = outline.corners().collect();
+            let bounds = bounds_of(&corners);
+            let outline = outline.with_corner([0.0; 2]);
+            let island = stay.island;
+            let page = page(bounds, texture).ok_or(AroundError::OffPage { island })?;
+            let snapped = snapped(&stay.map, &outline, texture.grid_side(), Repair::Open);
+            Ok(Self {
+                page,
+                outline,
+                island,
+                bounds,
+                snapped,
+            })
+        });
+        staying.collect()
+    }
+
+    /// The cells that it touches on its page, and the place of the lower left one, counted from where borders of so many cells end.
+    pub(super) fn body(&self, texture: Texture, cells: u32, border: f64) -> (Vec<Run>, [i64; 2]) {
+        let cells = f64::from(cells);
+        let around = (self.snapped.largest_move + 1.0) * cells / texture.grid_side();
+        let left = [f64::from(self.page) * texture.resolution.sides()[0], 0.0];
+        let first = |k: usize| ((self.bounds[0][k] - left[k]) * cells - border - around).floor();
+        let first = [0, 1].map(first);
+        let corner = |k: usize| left[k] + (first[k] + border + around) / cells;
+        let outline = self.outline.with_corner([0, 1].map(corner));
+        let distances = Distances {
+            around,
+            padding: 0.0,
+            rounding: Rounding::Outward,
+        };
+        let mask = Mask::new(&outline, cells, distances);
+        (mask.body.runs(), first.map(|x| x as i64))
+    }
+
+    /// Where it lies, on the grid.
+    pub(super) fn placed(self, texture: Texture) -> Placed {
+        let on_page = |point| texture.on_page(0, point);
+        Placed {
+            grid: self.snapped.grid.into_iter().map(on_page).collect(),
+        }
+    }
+
+    /// Whether a corner of another one lies inside.
+    fn covers(&self, other: &Self) -> bool {
+        let Some([x, y]) = other.outline.corners().next() else {
+            return false;
+        };
+        let is_near = touch(&self.bounds, &[[x, y], [x, y]]);
+        let crossings = self.outline.edges().map(|[p, q]| {
+            // To the right of the point, upward and downward.
+            let is_left =
+                |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]) * (y - p[1]) > (q[1] - p[1]) * (x - p[0]);
+            match (p[1] <= y, q[1] <= y) {
+                (true, false) => i32::from(is_left(p, q)),
+                (false, true) => -i32::from(!is_left(p, q)),
+                _ => 0,
+            }
+        });
+        is_near && crossings.sum::<i32>() != 0
+    }
+}
+
+/// The page that a box lies on.
+fn page([low, high]: Bounds, texture: Texture) -> Option<u32> {
+    let sides = texture.resolution.sides();
+    let page = (f64::midpoint(low[0], high[0]) / sides[0]).floor();
+    let left = [page * sides[0], 0.0];
+    let is_inside = |k: usize| {
+        let beyond = BEYOND * sides[k];
+        low[k] >= left[k] - beyond && high[k] <= left[k] + sides[k] + beyond
+    };
+    let is_page = page >= 0.0 && page < f64::from(texture.pages);
+    (is_page && is_inside(0) && is_inside(1)).then_some(page as u32)
+}
+
+/// The two islands that are nearest to each other of those nearer than `gap`, and their distance: 0 where they overlap.
+pub(super) fn too_near(charts: &[Staying], gap: f64) -> Option<([usize; 2], f64)> {
+    let mut edges = Vec::new();
+    let mut owners = Vec::new();
+    for (owner, chart) in charts.iter().enumerate() {
+        edges.extend(chart.outline.edges());
+        owners.resize(edges.len(), owner);
+    }
+    let boxes: Vec<Bounds> = (edges.iter())
+        .map(|edge| widened(bounds_of(edge), gap / 2.0))
+        .collect();
+    let mut nearest: Option<(f64, [usize; 2])> = None;
+    let mut found = |distance: f64, a: usize, b: usize| {
+        let [a, b] = [a, b].map(|owner| charts[owner].island);
+        let new = (distance, [a.min(b), a.max(b)]);
+        if a != b && nearest.is_none_or(|known| new < known) {
+            nearest = Some(new);
+        }
+    };
+    // Should the search end early, for charts that lie in heaps, the certificate tells.
+    BoxIndex::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
+        let [a, b] = [i, j].map(|edge| owners[edge as usize]);
+        if charts[a].island != charts[b].island {
+            let distance = segment_distance(edges[i as usize], edges[j as usize]);
+            if distance < gap - ROUNDED || distance <= 0.0 {
+                found(distance, a, b);
+            }
+        }
+    });
+    for (a, b) in pairs(charts) {
+        if charts[a].covers(&charts[b]) || charts[b].covers(&charts[a]) {
+            found(0.0, a, b);
+        }
+    }
+    nearest.map(|(distance, islands)| (islands, distance))
+}
+
+/// Charts whose boxes meet.
+fn pairs(charts: &[Staying]) -> Vec<(usize, usize)> {
+    let boxes: Vec<Bounds> = charts.iter().map(|chart| chart.bounds).collect();
+    let mut pairs = Vec::new();
+    BoxIndex::new(&boxes).pairs(search_budget(boxes.len()), |a, b| {
+        pairs.push((a as usize, b as usize));
+    });
+    pairs
 }

@@ -6,6 +6,7 @@
 //! Rotated back by this angle, all copies have the same moments. Mirrored copies have the conjugate ones: they are another shape.
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
+
 use unwrapd_maps::plane::Segment;
 
 /// Number of moments. The last gives the angle of an octagon.

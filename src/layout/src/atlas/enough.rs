@@ -1,14 +1,12 @@
 //! What would do where charts do not fit at the scale that is asked for.
-
 use std::fmt;
 
-use super::attempt::SLACK;
-use super::draft::Draft;
-use super::layout::layout;
+use super::coarse::CoarseLayout;
+use super::layout::{SLACK, layout};
 use super::outline::outlines;
 use super::pack::{best, searched};
+use super::page::Texture;
 use super::plan::Plan;
-use super::texture::Texture;
 use super::{AtlasError, AtlasOptions, Borders, ChartMap, Scale, UNHEARD};
 use unwrapd_maps::mesh::Resolution;
 
@@ -53,9 +51,9 @@ pub fn enough(charts: &[ChartMap], options: &AtlasOptions) -> Result<Enough, Atl
     };
     let slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
-    let draft = Draft::new(charts, &largest)?;
-    let draft = searched(draft.as_ref(), &largest, UNHEARD);
-    let fullest = best(&first, draft.as_ref(), &slack, &largest, UNHEARD);
+    let coarse = CoarseLayout::new(charts, &largest)?;
+    let coarse = searched(coarse.as_ref(), &largest, UNHEARD);
+    let fullest = best(&first, coarse.as_ref(), &slack, &largest, UNHEARD);
     let longer = f64::from(options.texture.resolution.longer());
     let reached = |scale: f64| scale / options.texture.grid_side() * longer;
     Ok(Enough {

@@ -1,13 +1,15 @@
 //! Charts on a raster of square cells.
 //!
-//! The *body* is every cell a triangle touches. The *reach* is every cell within the padding of
-//! the chart (a disk, not a box). Two charts keep their distance when the reach of one meets no
-//! cell of the other's body: each point of the second then lies in a cell that is farther away.
+//! The *body* is every cell a triangle touches. The *reach* is every cell within the padding of the chart (a disk, not a box). Two
+//! charts keep their distance if the reach of one meets no cell of the body of the other: each point of the second then lies in a cell
+//! that is farther away.
 //!
-//! On a coarse raster that keeps charts half a cell too far apart on average, which is more than the best layouts of the
-//! raster differ by. [`Rounding::Nearest`] keeps them as far apart as they must be on average: they may overlap a
-//! little, and whoever uses it has to push them apart.
-use super::bitmap::{Bitmap, Run};
+//! On a coarse raster, this keeps charts half a cell too far apart on average, more than the best layouts differ by.
+//! [`Rounding::Nearest`] keeps them at the right distance on average. They may then overlap a little, and the caller has to separate
+//! them.
+//!
+//! Bitmaps hold 64 cells in a machine word. [`Turned`] is a mask after quarter turns, as the search for a free place reads it.
+use super::occupancy::Probe;
 use super::outline::Outline;
 
 /// One chart's cells at one scale.
@@ -206,4 +208,188 @@ impl Range {
             self.add(center[0] + half);
         }
     }
+}
+
+/// Cells `start..end` of one row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Run {
+    pub row: u32,
+    pub start: u32,
+    pub end: u32,
+}
+
+/// A block of cells.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Bitmap {
+    pub width: u32,
+    pub height: u32,
+    words: usize,
+    bits: Vec<u64>,
+}
+
+impl Bitmap {
+    pub(super) fn new(width: u32, height: u32) -> Self {
+        let words = width.div_ceil(64) as usize;
+        Self {
+            width,
+            height,
+            words,
+            bits: vec![0; words * height as usize],
+        }
+    }
+
+    /// Sets the cells of a run.
+    pub(super) fn set(&mut self, run: Run) {
+        let row = &mut self.bits[run.row as usize * self.words..][..self.words];
+        set_bits(row, run.start, run.end);
+    }
+
+    /// A quarter turn counter-clockwise: (x, y) goes to (height − 1 − y, x).
+    ///
+    /// In blocks of 64 by 64 cells: rows are taken from the top down and transposed.
+    pub(super) fn quarter_turn(&self) -> Self {
+        let mut out = Self::new(self.height, self.width);
+        for column in 0..out.words {
+            for word in 0..self.words {
+                let mut block = [0; 64];
+                for (i, row) in (64 * column..self.height as usize).take(64).enumerate() {
+                    block[i] = self.bits[(self.height as usize - 1 - row) * self.words + word];
+                }
+                transpose(&mut block);
+                for (i, row) in (64 * word..self.width as usize).take(64).enumerate() {
+                    out.bits[row * out.words + column] = block[i];
+                }
+            }
+        }
+        out
+    }
+
+    /// All runs, row by row.
+    pub(super) fn runs(&self) -> Vec<Run> {
+        let mut runs = Vec::new();
+        for row in 0..self.height {
+            let words = &self.bits[row as usize * self.words..][..self.words];
+            let mut end = 0;
+            loop {
+                let start = next(words, end, 0).min(self.width);
+                end = next(words, start, u64::MAX).min(self.width);
+                if start >= end {
+                    break;
+                }
+                runs.push(Run { row, start, end });
+            }
+        }
+        runs
+    }
+}
+
+/// First place from `x` on whose bit differs from those of `ground`.
+fn next(words: &[u64], x: u32, ground: u64) -> u32 {
+    let mut keep = u64::MAX << (x % 64);
+    for (i, word) in words.iter().enumerate().skip((x / 64) as usize) {
+        let differs = (word ^ ground) & keep;
+        if differs != 0 {
+            return 64 * i as u32 + differs.trailing_zeros();
+        }
+        keep = u64::MAX;
+    }
+    u32::MAX
+}
+
+/// Sets bits `start..end`.
+pub(super) fn set_bits(words: &mut [u64], start: u32, end: u32) {
+    for (i, word) in words
+        .iter_mut()
+        .enumerate()
+        .take(end.div_ceil(64) as usize)
+        .skip((start / 64) as usize)
+    {
+        let first = start.saturating_sub(64 * i as u32).min(63);
+        let last = (end - 64 * i as u32).min(64);
+        *word |= u64::MAX >> (64 - last) & u64::MAX << first;
+    }
+}
+
+/// Exchanges rows and columns: bit j of word i goes to bit i of word j.
+///
+/// Halves of the block are exchanged, then halves of each quarter, and so on (Warren, Hacker's Delight, 7-3).
+fn transpose(block: &mut [u64; 64]) {
+    let (mut size, mut low) = (32, u64::MAX >> 32);
+    while size > 0 {
+        for i in (0..64).filter(|i| i & size == 0) {
+            let swapped = (block[i] >> size ^ block[i + size]) & low;
+            block[i] ^= swapped << size;
+            block[i + size] ^= swapped;
+        }
+        size /= 2;
+        low ^= low << size;
+    }
+}
+
+/// One of the four turned versions of a mask, with what its reach wants free in the order of the test.
+pub(super) struct Turned {
+    pub turns: u32,
+    pub body: Vec<Run>,
+    /// Width and height, in cells.
+    pub size: [u32; 2],
+    pub reach: Vec<Run>,
+    pub probes: Vec<Probe>,
+    pub margin: u32,
+}
+
+impl Turned {
+    /// The mask after so many quarter turns.
+    pub(super) fn new(mask: Mask, turns: u32) -> Self {
+        let turned = (0..turns).fold(mask, |mask, _| mask.quarter_turn());
+        Self::of(&turned, turns)
+    }
+
+    /// Whether both take the same cells and keep the same ones free.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        self.size == other.size && self.body == other.body && self.reach == other.reach
+    }
+
+    /// The quarter turns that differ: four, or one of a square.
+    pub(super) fn all(mask: Mask) -> Vec<Self> {
+        let mut masks = vec![mask];
+        for turns in 1..4 {
+            let turned = masks[turns - 1].quarter_turn();
+            if turned == masks[0] {
+                break;
+            }
+            masks.push(turned);
+        }
+        let turned = masks.into_iter().zip(0..);
+        turned.map(|(mask, turns)| Self::of(&mask, turns)).collect()
+    }
+
+    fn of(turned: &Mask, turns: u32) -> Self {
+        let reach = scattered(turned.reach.runs());
+        Self {
+            turns,
+            probes: Probe::of(&reach),
+            reach,
+            body: turned.body.runs(),
+            size: [turned.body.width, turned.body.height],
+            margin: turned.margin,
+        }
+    }
+}
+
+/// The longest run first, then runs far from each other before their neighbors: an occupied place
+/// is found out early.
+fn scattered(mut runs: Vec<Run>) -> Vec<Run> {
+    let bits = usize::BITS - runs.len().leading_zeros();
+    let mut keyed: Vec<(usize, Run)> = runs
+        .drain(..)
+        .enumerate()
+        .map(|(i, run)| (i.reverse_bits() >> (usize::BITS - bits.max(1)), run))
+        .collect();
+    keyed.sort_unstable_by_key(|&(key, _)| key);
+    let mut runs: Vec<Run> = keyed.into_iter().map(|(_, run)| run).collect();
+    let longest = (0..runs.len()).max_by_key(|&i| (runs[i].end - runs[i].start, usize::MAX - i));
+    if let Some(longest) = longest {
+        runs.swap(0, longest);
+    }
+    runs
 }

@@ -1,7 +1,7 @@
 //! Charts placed on the pages of a texture, on an integer grid.
 //!
 //! Chart maps arrive in mesh units, all at one density. The order in which they are placed and the
-//! angle of each are searched on a coarse raster, a [`Draft`]. All charts of a page are then moved and turned at
+//! angle of each are searched on a coarse raster, a [`CoarseLayout`]. All charts of a page are then moved and turned at
 //! once until the page gets no smaller, and their distances are measured. Where there are many charts, and
 //! where that fails, they are packed at one scale by a conservative raster, with a gap that is counted in texels. Every
 //! vertex is rounded to a multiple of 2⁻²³, which `f32` holds exactly. Rounding may take the area of
@@ -18,55 +18,34 @@
 //!
 //! Charts are never mirrored. None is scaled against the others, except those so small (below a
 //! texel) that the grid has fewer than a handful of cells for each of their triangles.
-mod align;
 mod around;
-mod arrangement;
-mod attempt;
-mod bitmap;
-mod clear;
+mod coarse;
 mod copies;
-mod draft;
+mod effort;
 mod enough;
-mod largest;
+mod gap;
+mod grid;
 mod layout;
 mod mask;
-mod orientation;
+mod occupancy;
 mod outline;
 mod pack;
+mod page;
 mod plan;
-mod poses;
-mod probe;
-mod read_limit;
 mod relax;
-mod row;
-mod sheet;
-mod snap;
-mod spot;
 mod squeeze;
-mod stay;
-mod stays;
-mod texture;
-mod tight;
-mod turned;
-
-pub use around::pack_around;
-pub use clear::cleared;
-pub use draft::{Draft, Look};
-pub use enough::{Enough, enough};
-pub use pack::{fits, pack, pack_draft};
-pub use stay::{AroundError, Stay};
-pub use texture::Texture;
-
-/// Is told how many words a search has read since it was told last, from several threads at once.
-/// [`Control::Finish`] ends the search with what it has found.
-pub type OnRead<'a> = dyn Fn(u64) -> Control + Sync + 'a;
-
-/// Neither listens nor interferes.
-pub(crate) const UNHEARD: &OnRead<'static> = &|_| Control::Continue;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use unwrapd_method::solver::Control;
+
+pub use around::{AroundError, Stay, pack_around};
+pub use coarse::CoarseLayout;
+pub(crate) use effort::UNHEARD;
+pub use effort::{Effort, OnRead};
+pub use enough::{Enough, enough};
+pub use pack::{fits, pack, pack_coarse};
+pub use page::Texture;
+pub use relax::cleared;
 
 /// Atlas coordinates are integers, the side of a page is 2^GRID_BITS: in the unit square those are the steps `f32` represents.
 pub const GRID_BITS: u32 = 23;
@@ -133,7 +112,7 @@ pub struct AtlasOptions {
     /// Multiple of the usual effort of the search for the best order and angles, which depends on the number of charts.
     pub patience: u64,
     /// Words that the search may read at most, about 3·10⁸ a second; a layout is found in any case.
-    pub search_words: u64,
+    pub budget_words: u64,
     /// Cells along the side of the raster on which a few charts are placed, at most: on fewer they are placed sooner and less full.
     pub most_cells: u32,
 }
@@ -147,7 +126,7 @@ impl Default for AtlasOptions {
             rotation: Rotation::Any,
             borders: Borders::Free,
             patience: 1,
-            search_words: 500_000_000,
+            budget_words: 500_000_000,
             most_cells: u32::MAX,
         }
     }
@@ -158,7 +137,7 @@ impl AtlasOptions {
     fn packed_texels(&self) -> u32 {
         match self.borders {
             Borders::Free => self.padding_texels,
-            Borders::OnTexels => self.padding_texels + align::ROOM_TEXELS,
+            Borders::OnTexels => self.padding_texels + grid::ROOM_TEXELS,
         }
     }
 }

@@ -1,16 +1,15 @@
 //! From chart maps to their places on the grid.
 use rayon::prelude::*;
 
-use super::align::aligned;
-use super::attempt::SLACK;
-use super::draft::{Draft, Look};
-use super::layout::{self, Layout};
+use super::coarse::CoarseLayout;
+use super::effort::{Effort, UNHEARD};
+use super::grid::{Repair, Snapped, aligned, snapped};
+use super::layout::{self, Layout, SLACK};
+use super::occupancy::{Corner, Spot};
 use super::outline::{Outline, outlines};
 use super::plan::Plan;
-use super::snap::{self, Repair, Snapped};
-use super::spot::{Corner, Spot};
 use super::{
-    Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, OnRead, Placed, Scale, UNHEARD,
+    Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, OnRead, Placed, Scale,
     doubled_area,
 };
 
@@ -23,42 +22,42 @@ const ROUNDS: usize = 6;
 /// it. Such a chart, and one that has flipped or degenerate triangles as given, is rounded without repair. The same input gives
 /// the same atlas for any number of threads.
 pub fn pack(charts: &[ChartMap], options: &AtlasOptions) -> Result<Atlas, AtlasError> {
-    let draft = Draft::new(charts, options)?;
-    pack_draft(charts, draft.as_ref(), options, UNHEARD)
+    let coarse = CoarseLayout::new(charts, options)?;
+    pack_coarse(charts, coarse.as_ref(), options, UNHEARD)
 }
 
-/// As [`pack`], from a draft of the layout; without one the largest chart is placed first, and so on. A scale that is given is
+/// As [`pack`], from a coarse of the layout; without one the largest chart is placed first, and so on. A scale that is given is
 /// tried in that way at first.
-pub fn pack_draft(
+pub fn pack_coarse(
     charts: &[ChartMap],
-    draft: Option<&Draft>,
+    coarse: Option<&CoarseLayout>,
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Result<Atlas, AtlasError> {
     let mut slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
-    let (draft, found) = match options.scale {
-        Scale::Largest => (searched(draft, options, on_read), None),
+    let (coarse, found) = match options.scale {
+        Scale::Largest => (searched(coarse, options, on_read), None),
         Scale::TexelsPerUnit(_) => match layout::layout(&first, &slack, options, on_read) {
             Some(layout) => (None, Some((first.clone(), layout))),
-            None => (searched(draft, options, on_read), None),
+            None => (searched(coarse, options, on_read), None),
         },
     };
     let tight = match found {
-        None => draft
+        None => coarse
             .as_ref()
-            .and_then(|draft| draft.tight(options, on_read)),
+            .and_then(|coarse| coarse.with_exact_gap(options, on_read)),
         Some(_) => None,
     };
     // The order of a crowd is not searched: placing the largest charts first may be fuller.
-    let is_crowd = draft.as_ref().is_some_and(Draft::is_crowded);
+    let is_crowd = coarse.as_ref().is_some_and(CoarseLayout::is_crowded);
     let found = found.or_else(|| {
         (is_crowd || tight.is_none())
-            .then(|| best(&first, draft.as_ref(), &slack, options, on_read))?
+            .then(|| best(&first, coarse.as_ref(), &slack, options, on_read))?
     });
     let is_fuller = |scale: f64| found.as_ref().is_none_or(|(_, found)| scale > found.scale);
     if let Some((outlines, layout)) = tight.filter(|(_, tight)| is_fuller(tight.scale)) {
-        let snapped = snapped(charts, &outlines, &layout, Repair::Open);
+        let snapped = on_grid(charts, &outlines, &layout, Repair::Open);
         if !is_cramped(&snapped, &layout, &mut slack.clone()) {
             return Ok(atlas(charts, &layout, &slack, snapped, options));
         }
@@ -69,16 +68,16 @@ pub fn pack_draft(
         },
         Scale::TexelsPerUnit(_) => AtlasError::TextureTooSmall,
     };
-    let found = found.or_else(|| best(&first, draft.as_ref(), &slack, options, on_read));
+    let found = found.or_else(|| best(&first, coarse.as_ref(), &slack, options, on_read));
     let (plan, mut layout) = found.ok_or_else(|| none.clone())?;
     for _ in 0..ROUNDS {
-        let snapped = snapped(charts, &plan.outlines, &layout, Repair::Open);
+        let snapped = on_grid(charts, &plan.outlines, &layout, Repair::Open);
         if !is_cramped(&snapped, &layout, &mut slack) {
             return Ok(atlas(charts, &layout, &slack, snapped, options));
         }
         layout = layout::layout(&plan, &slack, options, on_read).ok_or_else(|| none.clone())?;
     }
-    let rounded = snapped(charts, &plan.outlines, &layout, Repair::Nothing);
+    let rounded = on_grid(charts, &plan.outlines, &layout, Repair::Nothing);
     Ok(atlas(charts, &layout, &slack, rounded, options))
 }
 
@@ -106,46 +105,47 @@ pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasEr
     )
 }
 
-/// Returns the draft after a search, which is made here unless it was made before.
+/// Returns the coarse after a search, which is made here unless it was made before.
 pub(super) fn searched(
-    draft: Option<&Draft>,
+    coarse: Option<&CoarseLayout>,
     options: &AtlasOptions,
     on_read: &OnRead,
-) -> Option<Draft> {
-    let mut draft = draft?.clone();
-    if draft.is_searched() {
-        return Some(draft);
+) -> Option<CoarseLayout> {
+    let mut coarse = coarse?.clone();
+    if coarse.is_searched() {
+        return Some(coarse);
     }
-    let words = options.patience * Look::Last.words(draft.n_charts());
-    let improve =
-        |draft: &mut Draft| draft.improve(Look::Last, words.min(options.search_words), on_read);
-    improve(&mut draft);
+    let words = options.patience * Effort::High.words(coarse.n_charts());
+    let improve = |coarse: &mut CoarseLayout| {
+        coarse.improve(Effort::High, words.min(options.budget_words), on_read);
+    };
+    improve(&mut coarse);
     // At a given scale, a little less fill may be too little.
-    let straight = draft
+    let straight = coarse
         .straightened()
         .filter(|_| options.scale == Scale::Largest);
     if let Some(mut straight) = straight {
         improve(&mut straight);
-        if straight.fill() >= draft.fill() - Draft::STRAIGHT {
+        if straight.fill() >= coarse.fill() - CoarseLayout::STRAIGHT {
             return Some(straight);
         }
     }
-    Some(draft)
+    Some(coarse)
 }
 
 /// The plan whose layout has the largest scale: the one given, or what a search made of it.
 pub(super) fn best(
     first: &Plan,
-    draft: Option<&Draft>,
+    coarse: Option<&CoarseLayout>,
     slack: &[f64],
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Option<(Plan, Layout)> {
-    let searched = draft.filter(|draft| !draft.is_crowded());
-    let mut plans: Vec<Plan> = searched.map(Draft::plan).into_iter().collect();
+    let searched = coarse.filter(|coarse| !coarse.is_crowded());
+    let mut plans: Vec<Plan> = searched.map(CoarseLayout::plan).into_iter().collect();
     plans.push(first.clone());
     let shared = AtlasOptions {
-        search_words: options.search_words / 2 / plans.len() as u64,
+        budget_words: options.budget_words / 2 / plans.len() as u64,
         ..options.clone()
     };
     let layouts: Vec<Option<Layout>> = (plans.par_iter().with_max_len(1))
@@ -164,7 +164,7 @@ pub(super) fn best(
 }
 
 /// Every chart on its own grid.
-pub(super) fn snapped(
+pub(super) fn on_grid(
     charts: &[ChartMap],
     outlines: &[Outline],
     layout: &Layout,
@@ -173,7 +173,7 @@ pub(super) fn snapped(
     let charts = charts.par_iter().zip(outlines).zip(&layout.charts);
     charts
         .map(|((map, outline), &(_, stretch))| {
-            snap::snapped(map, outline, layout.scale * stretch, repair)
+            snapped(map, outline, layout.scale * stretch, repair)
         })
         .collect()
 }

@@ -1,10 +1,10 @@
 //! In which order charts are placed, and how each is turned.
-use super::copies::{Shape, copies};
-use super::orientation::{self, Bounds};
-use super::outline::Outline;
-use super::texture::Texture;
-use super::{AtlasOptions, Rotation};
 use std::f64::consts::TAU;
+
+use super::copies::{Shape, copies};
+use super::outline::{Enclosure, Outline, direction};
+use super::page::Texture;
+use super::{AtlasOptions, Rotation};
 use unwrapd_method::numerics::hull::convex_hull;
 
 /// The share of a page that charts are hoped to fill.
@@ -149,16 +149,16 @@ pub(super) fn level(outline: &Outline, total: f64, texture: Texture) -> Outline 
     turned(
         &outline,
         if is_most {
-            Bounds::Page(texture.resolution.halvings())
+            Enclosure::Page(texture.resolution.halvings())
         } else {
-            Bounds::Rectangle
+            Enclosure::Rectangle
         },
     )
 }
 
-fn turned(outline: &Outline, bounds: Bounds) -> Outline {
+fn turned(outline: &Outline, enclosure: Enclosure) -> Outline {
     let hull = convex_hull(outline.corners());
-    outline.turned(orientation::direction(&hull, bounds))
+    outline.turned(direction(&hull, enclosure))
 }
 
 /// The charts that have triangles, the largest first.

@@ -1,10 +1,12 @@
 //! Charts cut where that makes their atlas fuller.
 
-use super::candidate::{Candidate, LOOKS, LOOKS_FURTHER, Search, wanted_words};
+use super::candidate::{Candidate, ROUNDS, ROUNDS_FURTHER, Search, wanted_words};
 use super::chart_maps::chart_maps;
 use super::cutter::{Cutter, WORDS_PER_CUT};
 use std::sync::Arc;
-use unwrapd_layout::atlas::{AtlasError, AtlasOptions, Draft, Look, OnRead, Scale, Texture};
+use unwrapd_layout::atlas::{
+    AtlasError, AtlasOptions, CoarseLayout, Effort, OnRead, Scale, Texture,
+};
 use unwrapd_layout::charts::MappedChart;
 
 /// Maximum number of candidates besides the uncut charts, per page: in all, and per original chart. For charts that
@@ -13,7 +15,7 @@ const MOST_CANDIDATES: usize = 18;
 const MOST_CANDIDATES_PER_CHART: usize = 14;
 /// Maximum number of charts to cut, several small ones counted as one.
 pub const MOST_CHARTS: usize = 512;
-/// Cuts between looks at the candidates, and number of such batches in a row, per page, that may bring nothing
+/// Cuts between two evaluations of the candidates, and number of such batches in a row, per page, that may bring nothing
 /// better.
 const BATCH: usize = 4;
 const MOST_IDLE: usize = 2;
@@ -37,16 +39,16 @@ pub enum Before {
     FewerPages(f64),
 }
 
-/// Charts and a draft of their layout.
-pub struct Drafted {
+/// Charts and a coarse layout of them.
+pub struct CoarseAtlas {
     pub charts: Vec<MappedChart>,
-    pub draft: Option<Draft>,
+    pub layout: Option<CoarseLayout>,
 }
 
-impl Drafted {
+impl CoarseAtlas {
     pub fn new(charts: Vec<MappedChart>, options: &AtlasOptions) -> Result<Self, AtlasError> {
-        let draft = Draft::new(&chart_maps(&charts), options)?;
-        Ok(Self { charts, draft })
+        let layout = CoarseLayout::new(&chart_maps(&charts), options)?;
+        Ok(Self { charts, layout })
     }
 }
 
@@ -64,32 +66,32 @@ pub fn compacted(
     options: &AtlasOptions,
     (seam_price, most_charts): (f64, Option<u32>),
     on_read: &OnRead,
-) -> Result<Option<Drafted>, AtlasError> {
-    let Drafted { charts, draft } = Drafted::new(charts, options)?;
-    let draft = match draft {
-        Some(draft) if draft.n_charts() <= MOST_CHARTS => draft,
-        draft => return Ok(Some(Drafted { charts, draft })),
+) -> Result<Option<CoarseAtlas>, AtlasError> {
+    let CoarseAtlas { charts, layout } = CoarseAtlas::new(charts, options)?;
+    let layout = match layout {
+        Some(layout) if layout.n_charts() <= MOST_CHARTS => layout,
+        layout => return Ok(Some(CoarseAtlas { charts, layout })),
     };
     let wanted = most_charts.map_or(usize::MAX, |most| most as usize);
     let most =
         most_candidates(charts.len(), options, before).min(wanted.saturating_sub(charts.len()));
-    let is_foreseeable = is_foreseeable(options) && !draft.is_crowded();
+    let is_foreseeable = is_foreseeable(options) && !layout.is_crowded();
     let search = Search::new(
         (charts.len(), most),
-        looks(is_foreseeable, before),
+        rounds(is_foreseeable, before),
         options,
         on_read,
     );
-    let cutter = Cutter::new(charts, draft, (seam_price, wanted), &search);
+    let cutter = Cutter::new(charts, layout, (seam_price, wanted), &search);
     let candidates = if is_foreseeable {
         expected(cutter, most)?
     } else {
         candidates(cutter, most)?
     };
     let fullest = search.fullest(candidates);
-    Ok(fullest.map(|Candidate { charts, draft, .. }| Drafted {
+    Ok(fullest.map(|Candidate { charts, layout, .. }| CoarseAtlas {
         charts: charts.into_iter().map(Arc::unwrap_or_clone).collect(),
-        draft: Some(draft),
+        layout: Some(layout),
     }))
 }
 
@@ -101,11 +103,11 @@ fn is_foreseeable(options: &AtlasOptions) -> bool {
     pages == 1 && is_square && options.scale == Scale::Largest
 }
 
-/// Returns the looks that candidates get, and the scale that they must exceed.
-fn looks(is_foreseeable: bool, before: Before) -> (&'static [(Look, usize)], f64) {
+/// Returns the rounds of the search, and the scale that they must exceed.
+fn rounds(is_foreseeable: bool, before: Before) -> (&'static [(Effort, usize)], f64) {
     match before {
-        Before::Nothing => (&LOOKS[usize::from(is_foreseeable)..], 0.0),
-        Before::FewerPages(reached) => (&LOOKS_FURTHER, reached),
+        Before::Nothing => (&ROUNDS[usize::from(is_foreseeable)..], 0.0),
+        Before::FewerPages(reached) => (&ROUNDS_FURTHER, reached),
     }
 }
 
@@ -123,12 +125,12 @@ fn most_candidates(n_charts: usize, options: &AtlasOptions, before: Before) -> u
 pub fn expected_words(n_charts: usize, options: &AtlasOptions) -> u64 {
     let candidates = MOST_CANDIDATES.min(MOST_CANDIDATES_PER_CHART * n_charts) / 4;
     let numbers: Vec<usize> = (n_charts..=n_charts + candidates).collect();
-    let (looks, _) = looks(is_foreseeable(options), Before::Nothing);
-    let words = options.patience * wanted_words(&numbers, looks);
-    WORDS_PER_CUT * candidates as u64 + words.min(options.search_words)
+    let (rounds, _) = rounds(is_foreseeable(options), Before::Nothing);
+    let words = options.patience * wanted_words(&numbers, rounds);
+    WORDS_PER_CUT * candidates as u64 + words.min(options.budget_words)
 }
 
-/// Returns the uncut charts, the charts after the most valuable cut, after another, and so on, each looked at once;
+/// Returns the uncut charts, the charts after the most valuable cut, after another, and so on, each with a low effort;
 /// if there are many charts, after several cuts each. Ends after several batches in a row without gain; for a crowd,
 /// whose value is a matter of luck, at the maximum number of candidates.
 fn candidates(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasError> {
@@ -137,7 +139,7 @@ fn candidates(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasEr
     let mut best = search.most_valued(&mut candidates);
     let (mut tried, mut idle) = (1, 0);
     let most_idle = MOST_IDLE * search.options.texture.pages as usize;
-    while idle < most_idle || cutter.candidate.draft.is_crowded() {
+    while idle < most_idle || cutter.candidate.layout.is_crowded() {
         let mut batch = Vec::new();
         while batch.len() < BATCH
             && tried <= most
@@ -159,7 +161,7 @@ fn candidates(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasEr
 
 /// Returns the charts after the fewest cuts whose expected value is the largest, within [`LEEWAY`], and after one cut
 /// less and one more, which must be better by that. If the former are at most [`FEW`] charts, all smaller numbers of
-/// cuts compete, too, after a look at each.
+/// cuts compete, too, after a low effort for each.
 ///
 /// The expected fill follows from the shapes of the charts alone, while what a short search finds is partly luck: charts of the same
 /// shapes get the same cuts.
@@ -183,7 +185,7 @@ fn expected(mut cutter: Cutter, most: usize) -> Result<Vec<Candidate>, AtlasErro
         other.cost += LEEWAY;
     }
     candidates.truncate(best + 2);
-    if candidates[best].draft.n_charts() <= FEW {
+    if candidates[best].layout.n_charts() <= FEW {
         search.most_valued(&mut candidates);
         return Ok(candidates);
     }

@@ -4,7 +4,7 @@ use super::candidate::{Candidate, MOST_COST, Search};
 use super::expected_fill::{Extent, expected_fill};
 use rayon::prelude::*;
 use std::sync::Arc;
-use unwrapd_layout::atlas::{AtlasError, Draft, OnRead, Scale, Texture};
+use unwrapd_layout::atlas::{AtlasError, CoarseLayout, OnRead, Scale, Texture};
 use unwrapd_layout::charts::{MappedChart, Split, parted_alike, seam_length};
 use unwrapd_method::solver::Control;
 
@@ -40,7 +40,7 @@ pub struct Cutter<'a> {
 impl<'a> Cutter<'a> {
     pub fn new(
         charts: Vec<MappedChart>,
-        draft: Draft,
+        layout: CoarseLayout,
         (seam_price, most_charts): (f64, usize),
         search: &'a Search<'a>,
     ) -> Self {
@@ -58,7 +58,7 @@ impl<'a> Cutter<'a> {
             extents: charts.iter().map(|chart| Extent::of(chart)).collect(),
             candidate: Candidate {
                 charts,
-                draft,
+                layout,
                 cost: 0.0,
                 wanted: match options.scale {
                     Scale::Largest => None,
@@ -81,7 +81,7 @@ impl<'a> Cutter<'a> {
 
     /// Makes the next most valuable cuts and returns the charts; `None` if no chart can be cut or no cut is worth it.
     pub fn next(&mut self) -> Result<Option<Candidate>, AtlasError> {
-        let n_charts = self.candidate.draft.n_charts();
+        let n_charts = self.candidate.layout.n_charts();
         let n_cuts = 1 + n_charts.saturating_sub(CHARTS_OF_ONE_CUT) / CHARTS_PER_CUT;
         for i in 0..n_cuts {
             if !self.cut()? {

@@ -4,10 +4,12 @@ use rayon::prelude::*;
 
 use super::chart_maps::chart_maps;
 use super::clearance::open_charts;
-use super::compact::{Before, Drafted, MOST_CHARTS, compacted};
+use super::compact::{Before, CoarseAtlas, MOST_CHARTS, compacted};
 use super::plan::Plan;
 use crate::PipelineError;
-use unwrapd_layout::atlas::{self, Atlas, AtlasError, AtlasOptions, Draft, OnRead, Placed, Scale};
+use unwrapd_layout::atlas::{
+    self, Atlas, AtlasError, AtlasOptions, CoarseLayout, OnRead, Placed, Scale,
+};
 use unwrapd_layout::charts::{Folds, MappedChart};
 use unwrapd_method::solver::Control;
 
@@ -58,8 +60,8 @@ fn largest(
     let least = if charts.len() > MOST_CHARTS { most } else { 1 };
     let on = |pages: u32, charts: (Vec<MappedChart>, Before)| {
         let on = on_pages(pages, options);
-        let drafted = drafted(charts, &on, plan, on_read)?;
-        let settled = drafted.map(|drafted| settled(drafted, &on, plan, on_read));
+        let coarse_atlas = coarse_atlas(charts, &on, plan, on_read)?;
+        let settled = coarse_atlas.map(|coarse_atlas| settled(coarse_atlas, &on, plan, on_read));
         settled.transpose()
     };
     let first = |pages: u32, charts: Vec<MappedChart>| {
@@ -94,9 +96,9 @@ fn fewest(
     on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
     if atlas::fits(&chart_maps(&charts), options)? {
-        let whole = Drafted {
+        let whole = CoarseAtlas {
             charts,
-            draft: None,
+            layout: None,
         };
         return Ok(settled(whole, options, plan, on_read)?);
     }
@@ -104,9 +106,10 @@ fn fewest(
     let mut last = (charts, Before::Nothing);
     for pages in least..=options.texture.pages {
         let on = on_pages(pages, options);
-        let drafted = drafted(last, &on, plan, on_read)?.ok_or(AtlasError::TextureTooSmall)?;
-        last = (drafted.charts.clone(), Before::FewerPages(0.0));
-        match settled(drafted, &on, plan, on_read) {
+        let coarse_atlas =
+            coarse_atlas(last, &on, plan, on_read)?.ok_or(AtlasError::TextureTooSmall)?;
+        last = (coarse_atlas.charts.clone(), Before::FewerPages(0.0));
+        match settled(coarse_atlas, &on, plan, on_read) {
             Err(AtlasError::TextureTooSmall) => {}
             done => return Ok(done?),
         }
@@ -117,9 +120,9 @@ fn fewest(
     if let Some(largest) = largest {
         let mut on = options.clone();
         on.texture.resolution = largest;
-        let whole = Drafted {
+        let whole = CoarseAtlas {
             charts: last.0,
-            draft: None,
+            layout: None,
         };
         match settled(whole, &on, plan, on_read) {
             Err(AtlasError::TextureTooSmall) => enough.resolution = None,
@@ -134,7 +137,7 @@ fn on_pages(pages: u32, options: &AtlasOptions) -> AtlasOptions {
     let mut on = options.clone();
     on.texture.pages = pages;
     if pages > 1 {
-        on.search_words /= PER_PAGE;
+        on.budget_words /= PER_PAGE;
     }
     on
 }
@@ -150,40 +153,40 @@ fn least_pages(charts: &[MappedChart], texels: f64, options: &AtlasOptions) -> u
 
 /// Cuts charts where that makes the atlas fuller; returns `None` if no cut can exceed the scale that was reached
 /// before.
-fn drafted(
+fn coarse_atlas(
     charts: (Vec<MappedChart>, Before),
     options: &AtlasOptions,
     plan: &Plan,
     on_read: &OnRead,
-) -> Result<Option<Drafted>, AtlasError> {
+) -> Result<Option<CoarseAtlas>, AtlasError> {
     match plan.compaction {
         Some(seam_price) => compacted(charts, options, (seam_price, plan.most_charts), on_read),
-        None => Drafted::new(charts.0, options).map(Some),
+        None => CoarseAtlas::new(charts.0, options).map(Some),
     }
 }
 
 /// Packs the charts. If rounding to the grid makes a chart overlap itself, it is cut once more; if a chart is too
 /// thin for the requested bits, it is opened; then all are packed again.
 fn settled(
-    drafted: Drafted,
+    coarse_atlas: CoarseAtlas,
     options: &AtlasOptions,
     plan: &Plan,
     on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), AtlasError> {
-    let Drafted {
+    let CoarseAtlas {
         mut charts,
-        mut draft,
-    } = drafted;
+        mut layout,
+    } = coarse_atlas;
     let (mut rounds, mut openings) = (0, 0);
     loop {
-        let atlas = atlas::pack_draft(&chart_maps(&charts), draft.as_ref(), options, on_read)?;
+        let atlas = atlas::pack_coarse(&chart_maps(&charts), layout.as_ref(), options, on_read)?;
         if openings < OPENINGS
             && plan
                 .safe_bits
                 .is_some_and(|bits| open_charts(&mut charts, atlas.scale, bits))
         {
             openings += 1;
-            draft = Draft::new(&chart_maps(&charts), options)?;
+            layout = CoarseLayout::new(&chart_maps(&charts), options)?;
             continue;
         }
         rounds += 1;
@@ -201,6 +204,6 @@ fn settled(
         if charts.len() == n_before {
             return Ok((charts, atlas));
         }
-        draft = Draft::new(&chart_maps(&charts), options)?;
+        layout = CoarseLayout::new(&chart_maps(&charts), options)?;
     }
 }

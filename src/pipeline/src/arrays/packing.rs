@@ -4,7 +4,7 @@ use super::clearance::texels_apart;
 use super::compact::{self, MOST_CHARTS};
 use super::plan::{Plan, Search};
 use super::settings::Settings;
-use unwrapd_layout::atlas::{AtlasOptions, Look, Scale, Texture};
+use unwrapd_layout::atlas::{AtlasOptions, Effort, Scale, Texture};
 use unwrapd_layout::charts::MappedChart;
 
 /// Number of words that packing all meshes of a document may read, and the least and most for one mesh: a hundred
@@ -46,7 +46,7 @@ pub fn atlas_options(
         rotation: plan.rotation,
         borders: settings.borders,
         patience: settings.layout.packing.passes(),
-        search_words: search_words((settings, plan), n_meshes),
+        budget_words: search_words((settings, plan), n_meshes),
         most_cells: cells.next_power_of_two().max(LEAST_CELLS),
     }
 }
@@ -73,7 +73,7 @@ pub fn expected_words(plan: &Plan, options: &AtlasOptions, n_charts: usize) -> u
     let of_page = if plan.compaction.is_some() && n_charts <= MOST_CHARTS {
         compact::expected_words(n_charts, options)
     } else {
-        options.patience * Look::Last.words(n_charts)
+        options.patience * Effort::High.words(n_charts)
     };
     // On all numbers of pages, one after the other.
     u64::from(options.texture.pages) * of_page

@@ -1,13 +1,11 @@
-//! The cells that are taken, and the search for a free place.
+//! Occupied cells of pages, and the search for free places.
 //!
-//! All positions of one row are tested together, 64 to a machine word: for each width 2ᵏ the sheet
-//! keeps one bit per window, and a mask wants some windows free, its [probes](super::probe::Probe).
-use super::bitmap::{Run, set_bits};
-use super::row::{WIDTHS, add_shifted, longest_zeros, outside, widen};
-use super::spot::{Corner, Spot, Window};
-use super::texture::Form;
-use super::turned::Turned;
+//! All positions in a row are tested together, 64 to a machine word. For each width 2ᵏ, the occupancy has one bit per window of 2ᵏ
+//! cells that tells whether one of them is occupied. A run of cells is free if two windows that cover it are: a [`Probe`].
 use std::array::from_fn;
+
+use super::mask::{Run, Turned, set_bits};
+use super::page::Form;
 
 /// Words of a row from which on its longest free run is known, so that rows that are full are passed over. Of fewer, looking
 /// costs no more than that.
@@ -17,7 +15,7 @@ const UNKNOWN: u32 = u32::MAX;
 
 /// The occupied cells of all pages.
 #[derive(Clone)]
-pub(super) struct Sheet {
+pub(super) struct Occupancy {
     pub form: Form,
     /// The longer side of what may be used of each page, in cells; at most that of the beginning.
     pub capacity: u32,
@@ -38,7 +36,7 @@ pub(super) struct Sheet {
     pub work: u64,
 }
 
-impl Sheet {
+impl Occupancy {
     /// Empty pages. No mask's margin may exceed `frame`.
     pub(super) fn new(form: Form, capacity: u32, frame: u32, side: u32) -> Self {
         let [width, height] = form.reach(capacity).map(|cells| cells + 2 * frame);
@@ -248,5 +246,164 @@ impl Sheet {
     /// Where the row of a corner lies among those of all pages.
     fn row(&self, corner: Corner) -> usize {
         corner.page as usize * self.height + (corner.y + self.frame) as usize
+    }
+}
+
+/// Widths of windows: up to 64 cells.
+pub(super) const WIDTHS: usize = 7;
+
+/// Derives the wider windows of a row from its cells, of which some between `start` and `end` were taken.
+pub(super) fn widen(row: &mut [u64], words: usize, [start, end]: [u32; 2]) {
+    let last = (end / 64) as usize;
+    let mut next: [u64; WIDTHS] = from_fn(|k| row[k * words + last + 1]);
+    // The widest window that holds a cell begins less than 64 cells before it.
+    for word in ((start.saturating_sub(63) / 64) as usize..=last).rev() {
+        let mut cells = row[word];
+        for k in 0..WIDTHS - 1 {
+            let wide = cells | cells >> (1 << k) | next[k] << (64 - (1 << k));
+            next[k] = cells;
+            cells = wide;
+            row[(k + 1) * words + word] = wide;
+        }
+    }
+}
+
+/// Adds a row shifted by so many cells, from its first word on.
+pub(super) fn add_shifted<const N: usize>(blocked: &mut [u64; N], row: &[u64], shift: u32) {
+    let (first, shift) = ((shift / 64) as usize, shift % 64);
+    let row = &row[first..=first + N];
+    for i in 0..N {
+        // The double shift keeps a shift by 0 from becoming one by 64.
+        blocked[i] |= row[i] >> shift | row[i + 1] << 1 << (63 - shift);
+    }
+}
+
+/// The bits of a word of a row that lie outside two columns, both of which are inside.
+pub(super) fn outside([first, last]: [u32; 2], word: u32) -> u64 {
+    let below = |column: u32| match column.saturating_sub(64 * word) {
+        bits @ 0..64 => !(u64::MAX << bits),
+        _ => u64::MAX,
+    };
+    below(first) | !below(last + 1)
+}
+
+/// The longest run of zeros among bits.
+pub(super) fn longest_zeros(words: &[u64]) -> u32 {
+    let (mut longest, mut open) = (0, 0);
+    for &word in words {
+        if word == 0 {
+            open += u64::BITS;
+            continue;
+        }
+        longest = longest.max(open + word.trailing_zeros());
+        let (mut zeros, mut inside) = (!word, 0);
+        while zeros != 0 {
+            zeros &= zeros << 1;
+            inside += 1;
+        }
+        longest = longest.max(inside);
+        open = word.leading_zeros();
+    }
+    longest.max(open)
+}
+
+/// Two windows of one width in one row, both of which have to be free.
+///
+/// A run of length between 2ᵏ and 2ᵏ⁺¹ is free when two windows of 2ᵏ cells are: the first and the last in it. Runs longer than two
+/// of the widest windows take several probes.
+pub(super) struct Probe {
+    /// The row of the mask times [`WIDTHS`], plus k.
+    pub lane: u32,
+    /// Columns of the mask where the windows begin.
+    pub starts: [u32; 2],
+}
+
+impl Probe {
+    /// Those that tell whether all cells of some runs are free, in the order of the runs.
+    pub(super) fn of(runs: &[Run]) -> Vec<Self> {
+        let mut probes = Vec::with_capacity(runs.len());
+        for run in runs {
+            let k = (run.end - run.start).ilog2().min(WIDTHS as u32 - 1);
+            let width = 1 << k;
+            let (mut first, last) = (run.start, run.end - width);
+            loop {
+                let second = (first + width).min(last);
+                probes.push(Self {
+                    lane: run.row * WIDTHS as u32 + k,
+                    starts: [first, second],
+                });
+                if second == last {
+                    break;
+                }
+                first = (second + width).min(last);
+            }
+        }
+        probes
+    }
+}
+
+/// Where a body's lower left cell lies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Corner {
+    pub page: u32,
+    /// Column and row.
+    pub x: u32,
+    pub y: u32,
+}
+
+/// A place for one mask.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Spot {
+    pub corner: Corner,
+    /// Quarter turns, counter-clockwise.
+    pub turns: u32,
+    /// Size of the body *before* it is turned, in cells.
+    pub width: u32,
+    pub height: u32,
+}
+
+impl Spot {
+    pub(super) fn new(mask: &Turned, corner: Corner) -> Self {
+        let [width, height] = mask.size;
+        let is_upright = mask.turns.is_multiple_of(2);
+        let (width, height) = if is_upright {
+            (width, height)
+        } else {
+            (height, width)
+        };
+        Self {
+            corner,
+            turns: mask.turns,
+            width,
+            height,
+        }
+    }
+}
+
+/// Where a place is looked for: pages, columns and rows from `lowest` to `highest`, both included.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Window {
+    pub lowest: Corner,
+    pub highest: Corner,
+}
+
+impl Window {
+    /// Everywhere.
+    pub(super) const ALL: Self = Self::from(Corner {
+        page: 0,
+        x: 0,
+        y: 0,
+    });
+
+    /// To the right and up, and anywhere on later pages.
+    pub(super) const fn from(lowest: Corner) -> Self {
+        Self {
+            lowest,
+            highest: Corner {
+                page: u32::MAX,
+                x: u32::MAX - 1,
+                y: u32::MAX - 1,
+            },
+        }
     }
 }

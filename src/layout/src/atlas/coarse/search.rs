@@ -1,16 +1,15 @@
-//! The search for a fuller layout.
+//! Search for a fuller layout: simulated annealing, squeezing, and relocation.
 use rayon::prelude::*;
 use std::collections::HashSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::prefixes::Prefixes;
-use super::{Draft, squeezed_side};
+use super::arrangement::{Arrangement, Prefixes};
+use super::{CoarseLayout, squeezed_side};
 use crate::atlas::OnRead;
-use crate::atlas::arrangement::Arrangement;
-use crate::atlas::read_limit::ReadLimit;
+use crate::atlas::effort::{Effort, ReadLimit, Schedule};
+use crate::atlas::gap::Page;
 use crate::atlas::squeeze::Body;
-use crate::atlas::tight::Page;
 use unwrapd_method::numerics::random::Random;
 
 /// Larger pages that a search accepts at its begin and at its end, in cells: about half a cell of a raster of 256 and a tenth.
@@ -21,66 +20,10 @@ const WORDS_IF_KNOWN: u64 = 100;
 /// Trials in a row that were all made before, for each chart and each of its poses, or of its places if those are more: after so
 /// many, nothing is left to be tried, as good as surely.
 const IN_VAIN: usize = 40;
-/// The number of charts for which the words of a look are given. They grow with its power of 1.5: of more charts a trial takes longer,
-/// and there are more layouts.
-const CHARTS: f64 = 10.0;
 /// Small charts that cost as much as a large one.
 const SMALL_PER_LARGE: usize = 4;
 
-/// How closely a draft is looked at: there are many to choose from and little to be gained by most.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Look {
-    /// Whether it is worth another.
-    First,
-    /// Whether it is one of the best.
-    Second,
-    /// For the layout itself.
-    Last,
-}
-
-/// What a look consists of.
-struct Course {
-    /// Words of all, for [`CHARTS`].
-    words: f64,
-    /// The least number of charts that words are reckoned for: with two a good layout would be missed.
-    fewest: usize,
-    /// Annealings from different seeds, and how many of the best are squeezed.
-    starts: u32,
-    squeezed: usize,
-    /// Shares of the words for annealing, squeezing, and charts that try other places.
-    shares: [f64; 3],
-}
-
-impl Look {
-    fn course(self) -> Course {
-        let of = |words, fewest, starts: u32, squeezed, shares| Course {
-            words,
-            fewest,
-            starts,
-            squeezed,
-            shares,
-        };
-        match self {
-            Self::First => of(1.5e6, 4, 1, 1, [0.7, 0.3, 0.0]),
-            Self::Second => of(3e6, 1, 2, 2, [0.6, 0.4, 0.0]),
-            Self::Last => of(30e6, 1, 4, 3, [0.5, 0.25, 0.25]),
-        }
-    }
-
-    /// The words that this look at so many charts reads, about.
-    pub fn words(self, n_charts: usize) -> u64 {
-        let course = self.course();
-        let n = n_charts.max(course.fewest) as f64 / CHARTS;
-        // Rounded alike everywhere, unlike a power.
-        (course.words * n * n.sqrt()) as u64
-    }
-
-    fn seed(self) -> u64 {
-        100 * self as u64
-    }
-}
-
-impl Draft {
+impl CoarseLayout {
     /// The number of charts, of which several small ones count as one: a search takes as long as they are many.
     pub fn n_charts(&self) -> usize {
         let small = self.state.order.len() - self.n_large.min(self.state.order.len());
@@ -88,39 +31,41 @@ impl Draft {
     }
 
     /// Searches for a fuller layout and keeps the present one if none is found. Reads about `words` words, or fewer if nothing is left to
-    /// try. A crowd is only squeezed, at the last look.
-    pub fn improve(&mut self, look: Look, words: u64, on_read: &OnRead) {
+    /// try. A crowd is only squeezed, at the last effort.
+    pub fn improve(&mut self, effort: Effort, words: u64, on_read: &OnRead) {
         let told = AtomicU64::new(0);
         let count = |read| {
             told.fetch_add(read, Ordering::Relaxed);
             on_read(read)
         };
-        self.improve_within(look, words, &count);
+        self.improve_within(effort, words, &count);
         // What it need not read is as good as read.
         on_read(words.saturating_sub(told.into_inner()));
     }
 
-    fn improve_within(&mut self, look: Look, words: u64, on_read: &OnRead) {
+    fn improve_within(&mut self, effort: Effort, words: u64, on_read: &OnRead) {
         let is_laid_out = self.is_laid_out() || self.lay_out();
-        if self.state.order.is_empty() || !is_laid_out || (self.is_crowded() && look != Look::Last)
+        if self.state.order.is_empty()
+            || !is_laid_out
+            || (self.is_crowded() && effort != Effort::High)
         {
             return;
         }
-        let course = look.course();
-        let [annealing, squeezing, moving] = course.shares.map(|share| share * words as f64);
+        let schedule = effort.schedule();
+        let [annealing, squeezing, moving] = schedule.shares.map(|share| share * words as f64);
         let found = if self.is_crowded() {
             vec![self.state.clone()]
         } else {
-            self.arrangements((look, &course), annealing, on_read)
+            self.arrangements((effort, &schedule), annealing, on_read)
         };
         let fullest = found.first().cloned();
-        let each = (squeezing / course.squeezed as f64) as u64;
+        let each = (squeezing / schedule.squeezed as f64) as u64;
         let settled: Vec<Option<Self>> = (found.into_par_iter().with_max_len(1))
             .map(|state| self.settled(state, each, on_read))
             .collect();
-        for draft in settled.into_iter().flatten() {
-            if squeezed_side(&draft.pages) < squeezed_side(&self.pages) {
-                *self = draft;
+        for coarse in settled.into_iter().flatten() {
+            if squeezed_side(&coarse.pages) < squeezed_side(&self.pages) {
+                *self = coarse;
             }
         }
         // Where squeezing fails, the arrangement is still a plan.
@@ -130,50 +75,50 @@ impl Draft {
             self.state = fullest;
         }
         if moving > 0.0 && !self.is_crowded() {
-            self.relocate(moving as u64, look.seed(), on_read);
+            self.relocate(moving as u64, effort.seed(), on_read);
         }
     }
 
     /// Anneals from several seeds, reading about `words` words in all; returns the best arrangements, the best first.
     fn arrangements(
         &self,
-        (look, course): (Look, &Course),
+        (effort, schedule): (Effort, &Schedule),
         words: f64,
         on_read: &OnRead,
     ) -> Vec<Arrangement> {
-        let each = (words / f64::from(course.starts)) as u64;
-        let starts = (0..course.starts).into_par_iter().with_max_len(1);
+        let each = (words / f64::from(schedule.starts)) as u64;
+        let starts = (0..schedule.starts).into_par_iter().with_max_len(1);
         let mut found: Vec<Arrangement> = starts
             .map(|start| {
                 self.annealed(
                     each,
-                    &mut Random::new(look.seed() + u64::from(start)),
+                    &mut Random::new(effort.seed() + u64::from(start)),
                     on_read,
                 )
             })
             .collect();
         found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         found.dedup_by_key(|state| state.key(&self.kind));
-        found.truncate(course.squeezed);
+        found.truncate(schedule.squeezed);
         found
     }
 
-    /// The draft with another arrangement, squeezed; none where charts could not be brought apart.
+    /// The coarse with another arrangement, squeezed; none where charts could not be brought apart.
     fn settled(&self, state: Arrangement, words: u64, on_read: &OnRead) -> Option<Self> {
-        let mut draft = Self {
+        let mut coarse = Self {
             state,
             ..self.clone()
         };
-        let mut pages = draft.loose();
+        let mut pages = coarse.loose();
         let each = words / pages.len() as u64;
         for page in &mut pages {
-            let bodies = draft.bodies(&page.charts);
+            let bodies = coarse.bodies(&page.charts);
             if !page.squeezed.settle(&bodies, each, on_read) {
                 return None;
             }
         }
-        draft.pages = pages;
-        Some(draft)
+        coarse.pages = pages;
+        Some(coarse)
     }
 
     /// The best arrangement that is found while about so many words are read.
@@ -182,12 +127,12 @@ impl Draft {
     fn annealed(&self, words: u64, random: &mut Random, on_read: &OnRead) -> Arrangement {
         let (large, all) = (self.n_large, self.state.order.len());
         let largest = self.state.side + self.state.side / 16;
-        let mut sheet = self.raster.sheet(largest + largest / 4);
-        let mut prefixes = Prefixes::new(sheet.clone(), large);
+        let mut occupancy = self.raster.occupancy(largest + largest / 4);
+        let mut prefixes = Prefixes::new(occupancy.clone(), large);
         let mut state = self.state.clone();
         if large < all
             && state
-                .lay_out(&self.poses, &mut sheet, 0..large, largest)
+                .lay_out(&self.poses, &mut occupancy, 0..large, largest)
                 .is_none()
         {
             return state;
@@ -197,28 +142,28 @@ impl Draft {
         let [first, last] = TEMPERATURES;
         let mut limit = ReadLimit::new(words, on_read);
         let (mut in_vain, most_in_vain) = (0, self.most_in_vain());
-        while limit.admits(sheet.work) && in_vain < most_in_vain {
-            let progress = sheet.work as f64 / words as f64;
+        while limit.admits(occupancy.work) && in_vain < most_in_vain {
+            let progress = occupancy.work as f64 / words as f64;
             let temperature = first * (last / first).powf(progress);
             let bound = state.cost - temperature * (1.0 - random.unit()).ln();
             let mut trial = state.clone();
             let (place, is_fitted) = trial.change(large, &self.poses, random);
             if is_fitted {
-                prefixes.hold(&mut sheet, &state, &self.poses, place);
-                sheet.capacity = largest;
-                trial.fit(place, &self.poses, &mut sheet, random);
+                prefixes.hold(&mut occupancy, &state, &self.poses, place);
+                occupancy.capacity = largest;
+                trial.fit(place, &self.poses, &mut occupancy, random);
             }
             let first = trial.copy_pose(place, &self.kind);
             if !known.insert(trial.key(&self.kind)) {
-                sheet.work += WORDS_IF_KNOWN;
+                occupancy.work += WORDS_IF_KNOWN;
                 in_vain += 1;
                 continue;
             }
             in_vain = 0;
-            sheet.work += WORDS_PER_CHART * large as u64;
+            occupancy.work += WORDS_PER_CHART * large as u64;
             let most = largest.min(bound as u32);
-            prefixes.hold(&mut sheet, &state, &self.poses, first);
-            let fits = trial.lay_out(&self.poses, &mut sheet, first..large, most);
+            prefixes.hold(&mut occupancy, &state, &self.poses, first);
+            let fits = trial.lay_out(&self.poses, &mut occupancy, first..large, most);
             if fits.is_some() && trial.cost <= bound {
                 state = trial;
                 prefixes.change(first);
@@ -227,11 +172,11 @@ impl Draft {
                 }
             }
         }
-        prefixes.hold(&mut sheet, &state, &self.poses, 0);
-        best.take(&self.poses, &mut sheet, 0..large);
+        prefixes.hold(&mut occupancy, &state, &self.poses, 0);
+        best.take(&self.poses, &mut occupancy, 0..large);
         let most = largest + largest / 4;
         let placed =
-            large == all || (best.lay_out(&self.poses, &mut sheet, large..all, most)).is_some();
+            large == all || (best.lay_out(&self.poses, &mut occupancy, large..all, most)).is_some();
         if placed { best } else { self.state.clone() }
     }
 
@@ -242,7 +187,7 @@ impl Draft {
         IN_VAIN * n * poses.max().unwrap_or(0).max(n)
     }
 
-    /// Lets charts of the largest page look for other places, and of that which is the largest then, while about so many words are
+    /// Lets charts of the largest page effort for other places, and of that which is the largest then, while about so many words are
     /// read.
     fn relocate(&mut self, words: u64, seed: u64, on_read: &OnRead) {
         let mut pages = std::mem::take(&mut self.pages);

@@ -1,23 +1,19 @@
-//! A layout on a coarse raster, which becomes fuller as long as one likes.
-mod places;
-mod prefixes;
+//! Layouts on a coarse raster, which a search makes fuller.
+mod arrangement;
 mod search;
 
 use std::sync::Arc;
 
-pub use search::Look;
-
-use super::arrangement::Arrangement;
-use super::layout::{SLIVERS, padding};
+use super::gap::{self, Page};
+use super::layout::{Layout, SLIVERS, padding};
 use super::mask::{Distances, Rounding};
+use super::occupancy::{Corner, Occupancy};
 use super::outline::{Outline, outlines};
-use super::plan::{HOPE, Plan, alike, by_size, level, mark_copies};
-use super::poses::Poses;
-use super::sheet::Sheet;
-use super::spot::Corner;
-use super::texture::{Form, Texture};
-use super::tight::Page;
-use super::{AtlasError, AtlasOptions, ChartMap, Rotation};
+use super::page::{Form, Texture};
+use super::plan::{HOPE, Near, Plan, QuarterTurns, alike, by_size, level, mark_copies};
+use super::squeeze::{Pose, Squeezed};
+use super::{AtlasError, AtlasOptions, ChartMap, OnRead, Rotation};
+use arrangement::{Arrangement, Poses};
 
 /// Cells along the side of the square page that the charts are expected to need. With 64 worse cuts are chosen; with 256 a trial
 /// costs four times as much, and less is found in the same time.
@@ -34,8 +30,8 @@ const SMALL: f64 = 0.12;
 const SIDES: [u32; 5] = [1, 2, 4, 8, MOST_SIDES];
 /// A chart that is longer is a needle. Ten pages, which one chart may be expected to fill, are as large as 3.2 sides squared.
 const MOST_SIDES: u32 = 16;
-/// Cells of all pages of a sheet at most, unless one side of the page takes more: those of a coarse page of [`MOST_SIDES`]. A search
-/// keeps dozens of sheets, of two bytes a cell or so.
+/// Cells of all pages of a occupancy at most, unless one side of the page takes more: those of a coarse page of [`MOST_SIDES`]. A search
+/// keeps dozens of snapshots, of two bytes a cell or so.
 const MOST_CELLS: u64 = ((RASTER * MOST_SIDES) as u64).pow(2);
 /// Charts at most: of more the large ones leave room enough for the small ones.
 const MOST_CHARTS: usize = 512;
@@ -49,7 +45,7 @@ const MOST_CHARTS: usize = 512;
 /// moving and turning all at once.
 /// What that costs is counted in words read, so the result is the same on every machine and for any number of threads.
 #[derive(Clone)]
-pub struct Draft {
+pub struct CoarseLayout {
     /// The charts, turned as in their first pose.
     level: Vec<Outline>,
     /// For each chart its poses, which copies share.
@@ -79,12 +75,12 @@ struct Raster {
     texture: Texture,
 }
 
-impl Draft {
+impl CoarseLayout {
     /// The charts in the order of their sizes; nothing for so many, or so few words, that a search would see only a few layouts,
     /// where a needle is longer than the raster, or where the charts have no area.
     pub fn new(charts: &[ChartMap], options: &AtlasOptions) -> Result<Option<Self>, AtlasError> {
         let outlines = outlines(charts)?;
-        if outlines.len() > MOST_CHARTS || options.search_words == 0 {
+        if outlines.len() > MOST_CHARTS || options.budget_words == 0 {
             return Ok(None);
         }
         Ok(Self::of(&Plan::largest_first(&outlines, options), options))
@@ -115,8 +111,8 @@ impl Draft {
         if longest > f64::from(raster.largest(largest)) {
             return None;
         }
-        let mut draft = Self::largest_first(plan.outlines.clone(), &[], raster);
-        draft.lay_out().then_some(draft)
+        let mut coarse = Self::largest_first(plan.outlines.clone(), &[], raster);
+        coarse.lay_out().then_some(coarse)
     }
 
     /// The same with some parts, which come last among the charts, in place of one chart. They are laid out when that is
@@ -189,8 +185,10 @@ impl Draft {
         let n = self.state.order.len();
         self.raster.sides().any(|side| {
             let largest = self.raster.largest(side);
-            let mut sheet = self.raster.sheet(largest);
-            let laid_out = self.state.lay_out(&self.poses, &mut sheet, 0..n, largest);
+            let mut occupancy = self.raster.occupancy(largest);
+            let laid_out = self
+                .state
+                .lay_out(&self.poses, &mut occupancy, 0..n, largest);
             laid_out.is_some()
         })
     }
@@ -254,7 +252,7 @@ impl Raster {
         f64::from(self.texture.raster(self.side))
     }
 
-    /// Those of [`SIDES`] whose sheets are not too large; the first always.
+    /// Those of [`SIDES`] whose snapshots are not too large; the first always.
     fn sides(self) -> impl Iterator<Item = u32> {
         let cells =
             move |sides: u32| u64::from(self.texture.pages) * u64::from(sides * self.side).pow(2);
@@ -266,8 +264,103 @@ impl Raster {
         self.texture.raster(sides * self.side)
     }
 
-    fn sheet(self, side: u32) -> Sheet {
+    fn occupancy(self, side: u32) -> Occupancy {
         let form = Form::new(self.texture, self.padding / 2.0);
-        Sheet::new(form, side, self.padding.ceil() as u32 + 2, 0)
+        Occupancy::new(form, side, self.padding.ceil() as u32 + 2, 0)
+    }
+}
+
+/// Cells of the raster of the last layout for each of those, along a side.
+const FINE: f64 = 2.0;
+
+impl CoarseLayout {
+    /// The arrangement as places and angles, of the pages that have charts.
+    pub(super) fn loose(&self) -> Vec<Page> {
+        let pose = |&chart: &usize| {
+            let (poses, pose) = (&self.poses[chart], self.state.pose[chart]);
+            let middle = poses.outline(pose).place(poses.outline(0).middle());
+            let [i, j] = middle.map(|x| x * self.raster.scale);
+            let [width, height] = poses.mask(pose).size.map(f64::from);
+            let within = match Poses::turns(pose) {
+                0 => [i, j],
+                1 => [width - j, i],
+                2 => [width - i, height - j],
+                _ => [j, height - i],
+            };
+            let corner = self.state.corners[chart];
+            let middle = [
+                f64::from(corner.x) + within[0],
+                f64::from(corner.y) + within[1],
+            ];
+            Pose::new(middle, Poses::angle(pose))
+        };
+        let page = |number: u32| {
+            let is_here = |&&chart: &&usize| self.state.corners[chart].page == number;
+            let charts: Vec<usize> = self.by_size.iter().filter(is_here).copied().collect();
+            let squeezed = Squeezed {
+                poses: charts.iter().map(pose).collect(),
+                side: f64::from(self.state.side),
+                shape: self.raster.texture.shape(self.raster.padding),
+            };
+            Page {
+                number,
+                charts,
+                squeezed,
+            }
+        };
+        let pages = (0..self.raster.texture.pages).map(page);
+        pages.filter(|page| !page.charts.is_empty()).collect()
+    }
+
+    /// Returns the rotated charts and a layout that keeps exactly the padding; `None` if none is found, or if the charts leave no room
+    /// for the padding.
+    pub(in crate::atlas) fn with_exact_gap(
+        &self,
+        options: &AtlasOptions,
+        on_read: &OnRead,
+    ) -> Option<(Vec<Outline>, Layout)> {
+        let longer = f64::from(options.texture.resolution.longer());
+        let asked = f64::from(options.packed_texels()) * self.raster.cells() / longer;
+        if self.raster.padding < asked {
+            return None;
+        }
+        let refined = |page: &Page| Page {
+            squeezed: page.squeezed.refined(FINE),
+            ..page.clone()
+        };
+        let pages: Vec<Page> = self.pages.iter().map(refined).collect();
+        let level: Vec<&Outline> = self.level.iter().collect();
+        gap::layout(&level, &pages, FINE * self.raster.scale, (options, on_read))
+    }
+
+    /// The arrangement as a plan for a fine raster.
+    pub(in crate::atlas) fn plan(&self) -> Plan {
+        let Arrangement {
+            order,
+            pose,
+            corners,
+            side,
+            cost,
+        } = &self.state;
+        let share = |cells: u32| f64::from(cells.saturating_sub(1)) / f64::from(*side.max(&1));
+        let posed = self.level.iter().zip(pose);
+        let angle = |pose: usize| Poses::angle(pose - pose % 4);
+        Plan {
+            outlines: posed
+                .map(|(level, &pose)| level.rotated(angle(pose)))
+                .collect(),
+            turns: pose
+                .iter()
+                .map(|&pose| QuarterTurns::Only(Poses::turns(pose)))
+                .collect(),
+            order: order.clone(),
+            near: Some(Near {
+                corners: (corners.iter())
+                    .map(|corner| (corner.page, [corner.x, corner.y].map(share)))
+                    .collect(),
+                window: 3.0 / f64::from(*side.max(&1)),
+                extent: (cost + self.raster.padding) / self.raster.scale,
+            }),
+        }
     }
 }

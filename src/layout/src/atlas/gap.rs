@@ -2,14 +2,14 @@
 //!
 //! A raster of cells keeps charts up to a cell farther apart than it has to, or not far enough. Here they are squeezed on a finer
 //! one, measured, and given as much more room as is still missing.
-use super::attempt::stretch;
-use super::layout::Layout;
-use super::outline::Outline;
-use super::spot::{Corner, Spot};
-use super::squeeze::{Body, Squeezed};
-use super::{AtlasOptions, OnRead, Scale};
 use rayon::prelude::*;
 use std::sync::Arc;
+
+use super::layout::{Layout, stretch};
+use super::occupancy::{Corner, Spot};
+use super::outline::Outline;
+use super::squeeze::{Body, Squeezed};
+use super::{AtlasOptions, OnRead, Scale};
 use unwrapd_maps::plane::{BoxIndex, Visit, search_budget, segment_distance};
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of};
 
@@ -78,7 +78,7 @@ impl Tight<'_> {
             .collect();
         let (mut room, mut best) = (0.0, None);
         for _ in 0..ROUNDS {
-            let words = self.options.search_words / SHARE;
+            let words = self.options.budget_words / SHARE;
             if !squeezed.loosen(&bodies, room, (words, self.on_read)) {
                 break;
             }

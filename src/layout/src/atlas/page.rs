@@ -1,5 +1,4 @@
-//! What charts are laid out in: pages, their shape in cells, and the grid that `f32` has for them.
-
+//! Pages of a texture: their number and shape, in texels, cells and grid units.
 use super::GRID_BITS;
 use unwrapd_maps::mesh::Resolution;
 

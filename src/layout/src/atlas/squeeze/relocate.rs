@@ -1,9 +1,8 @@
-//! Bodies that go elsewhere.
+//! Relocation of charts that overlap.
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::body::Pose;
-use super::contacts::{Pairs, Scene};
-use super::equations::Equations;
+use super::overlap::{Equations, Pairs, Scene};
 use crate::atlas::Rotation;
 use unwrapd_method::numerics::random::Random;
 

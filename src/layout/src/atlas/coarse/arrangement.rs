@@ -1,0 +1,313 @@
+//! Arrangements: an order and a pose for each chart, from which their places follow.
+use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
+use std::sync::{Arc, OnceLock};
+
+use crate::atlas::Rotation;
+use crate::atlas::mask::{Distances, Mask, Turned};
+use crate::atlas::occupancy::{Corner, Occupancy, Window};
+use crate::atlas::outline::{Outline, smallest_page};
+use crate::atlas::squeeze::Body;
+use unwrapd_method::numerics::hull::convex_hull;
+use unwrapd_method::numerics::random::Random;
+
+/// How many poses are tried to fit a chart to its place.
+const FITTED: usize = 12;
+
+/// An order and a pose for every chart, and what comes of it.
+#[derive(Clone)]
+pub(super) struct Arrangement {
+    pub order: Vec<usize>,
+    pub pose: Vec<usize>,
+    /// For each chart its lower left corner.
+    pub corners: Vec<Corner>,
+    pub side: u32,
+    /// The side, and below one cell how far the charts reach on average.
+    pub cost: f64,
+}
+
+impl Arrangement {
+    /// Takes the cells of the charts of some places in the order.
+    pub(super) fn take(
+        &self,
+        poses: &[Arc<Poses>],
+        occupancy: &mut Occupancy,
+        places: Range<usize>,
+    ) {
+        for &chart in &self.order[places] {
+            occupancy.take(poses[chart].mask(self.pose[chart]), self.corners[chart]);
+        }
+    }
+
+    /// Places the charts of some places in the order on a occupancy that holds those before; those behind do not count. None if that takes
+    /// more than a page of side `largest`.
+    pub(super) fn lay_out(
+        &mut self,
+        poses: &[Arc<Poses>],
+        occupancy: &mut Occupancy,
+        places: Range<usize>,
+        largest: u32,
+    ) -> Option<()> {
+        occupancy.capacity = largest;
+        let form = occupancy.form;
+        let (mut reach, mut side) = (0, 0);
+        for (place, &chart) in self.order[..places.end].iter().enumerate() {
+            let mask = poses[chart].mask(self.pose[chart]);
+            if place >= places.start {
+                let (_, spot) = occupancy.find(std::slice::from_ref(mask), Window::ALL)?;
+                self.corners[chart] = spot.corner;
+                if place + 1 < places.end {
+                    occupancy.take(mask, spot.corner);
+                }
+            }
+            let corner = self.corners[chart];
+            let [width, height] = mask.size;
+            let far = form.side([corner.x + width, corner.y + height]);
+            reach += far;
+            side = side.max(far);
+        }
+        if side > largest {
+            return None;
+        }
+        self.side = side;
+        let most = f64::from(side) * places.end as f64 + 1.0;
+        self.cost = f64::from(side) + f64::from(reach) / most;
+        Some(())
+    }
+
+    /// Turns the chart at a place of the order to the pose, of a few, in which it reaches least far on a occupancy that holds the
+    /// charts before it.
+    pub(super) fn fit(
+        &mut self,
+        place: usize,
+        poses: &[Arc<Poses>],
+        occupancy: &mut Occupancy,
+        random: &mut Random,
+    ) {
+        let chart = self.order[place];
+        let distinct = poses[chart].distinct();
+        let mut least = u64::MAX;
+        for _ in 0..FITTED {
+            let pose = distinct[random.below(distinct.len())];
+            let mask = poses[chart].mask(pose);
+            let Some((_, spot)) = occupancy.find(std::slice::from_ref(mask), Window::ALL) else {
+                continue;
+            };
+            let [width, height] = mask.size;
+            let far = [spot.corner.x + width, spot.corner.y + height];
+            let side = occupancy.form.side(far).max(occupancy.side());
+            let reach = u64::from(side) << 32 | u64::from(far[0] + far[1]);
+            if reach < least {
+                (least, self.pose[chart]) = (reach, pose);
+            }
+        }
+    }
+
+    /// Gives the pose of the chart at a place to its copies; returns the first place that changed.
+    pub(super) fn copy_pose(&mut self, place: usize, kind: &[usize]) -> usize {
+        let chart = self.order[place];
+        let pose = self.pose[chart];
+        let mut first = place;
+        for (other, &copy) in self.order.iter().enumerate() {
+            if kind[copy] == kind[chart] && self.pose[copy] != pose {
+                self.pose[copy] = pose;
+                first = first.min(other);
+            }
+        }
+        first
+    }
+
+    /// Another place among the first `n` of the order, or another pose, for one chart; returns the first place that is concerned,
+    /// and whether the chart there is to be [fitted](Self::fit).
+    pub(super) fn change(
+        &mut self,
+        n: usize,
+        poses: &[Arc<Poses>],
+        random: &mut Random,
+    ) -> (usize, bool) {
+        let [i, j] = [random.below(n), random.below(n)];
+        let chart = self.order[i];
+        let of_chart = &poses[chart];
+        let pose = &mut self.pose[chart];
+        match random.below(5) {
+            0 => self.order.swap(i, j),
+            1 => {
+                self.order.remove(i);
+                self.order.insert(j, chart);
+            }
+            2 => {
+                *pose = of_chart.next_angle(*pose, random.below(2) == 0);
+                return (i, false);
+            }
+            3 => return (i, true),
+            _ => {
+                let distinct = of_chart.distinct();
+                *pose = distinct[random.below(distinct.len())];
+                return (i, false);
+            }
+        }
+        (i.min(j), false)
+    }
+
+    /// A number that differs, as good as surely, where arrangements effort different, given for each chart the first that looks like
+    /// it in each pose.
+    ///
+    /// From: Fowler, Noll, Vo 1991 (FNV-1a), over words.
+    pub(super) fn key(&self, kind: &[usize]) -> u64 {
+        let looks = |&chart: &usize| (kind[chart] as u64) << 8 | self.pose[chart] as u64;
+        let mixed = |key: u64, effort: u64| (key ^ effort).wrapping_mul(0x0000_0100_0000_01b3);
+        let looks = self.order.iter().map(looks);
+        looks.fold(0xcbf2_9ce4_8422_2325, |key, effort| {
+            let key = mixed(key, effort);
+            key ^ key >> 29
+        })
+    }
+}
+
+/// Sheets at most: with more charts only every second or third has one.
+const MOST: usize = 16;
+
+/// For some places of an arrangement a occupancy with all charts before it, so that a trial need not take their cells again.
+pub(super) struct Prefixes {
+    /// Places from one to the next.
+    every: usize,
+    /// As many as were needed so far.
+    snapshots: Vec<Occupancy>,
+}
+
+impl Prefixes {
+    /// Of an arrangement of so many charts, on a occupancy that is empty.
+    pub(super) fn new(empty: Occupancy, n_charts: usize) -> Self {
+        Self {
+            every: n_charts.div_ceil(MOST).max(1),
+            snapshots: vec![empty],
+        }
+    }
+
+    /// Makes a occupancy hold the charts of an arrangement before a place, and nothing else.
+    pub(super) fn hold(
+        &mut self,
+        occupancy: &mut Occupancy,
+        state: &Arrangement,
+        poses: &[Arc<Poses>],
+        place: usize,
+    ) {
+        let nearest = place / self.every;
+        while let n = self.snapshots.len()
+            && n <= nearest
+        {
+            let mut next = self.snapshots[n - 1].clone();
+            state.take(poses, &mut next, (n - 1) * self.every..n * self.every);
+            self.snapshots.push(next);
+        }
+        occupancy.restore(&self.snapshots[nearest]);
+        state.take(poses, occupancy, nearest * self.every..place);
+    }
+
+    /// Forgets what is no longer true once the charts from a place on have changed.
+    pub(super) fn change(&mut self, place: usize) {
+        self.snapshots.truncate(place / self.every + 1);
+    }
+}
+
+/// Angles within a quarter turn.
+const ANGLES: usize = 16;
+/// What is kept free beside the padding, in cells: distances are looked up roughly.
+const ROOM: f64 = 0.1;
+
+/// The ways in which an outline may lie, each rastered when it is first asked for: 64, four quarter turns, or one.
+///
+/// Pose `4 a + t` is turned by t quarters and a sixteenths of a quarter.
+pub(super) struct Poses {
+    /// For each angle within a quarter turn.
+    outlines: Vec<Outline>,
+    masks: Vec<OnceLock<Turned>>,
+    /// Poses of which no two effort alike.
+    distinct: OnceLock<Vec<usize>>,
+    body: OnceLock<Arc<Body>>,
+    least_page: OnceLock<f64>,
+    scale: f64,
+    distances: Distances,
+}
+
+impl Poses {
+    pub(super) fn new(outline: &Outline, scale: f64, distances: Distances) -> Self {
+        let (angles, quarters) = match outline.rotation() {
+            Rotation::Any => (ANGLES, 4),
+            Rotation::Quarter => (1, 4),
+            Rotation::None => (1, 1),
+        };
+        let angle = |a: usize| FRAC_PI_2 * a as f64 / ANGLES as f64;
+        Self {
+            outlines: (0..angles).map(|a| outline.rotated(angle(a))).collect(),
+            masks: (0..quarters * angles).map(|_| OnceLock::new()).collect(),
+            distinct: OnceLock::new(),
+            body: OnceLock::new(),
+            least_page: OnceLock::new(),
+            scale,
+            distances,
+        }
+    }
+
+    /// Poses of which no two effort alike on the raster: of a rectangle there are two, of a square there is one.
+    pub(super) fn distinct(&self) -> &[usize] {
+        self.distinct.get_or_init(|| {
+            let mut distinct: Vec<usize> = Vec::new();
+            for pose in 0..self.masks.len() {
+                let is_new = |&known: &usize| !self.mask(known).is_like(self.mask(pose));
+                if self.outlines.len() > 1 || distinct.iter().all(is_new) {
+                    distinct.push(pose);
+                }
+            }
+            distinct
+        })
+    }
+
+    /// The pose at the next angle, or that before.
+    pub(super) fn next_angle(&self, pose: usize, is_after: bool) -> usize {
+        let angles = self.outlines.len();
+        let next = |place: usize, all: usize| (place + if is_after { 1 } else { all - 1 }) % all;
+        if angles == 1 {
+            let distinct = self.distinct();
+            let place = distinct.iter().position(|&known| known == pose);
+            return distinct[next(place.unwrap_or(0), distinct.len())];
+        }
+        let place = next(angles * (pose % 4) + pose / 4, self.masks.len());
+        4 * (place % angles) + place / angles
+    }
+
+    /// The outline of a pose, without its quarter turns.
+    pub(super) fn outline(&self, pose: usize) -> &Outline {
+        &self.outlines[pose / 4]
+    }
+
+    /// The quarter turns of a pose.
+    pub(super) fn turns(pose: usize) -> u32 {
+        pose as u32 % 4
+    }
+
+    /// The angle of a pose.
+    pub(super) fn angle(pose: usize) -> f64 {
+        FRAC_PI_2 * ((pose / 4) as f64 / ANGLES as f64 + (pose % 4) as f64)
+    }
+
+    /// The chart at the first angle, to be pushed about.
+    pub(super) fn body(&self) -> Arc<Body> {
+        let new = || Body::new(self.outline(0), self.scale, self.distances.padding + ROOM);
+        self.body.get_or_init(|| Arc::new(new())).clone()
+    }
+
+    /// The longer side of the smallest page around it, without borders, in mesh units; of pages whose sides along u and v are the
+    /// longer one halved so often.
+    pub(super) fn least_page(&self, halvings: [u32; 2]) -> f64 {
+        let least = || smallest_page(&convex_hull(self.outline(0).corners()), halvings).1;
+        *self.least_page.get_or_init(least)
+    }
+
+    pub(super) fn mask(&self, pose: usize) -> &Turned {
+        self.masks[pose].get_or_init(|| {
+            let mask = Mask::new(self.outline(pose), self.scale, self.distances);
+            Turned::new(mask, Self::turns(pose))
+        })
+    }
+}
