@@ -1,25 +1,27 @@
 //! Charts of equal shape, up to rotation.
 //!
-//! Shapes are compared by moments of their outlines. In polar coordinates about the centroid of the outline, the k-th moment is the mean
-//! of rᵏ e^(ikφ) along it; the first, which would be 0, is weighted with r². A rotation by δ multiplies the k-th by e^(ikδ). The first
-//! strong moment gives the angle of a shape up to a k-th of a turn, and the others choose among these, unless the shape is symmetric.
-//! Rotated back by this angle, all copies have the same moments. Mirrored copies have the conjugate ones: they are another shape.
+//! Shapes are compared by moments of their outlines. In polar coordinates about the centroid of the outline, the k-th moment is the
+//! mean of rᵏ e^(ikφ) along it. The first moment, which would be 0, is weighted with r². A rotation by δ multiplies the k-th moment
+//! by e^(ikδ). The first strong moment gives the angle of a shape up to a k-th of a turn, and the others choose among these angles,
+//! unless the shape is symmetric. Rotated back by this angle, all copies have the same moments. Mirrored copies have the conjugate
+//! moments: they are another shape.
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use unwrapd_maps::plane::Segment;
 
-/// Number of moments. The last gives the angle of an octagon.
+/// Number of moments. The last one gives the angle of an octagon.
 const MOMENTS: usize = 8;
-/// Largest relative difference of lengths, radii and moments of copies. Equal parts of machines stay well below.
+/// Largest difference between copies: relative for lengths and radii, absolute for moments at a radius of 1. Equal parts of
+/// machines stay well below.
 const EQUAL: f64 = 1e-4;
-/// Least size of the strongest moment of a shape that is not round.
+/// Smallest size of the strongest moment of a shape that is not round.
 const ROUND: f64 = 0.01;
-/// Least size of the moment that gives the angle, as a share of the strongest.
+/// Smallest size of the moment that gives the angle, as a share of the strongest.
 const STRONG: f64 = 0.5;
-/// Direction along which the sum of the moments is maximal for the chosen angle, in radians: one that few symmetries have.
+/// Direction along which the sum of the moments is largest for the chosen angle, in radians: one that few symmetries have.
 const GENERIC: f64 = 0.7;
-/// The four points of Gauss and Legendre on the unit interval, exact for polynomials up to the seventh degree, and their weights.
+/// Points and weights of the four-point Gauss–Legendre quadrature on the unit interval, exact for polynomials up to degree seven.
 const POINTS: [[f64; 2]; 4] = [
     [0.069_431_844_202_973_71, 0.173_927_422_568_726_93],
     [0.330_009_478_207_571_87, 0.326_072_577_431_273_07],
@@ -31,7 +33,7 @@ const POINTS: [[f64; 2]; 4] = [
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Shape {
     length: f64,
-    /// Root of the mean squared distance from the middle.
+    /// Root mean square distance of the outline from its centroid.
     radius: f64,
     /// Moments of the shape rotated back by `angle`, at a radius of 1.
     moments: [[f64; 2]; MOMENTS],
@@ -129,9 +131,9 @@ fn product([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     [a * c - b * d, a * d + b * c]
 }
 
-/// Returns for each shape the first shape that it is a copy of, possibly itself, and its angle relative to that one.
+/// Returns for each shape the first shape that it is a copy of, possibly itself, and its angle relative to that shape, in radians.
 pub(super) fn copies(shapes: &[Shape]) -> Vec<(usize, f64)> {
-    // First shapes of their kinds, by length in steps of the tolerance.
+    // First shapes of their kinds, by the logarithm of the length in steps of the tolerance.
     let mut firsts: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
     let step = |length: f64| (length.ln() / EQUAL).floor() as i64;
     let mut found = Vec::with_capacity(shapes.len());

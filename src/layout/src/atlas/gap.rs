@@ -1,7 +1,7 @@
-//! Layouts in which charts lie exactly as near to each other as they may.
+//! Layouts in which charts are exactly as far apart as they have to be.
 //!
-//! A raster of cells keeps charts up to a cell farther apart than it has to, or not far enough. Here they are squeezed on a finer
-//! one, measured, and given as much more room as is still missing.
+//! A raster of cells keeps charts up to a cell too far apart, or slightly too near. Here, charts are squeezed on a finer raster,
+//! their distances are measured, and they are given the room that is still missing.
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -13,31 +13,32 @@ use super::{AtlasOptions, OnRead, Scale};
 use unwrapd_maps::plane::{BoxIndex, Visit, search_budget, segment_distance};
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of};
 
-/// Times that charts are given more room, or less.
+/// Maximum number of rounds that correct the room between charts.
 const ROUNDS: usize = 4;
-/// What they are given beyond what is missing, and how far vertices may be moved when they are rounded, in cells.
+/// Room added beyond what is missing, in cells.
 const SPARE: f64 = 0.01;
+/// Distance by which rounding may move a vertex, in cells.
 const ROUNDED: f64 = 0.002;
-/// The share of the words that may be read which each of those rounds reads at most.
+/// Each of these rounds reads about one part in `SHARE` of the word budget at most.
 const SHARE: u64 = 16;
-/// How often the side of a page is corrected for the padding that follows from it.
+/// Number of times that the side of a page is corrected for the padding, which depends on it.
 const SIDES: usize = 8;
-/// Places to a cell.
+/// Number of positions per cell, along each axis, to which charts are rounded.
 const PLACES: f64 = 256.0;
 
-/// Charts of one page that were squeezed.
+/// Squeezed charts of one page.
 #[derive(Clone)]
 pub(super) struct Page {
     pub number: u32,
-    /// Which, in the order of the poses.
+    /// Indices of the charts, in the order of the poses.
     pub charts: Vec<usize>,
     pub squeezed: Squeezed,
 }
 
-/// A layout near squeezed pages, in cells; none where charts could not be brought as far apart as they must be, where they do not
-/// fit at the scale that is given, or where one is so small that it has to be enlarged.
+/// Returns the turned outlines and a layout near squeezed pages in which charts keep the padding. Returns `None` if charts could
+/// not be brought far enough apart, if they do not fit at a prescribed scale, or if one is so small that it has to be enlarged.
 ///
-/// Outlines are turned as the squeezed poses say relative to `level`, of which one mesh unit is `scale` cells.
+/// The returned outlines are `level` turned by the angles of the squeezed poses. `scale` is in cells per mesh unit.
 pub(super) fn layout(
     level: &[&Outline],
     pages: &[Page],
@@ -58,17 +59,18 @@ pub(super) fn layout(
     tight.layout(pages, placed.collect::<Option<_>>()?)
 }
 
-/// Charts to be placed, in cells.
+/// Charts to be placed, on a raster of `scale` cells per mesh unit.
 struct Tight<'a> {
     level: &'a [&'a Outline],
-    /// Cells to the mesh unit.
+    /// Cells per mesh unit.
     scale: f64,
     options: &'a AtlasOptions,
     on_read: &'a OnRead<'a>,
 }
 
 impl Tight<'_> {
-    /// The charts of a page as near to each other as they may be where the largest page has at least the side `least`.
+    /// Places the charts of a page as near to each other as permitted if the longer side of the largest page is at least `least`.
+    /// Returns `None` if no round keeps them far enough apart.
     fn places(&self, page: &Page, least: f64) -> Option<Places> {
         let mut squeezed = page.squeezed.clone();
         let kept = self.padding(squeezed.side);
@@ -96,7 +98,7 @@ impl Tight<'_> {
         best
     }
 
-    /// The longer side, without its borders, of the least page on which charts may reach so far to the right and up.
+    /// Returns the longer side, without borders, of the smallest page on which charts may extend to `reach`, to the right and up.
     fn side(&self, reach: [f64; 2]) -> f64 {
         let shape = |side: f64| {
             let padding = self.padding(side) + 2.0 * ROUNDED;
@@ -107,7 +109,7 @@ impl Tight<'_> {
         (0..SIDES).fold(first, |side, _| shape(side).side(reach))
     }
 
-    /// Cells to a texel, where charts reach so far on the largest page.
+    /// Returns the cells per texel if the longer side of the largest page, without borders, is `side`.
     fn texel(&self, side: f64) -> f64 {
         let longer = f64::from(self.options.texture.resolution.longer());
         match self.options.scale {
@@ -116,16 +118,17 @@ impl Tight<'_> {
         }
     }
 
-    /// Cells between charts.
+    /// Returns the cells kept between charts.
     fn padding(&self, side: f64) -> f64 {
         f64::from(self.options.packed_texels()) * self.texel(side)
     }
 
-    /// Cells along the side of charts with their borders, and along the side of a page.
+    /// Returns the cells along the longer side of the page that charts need, with borders.
     fn around(&self, side: f64) -> f64 {
         side + self.padding(side) + 2.0 * ROUNDED
     }
 
+    /// Returns the cells along the longer side of a page, which a prescribed scale determines.
     fn page(&self, side: f64) -> f64 {
         match self.options.scale {
             Scale::Largest => self.around(side),
@@ -170,15 +173,16 @@ impl Tight<'_> {
     }
 }
 
-/// Charts at rounded places.
+/// Charts at rounded positions on one page.
 struct Places {
     outlines: Vec<Outline>,
-    /// Lower left corners, in parts of a cell.
+    /// Lower left corners, in units of 1/[`PLACES`] of a cell.
     corners: Vec<[u32; 2]>,
-    /// How far they reach to the right and up, the longer side of the page that takes, and the smallest distance of two charts, in
-    /// cells.
+    /// Largest extents of the charts to the right and up, in cells.
     reach: [f64; 2],
+    /// Longer side, without borders, of the page that the charts need, in cells.
     side: f64,
+    /// Smallest distance between two charts, in cells.
     gap: f64,
 }
 
@@ -213,7 +217,7 @@ impl Places {
         places
     }
 
-    /// The smallest distance of two charts, in cells.
+    /// Returns the smallest distance between two charts, in cells; infinite for a single chart, and 0 if the search was truncated.
     fn smallest_gap(&self, scale: f64) -> f64 {
         let mut edges = Vec::new();
         let mut charts = Vec::new();

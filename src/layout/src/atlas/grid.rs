@@ -1,11 +1,13 @@
-//! One chart rounded to the grid, with every triangle positive where that is possible.
+//! Rounds a chart to the grid, with every triangle positive where that is possible.
 //!
-//! Rounding alone is right for all but a few triangles. Where it is not, the vertices of the
-//! triangle try the grid points around (the ring's kernel, searched exhaustively); what is left is
-//! too narrow for the grid and is opened by [`relax`] in ever larger neighborhoods, then rounded
-//! again. Borders nearer than a grid step, as the sides of a thin slit are, may cross once they are rounded; their
-//! vertices try the grid points around, too, until no triangles overlap. A chart that has flipped or degenerate triangles as given, as authored UVs and maps without a barrier have, and one that
-//! cannot be repaired keep their shape: they are rounded and nothing else, and the certificate counts what has no area.
+//! Rounding alone is right for all but a few triangles. Where it is not, the vertices of the triangle try all grid points around
+//! their position. Triangles that remain are too narrow for the grid: [`relax`] opens them in ever larger neighborhoods, and they
+//! are rounded again. Borders nearer than a grid step, such as the sides of a thin slit, may cross once they are rounded. Their
+//! vertices also try the grid points around, until no triangles overlap.
+//!
+//! Two kinds of charts keep their shape and are only rounded: charts with flipped or degenerate triangles as given, which authored
+//! UVs and maps without a barrier may have, and charts that cannot be repaired. The certificate counts their triangles without
+//! area.
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -19,27 +21,27 @@ use unwrapd_maps::plane::{
 use unwrapd_method::numerics::bounds::{bounds_of, widened};
 use unwrapd_method::numerics::predicates::orient2d_sign;
 
-/// A chart on the grid, its bounding rectangle's lower left corner near the origin.
+/// Chart on the grid, with the lower left corner of its bounding rectangle near the origin.
 #[derive(Clone, Debug)]
 pub(super) struct Snapped {
     pub grid: Vec<[i32; 2]>,
-    /// Vertices that are not where rounding alone would put them.
+    /// Number of vertices that are not where rounding alone would put them.
     pub moved: usize,
-    /// The largest distance between a vertex and its exact position, in grid units.
+    /// Largest distance between a vertex and its exact position, in grid units.
     pub largest_move: f64,
 }
 
-/// Grid points tried around the exact position: this many columns and rows to each side.
+/// Number of columns and rows of grid points, to each side of the exact position, that are tried.
 const REACH: i32 = 2;
-/// Neighborhoods tried; each has twice as many rings as the one before.
+/// Number of neighborhoods tried; each has twice as many rings as the one before.
 const ROUNDS: u32 = 12;
-/// Grid units between parts of a border that rounding may bring together: each point moves by up to 1/√2.
+/// Distance in grid units below which rounding may make parts of a border cross: each point moves by up to 1/√2.
 const NEAR: f64 = 1.5;
-/// Passes over the triangles that overlap along near borders. Each moves only what makes fewer of them overlap; the number bounds the
-/// time of a crowd.
+/// Maximum number of passes over the triangles that overlap along near borders. A pass only makes moves that reduce the number of
+/// overlaps. The limit bounds the time where many triangles overlap.
 const PASSES: usize = 16;
 
-/// The treatment of triangles without area after rounding.
+/// Treatment of triangles without area after rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Repair {
     /// Moves vertices to open them, where possible.
@@ -48,7 +50,7 @@ pub(super) enum Repair {
     Nothing,
 }
 
-/// The chart at `unit` grid units per mesh unit.
+/// Rounds a chart to the grid at `unit` grid units per mesh unit.
 pub(super) fn snapped(map: &ChartMap, outline: &Outline, unit: f64, repair: Repair) -> Snapped {
     let exact = |v: usize| outline.place(map.uv[v]).map(|x| x * unit);
     let rounded: Vec<[i32; 2]> = (0..map.uv.len()).map(|v| round(exact(v))).collect();
@@ -86,7 +88,7 @@ pub(super) fn snapped(map: &ChartMap, outline: &Outline, unit: f64, repair: Repa
     }
 }
 
-/// Whether every triangle is positive as given.
+/// Returns whether every triangle is positive as given.
 fn is_positive(map: &ChartMap) -> bool {
     map.triangles.iter().all(|t| {
         let [a, b, c] = t.map(|v| map.uv[v as usize]);
@@ -98,8 +100,8 @@ fn round(p: [f64; 2]) -> [i32; 2] {
     p.map(|x| x.round() as i32)
 }
 
-/// Returns the vertices of the border that lie nearer than [`NEAR`] to a part of it that they do not belong to, in increasing order.
-/// O(n log n) in the edges of the border.
+/// Returns the vertices of the border edges that may cross other border edges once they are rounded, in increasing order. O(n log
+/// n) in the edges of the border.
 pub(super) fn near_vertices(map: &ChartMap, outline: &Outline, unit: f64) -> Vec<u32> {
     let edges: Vec<Segment> = outline
         .edges()
@@ -126,8 +128,8 @@ pub(super) fn near_vertices(map: &ChartMap, outline: &Outline, unit: f64) -> Vec
     vertices.into_iter().collect()
 }
 
-/// Returns true if two edges of a border may cross once they are rounded. Edges that meet at a vertex may if an end of one lies near
-/// the other.
+/// Returns `true` if two edges of a border may cross once they are rounded. Edges that meet at a vertex may cross if an end of one
+/// lies near the other.
 fn are_near(a: Segment, b: Segment) -> bool {
     let apart =
         |ends: Segment, other: Segment| ends.into_iter().filter(move |p| !other.contains(p));
@@ -142,7 +144,7 @@ fn are_near(a: Segment, b: Segment) -> bool {
     }
 }
 
-/// A chart on the way to the grid.
+/// Chart that is being rounded to the grid.
 struct Snap<'a> {
     triangles: &'a [[u32; 3]],
     grid: Vec<[i32; 2]>,
@@ -187,18 +189,17 @@ impl Snap<'_> {
         doubled_area(self.cells(t)) > 0
     }
 
-    /// The corners of a triangle on the grid.
+    /// Returns the corners of a triangle on the grid.
     fn cells(&self, t: u32) -> [[i32; 2]; 3] {
         self.triangles[t as usize].map(|v| self.grid[v as usize])
     }
 
-    /// Like [`cells`](Self::cells), as coordinates, which are exact.
+    /// Returns the corners like [`cells`](Self::cells), but as floating-point coordinates, which are exact.
     fn corners(&self, t: u32) -> CornerUvs {
         self.cells(t).map(|p| p.map(f64::from))
     }
 
-    /// Moves vertices of bad triangles to grid points near their exact position, as long as that
-    /// makes fewer triangles bad.
+    /// Moves vertices of bad triangles to grid points near their exact position, as long as this makes fewer triangles bad.
     fn nudge(&mut self, bad: &mut Vec<u32>, exact: impl Fn(u32) -> [f64; 2]) {
         loop {
             let mut touched = Vec::new();
@@ -221,8 +222,8 @@ impl Snap<'_> {
         }
     }
 
-    /// Moves a vertex to the grid point around its exact position with the fewest defects, of those to the nearest; only if it has fewer
-    /// there. Returns whether it moved.
+    /// Moves a vertex to the grid point around its exact position with the fewest defects, and to the nearest of several such
+    /// points. Moves it only if this reduces the defects. Returns whether it moved.
     fn nudge_vertex(
         &mut self,
         v: u32,
@@ -253,7 +254,7 @@ impl Snap<'_> {
         improved
     }
 
-    /// The number of triangles at a vertex without area.
+    /// Returns the number of triangles at a vertex that are not positive on the grid.
     fn bad_in_ring(&self, v: u32) -> usize {
         self.rings
             .of(v)
@@ -262,8 +263,8 @@ impl Snap<'_> {
             .count()
     }
 
-    /// Moves vertices of triangles that overlap to grid points near their exact position, as long as fewer pairs overlap and no triangle
-    /// loses its area. `near` is what [`near_vertices`] returns.
+    /// Moves vertices of overlapping triangles to grid points near their exact position, as long as fewer pairs overlap and no
+    /// triangle loses its area. `near` is the result of [`near_vertices`].
     fn open_slits(&mut self, near: &[u32], exact: impl Fn(u32) -> [f64; 2]) {
         let along = Along::new(self, near);
         for _ in 0..PASSES {
@@ -278,10 +279,10 @@ impl Snap<'_> {
     }
 }
 
-/// The triangles along near borders.
+/// Triangles along near borders.
 struct Along {
     triangles: Vec<u32>,
-    /// Their boxes on the grid, as wide as their corners may move.
+    /// Boxes of the triangles on the grid, widened by the distance that corners may move.
     index: BoxIndex,
 }
 
@@ -303,7 +304,7 @@ impl Along {
         }
     }
 
-    /// The vertices of triangles that overlap, in increasing order.
+    /// Returns the vertices of overlapping triangles, in increasing order.
     fn overlapping(&self, snap: &Snap) -> BTreeSet<u32> {
         let mut vertices = BTreeSet::new();
         for &t in &self.triangles {
@@ -314,7 +315,7 @@ impl Along {
         vertices
     }
 
-    /// Triangles at a vertex without area, then pairs of one at it and another that overlap.
+    /// Returns the number of triangles without area at a vertex, and the number of overlaps of its triangles with others.
     fn defects(&self, snap: &Snap, v: u32) -> [usize; 2] {
         let mut n_pairs = 0;
         for &t in snap.rings.of(v) {
@@ -323,7 +324,7 @@ impl Along {
         [snap.bad_in_ring(v), n_pairs]
     }
 
-    /// Visits the triangles that overlap one on the grid, decided exactly.
+    /// Visits the triangles that overlap a given one on the grid, decided exactly. Ignores triangles without area.
     fn visit_overlaps(&self, snap: &Snap, t: u32, mut visit: impl FnMut(u32)) {
         if !snap.is_positive(t) {
             return;
@@ -341,11 +342,11 @@ impl Along {
     }
 }
 
-/// Texels by which two charts may come nearer: each point moves by at most one to each side and up or down.
+/// Number of texels by which alignment may bring two charts nearer: each point moves by at most one texel along each axis.
 pub(super) const ROOM_TEXELS: u32 = 3;
 
-/// A chart widened to the next borders of texels of so many steps on all sides. One of which a triangle would lose its area to
-/// rounding is only shifted, so that it ends at texels on two sides.
+/// Widens a chart to the next texel borders on all sides; `texel` is in grid steps. A chart with a triangle that would lose its
+/// area to rounding is only shifted, so that it ends at texel borders on two sides.
 pub(super) fn aligned(map: &ChartMap, grid: Vec<[i32; 2]>, texel: i32) -> Vec<[i32; 2]> {
     if map.triangles.is_empty() {
         return grid;
@@ -368,7 +369,7 @@ fn is_positive_on_grid(map: &ChartMap, grid: &[[i32; 2]]) -> bool {
     map.triangles.iter().all(|t| area(t) > 0)
 }
 
-/// The extent of a chart along an axis, and that of the texels that it touches.
+/// Extent of a chart along an axis, and the extent of the texels that it touches, in grid steps.
 struct Axis {
     low: i32,
     length: i64,

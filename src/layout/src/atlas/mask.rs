@@ -1,52 +1,53 @@
 //! Charts on a raster of square cells.
 //!
-//! The *body* is every cell a triangle touches. The *reach* is every cell within the padding of the chart (a disk, not a box). Two
-//! charts keep their distance if the reach of one meets no cell of the body of the other: each point of the second then lies in a cell
-//! that is farther away.
+//! The *body* is every cell that a triangle touches. The *reach* is every cell within the padding of the chart (a disk, not a box).
+//! Two charts keep their distance if the reach of one contains no cell of the body of the other: each point of the second chart
+//! then lies in a cell that is farther away.
 //!
-//! On a coarse raster, this keeps charts half a cell too far apart on average, more than the best layouts differ by.
-//! [`Rounding::Nearest`] keeps them at the right distance on average. They may then overlap a little, and the caller has to separate
-//! them.
+//! On a coarse raster, this keeps charts half a cell too far apart on average, which is more than the best layouts differ by.
+//! [`Rounding::Nearest`] keeps them at the right distance on average. They may then overlap a little, and the caller has to
+//! separate them.
 //!
 //! Bitmaps hold 64 cells in a machine word. [`Turned`] is a mask after quarter turns, as the search for a free place reads it.
 use super::occupancy::Probe;
 use super::outline::Outline;
 
-/// One chart's cells at one scale.
+/// Cells of a chart at one scale.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Mask {
-    /// Cells the chart touches.
+    /// Cells that the chart occupies.
     pub body: Bitmap,
-    /// Cells nearer than the padding, in a block larger by `margin` on each side.
+    /// Cells nearer than the padding, in a block that is larger than the body by `margin` on each side.
     pub reach: Bitmap,
     pub margin: u32,
 }
 
-/// The distances a mask is made for, in cells.
+/// Distances for which a mask is made, in cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Distances {
-    /// Added around the chart to both body and reach: how far its outline may still move.
+    /// Added around the chart to both body and reach: the distance by which its outline may still move.
     pub around: f64,
     /// Kept free around that.
     pub padding: f64,
     pub rounding: Rounding,
 }
 
-/// Which cells at its outline a chart takes.
+/// Cells that a chart occupies at its outline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rounding {
-    /// All that it touches.
+    /// All cells that it touches.
     Outward,
-    /// Those whose centers it covers; all where it is so thin that it would lose most of its area.
+    /// Cells whose centers it covers. A chart so thin that it would lose most of its area occupies all cells that it touches.
     Nearest,
 }
 
-/// What a chart has to keep of its area when it is rounded to the nearest cells.
+/// Share of its area that a chart has to keep when it is rounded to the nearest cells. Otherwise, it occupies all cells that it
+/// touches.
 const KEPT_AREA: f64 = 0.7;
 
 impl Mask {
-    /// Rasters the outline at `scale` cells per mesh unit. The lower left corner of the chart's
-    /// bounding rectangle comes to lie at (`around`, `around`) in the body.
+    /// Rasterizes the outline at `scale` cells per mesh unit. The lower left corner of the chart's bounding rectangle lies at
+    /// (`around`, `around`) in the body.
     pub(super) fn new(outline: &Outline, scale: f64, distances: Distances) -> Self {
         let Distances {
             around,
@@ -99,12 +100,12 @@ impl Mask {
     }
 }
 
-/// Sets the cells whose centers directed closed lines wind around, and returns their number.
+/// Sets the cells whose centers closed directed lines wind around, and returns their number.
 ///
-/// A cell that no line touches is inside or outside as a whole: with [`touch`] these are the cells of the area.
+/// A cell that no line touches lies inside or outside as a whole. Together with the cells of [`touch`], these cells cover the area.
 fn fill(bitmap: &mut Bitmap, segments: impl Iterator<Item = [[f64; 2]; 2]>) -> f64 {
     let first_center = |x: f64, end: u32| ((x - 0.5).ceil().max(0.0) as u32).min(end);
-    // Row, column from which on the winding is another, and by how much.
+    // Row, column at which the winding number changes, and the change.
     let mut crossings: Vec<(u32, u32, i32)> = Vec::new();
     for [p, q] in segments {
         let (low, high, sign) = if p[1] <= q[1] { (p, q, 1) } else { (q, p, -1) };
@@ -119,7 +120,7 @@ fn fill(bitmap: &mut Bitmap, segments: impl Iterator<Item = [[f64; 2]; 2]>) -> f
     for pair in crossings.windows(2) {
         let [(row, start, sign), (_, end, _)] = [pair[0], pair[1]];
         winding += sign;
-        // Closed lines leave no winding at the end of a row.
+        // The winding number of closed lines is 0 at the end of a row.
         if winding != 0 && start < end {
             bitmap.set(Run { row, start, end });
             covered += end - start;
@@ -128,7 +129,7 @@ fn fill(bitmap: &mut Bitmap, segments: impl Iterator<Item = [[f64; 2]; 2]>) -> f
     f64::from(covered)
 }
 
-/// Sets the cells a segment touches.
+/// Sets the cells that a segment touches.
 fn touch(bitmap: &mut Bitmap, [p, q]: [[f64; 2]; 2]) {
     sweep(bitmap, [p[1].min(q[1]), p[1].max(q[1])], |strip| {
         let mut range = Range::EMPTY;
@@ -137,7 +138,7 @@ fn touch(bitmap: &mut Bitmap, [p, q]: [[f64; 2]; 2]) {
     });
 }
 
-/// Sets the cells nearer than `radius` to a segment.
+/// Sets the cells within `radius` of a segment.
 fn thicken(bitmap: &mut Bitmap, [p, q]: [[f64; 2]; 2], radius: f64) {
     let d = [q[0] - p[0], q[1] - p[1]];
     let length = d[0].hypot(d[1]).max(f64::MIN_POSITIVE);
@@ -158,7 +159,7 @@ fn thicken(bitmap: &mut Bitmap, [p, q]: [[f64; 2]; 2], radius: f64) {
     );
 }
 
-/// Sets, in every row between two heights, the cells of the range found for the row's strip.
+/// Sets in every row between two heights the cells of the range that `range` returns for the row's strip.
 fn sweep(bitmap: &mut Bitmap, [low, high]: [f64; 2], range: impl Fn([f64; 2]) -> Range) {
     for row in low.max(0.0) as u32..=(high.max(0.0) as u32).min(bitmap.height - 1) {
         let Range { low, high } = range([f64::from(row), f64::from(row + 1)]);
@@ -172,7 +173,7 @@ fn sweep(bitmap: &mut Bitmap, [low, high]: [f64; 2], range: impl Fn([f64; 2]) ->
     }
 }
 
-/// Interval of x that a convex shape covers within a horizontal strip.
+/// Interval of x that a convex shape covers within a horizontal strip; empty if `low > high`.
 #[derive(Clone, Copy)]
 struct Range {
     low: f64,
@@ -218,7 +219,7 @@ pub(super) struct Run {
     pub end: u32,
 }
 
-/// A block of cells.
+/// Rectangular block of cells, one bit each.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Bitmap {
     pub width: u32,
@@ -244,9 +245,9 @@ impl Bitmap {
         set_bits(row, run.start, run.end);
     }
 
-    /// A quarter turn counter-clockwise: (x, y) goes to (height − 1 − y, x).
+    /// Returns the bitmap after a quarter turn counter-clockwise: (x, y) goes to (height − 1 − y, x).
     ///
-    /// In blocks of 64 by 64 cells: rows are taken from the top down and transposed.
+    /// Works on blocks of 64 by 64 cells, whose rows are read from the top down and transposed.
     pub(super) fn quarter_turn(&self) -> Self {
         let mut out = Self::new(self.height, self.width);
         for column in 0..out.words {
@@ -264,7 +265,7 @@ impl Bitmap {
         out
     }
 
-    /// All runs, row by row.
+    /// Returns all runs of set cells, row by row.
     pub(super) fn runs(&self) -> Vec<Run> {
         let mut runs = Vec::new();
         for row in 0..self.height {
@@ -283,7 +284,7 @@ impl Bitmap {
     }
 }
 
-/// First place from `x` on whose bit differs from those of `ground`.
+/// Returns the first position from `x` on whose bit differs from those of `ground`; `u32::MAX` if there is none.
 fn next(words: &[u64], x: u32, ground: u64) -> u32 {
     let mut keep = u64::MAX << (x % 64);
     for (i, word) in words.iter().enumerate().skip((x / 64) as usize) {
@@ -312,7 +313,7 @@ pub(super) fn set_bits(words: &mut [u64], start: u32, end: u32) {
 
 /// Exchanges rows and columns: bit j of word i goes to bit i of word j.
 ///
-/// Halves of the block are exchanged, then halves of each quarter, and so on (Warren, Hacker's Delight, 7-3).
+/// Exchanges halves of the block, then halves of each quarter, and so on (Warren, Hacker's Delight, 7-3).
 fn transpose(block: &mut [u64; 64]) {
     let (mut size, mut low) = (32, u64::MAX >> 32);
     while size > 0 {
@@ -326,7 +327,7 @@ fn transpose(block: &mut [u64; 64]) {
     }
 }
 
-/// One of the four turned versions of a mask, with what its reach wants free in the order of the test.
+/// A mask after quarter turns, with the cells of its reach in the order in which they are tested.
 pub(super) struct Turned {
     pub turns: u32,
     pub body: Vec<Run>,
@@ -338,18 +339,19 @@ pub(super) struct Turned {
 }
 
 impl Turned {
-    /// The mask after so many quarter turns.
+    /// Turns a mask counter-clockwise by `turns` quarters.
     pub(super) fn new(mask: Mask, turns: u32) -> Self {
         let turned = (0..turns).fold(mask, |mask, _| mask.quarter_turn());
         Self::of(&turned, turns)
     }
 
-    /// Whether both take the same cells and keep the same ones free.
+    /// Returns whether both occupy the same cells and keep the same cells free.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         self.size == other.size && self.body == other.body && self.reach == other.reach
     }
 
-    /// The quarter turns that differ: four, or one of a square.
+    /// Returns the quarter turns of a mask that differ: four, two for a mask with the symmetry of a rectangle, or one for that of a
+    /// square.
     pub(super) fn all(mask: Mask) -> Vec<Self> {
         let mut masks = vec![mask];
         for turns in 1..4 {
@@ -376,8 +378,8 @@ impl Turned {
     }
 }
 
-/// The longest run first, then runs far from each other before their neighbors: an occupied place
-/// is found out early.
+/// Orders runs so that an occupied place is detected early: the longest run first, then runs far from each other before their
+/// neighbors.
 fn scattered(mut runs: Vec<Run>) -> Vec<Run> {
     let bits = usize::BITS - runs.len().leading_zeros();
     let mut keyed: Vec<(usize, Run)> = runs

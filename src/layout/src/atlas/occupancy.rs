@@ -1,43 +1,45 @@
 //! Occupied cells of pages, and the search for free places.
 //!
-//! All positions in a row are tested together, 64 to a machine word. For each width 2ᵏ, the occupancy has one bit per window of 2ᵏ
-//! cells that tells whether one of them is occupied. A run of cells is free if two windows that cover it are: a [`Probe`].
+//! The search tests all positions in a row together, 64 in a machine word. For each width 2ᵏ, the occupancy has one bit per window
+//! of 2ᵏ cells, which is set if one of these cells is occupied. A run of cells is free if two windows that cover it are free: a
+//! [`Probe`].
 use std::array::from_fn;
 
 use super::mask::{Run, Turned, set_bits};
 use super::page::Form;
 
-/// Words of a row from which on its longest free run is known, so that rows that are full are passed over. Of fewer, looking
-/// costs no more than that.
+/// Number of words in a row from which on the length of its longest free run is stored, so that full rows are skipped. In shorter
+/// rows, the search itself costs no more than this test.
 const WIDE: usize = 16;
-/// The longest free run of a row in which cells were taken since it was counted.
+/// Marks a row whose longest free run has to be counted again because cells in it were occupied.
 const UNKNOWN: u32 = u32::MAX;
 
 /// The occupied cells of all pages.
 #[derive(Clone)]
 pub(super) struct Occupancy {
     pub form: Form,
-    /// The longer side of what may be used of each page, in cells; at most that of the beginning.
+    /// Longer side of the usable part of each page, in cells; at most the value for which the occupancy was created.
     pub capacity: u32,
-    /// Free cells on each side of it, so that a reach may stick out.
+    /// Cells on each side of that part, so that a reach may extend beyond it.
     frame: u32,
     words: usize,
-    /// Rows of a page with its frame.
+    /// Rows of a page, including its frame.
     height: usize,
-    /// Page after page and row after row, in each for every width 2ᵏ `words` of bits: bit x says that a cell of x..x + 2ᵏ is taken.
+    /// Bits of all pages, row by row. Each row has `words` words for each width 2ᵏ, in which bit x is set if one of the cells x..x
+    /// + 2ᵏ is occupied.
     rows: Vec<u64>,
-    /// For each row of wide pages its longest run of free cells, or [`UNKNOWN`]; empty of others.
+    /// Longest run of free cells of each row, or [`UNKNOWN`]; empty for narrow pages.
     free: Vec<u32>,
-    /// The longer side of what is used of a page so far.
+    /// Longer side of the used part of the pages so far, in cells.
     pub side: u32,
-    /// Rows of each page used so far.
+    /// Number of rows of each page used so far.
     pub tops: Vec<u32>,
-    /// Words read so far: what the search cost, on any machine.
+    /// Words read so far: the cost of the search, which is the same on every machine.
     pub work: u64,
 }
 
 impl Occupancy {
-    /// Empty pages. No mask's margin may exceed `frame`.
+    /// Creates empty pages. No mask's margin may exceed `frame`.
     pub(super) fn new(form: Form, capacity: u32, frame: u32, side: u32) -> Self {
         let [width, height] = form.reach(capacity).map(|cells| cells + 2 * frame);
         let words = width.div_ceil(64) as usize + 2;
@@ -56,12 +58,13 @@ impl Occupancy {
         }
     }
 
-    /// The side of the largest used part of a page.
+    /// Returns the longer side of the used part of the pages, in cells.
     pub(super) fn side(&self) -> u32 {
         self.side
     }
 
-    /// Takes the same cells as another of its form and size.
+    /// Copies the occupied cells and the used part from another occupancy of the same form and size. Copies only the rows that one
+    /// of the two uses.
     pub(super) fn restore(&mut self, other: &Self) {
         let stride = self.words * WIDTHS;
         let rows = self.rows.chunks_mut(self.height * stride);
@@ -76,8 +79,8 @@ impl Occupancy {
         self.tops.copy_from_slice(&other.tops);
     }
 
-    /// The place within the window that makes the used part of pages grow least, and for which of the masks; of those the lowest on
-    /// the first page.
+    /// Returns the free place within the window at which the used part of the pages grows least, and the index of its mask. Of
+    /// several such places, returns the lowest on the first page.
     pub(super) fn find(&mut self, turned: &[Turned], window: Window) -> Option<(usize, Spot)> {
         let mut best = None;
         for page in window.lowest.page..self.form.pages.min(window.highest.page.saturating_add(1)) {
@@ -93,7 +96,7 @@ impl Occupancy {
         best.map(|(_, spot)| spot)
     }
 
-    /// The same on one page, if it is better than what is known.
+    /// Searches one page, and updates `best` if it finds a better place.
     fn find_on(
         &mut self,
         page: u32,
@@ -127,7 +130,7 @@ impl Occupancy {
         }
     }
 
-    /// Smallest free x between two, in the row of a corner.
+    /// Returns the smallest free x between two columns, both included, in the row of `corner`.
     fn first_free(
         &mut self,
         mask: &Turned,
@@ -152,7 +155,7 @@ impl Occupancy {
         None
     }
 
-    /// The same among the columns of some words.
+    /// Searches like [`first_free`](Self::first_free), among the columns in `N` words from `word` on.
     fn free_among<const N: usize>(
         &mut self,
         mask: &Turned,
@@ -177,7 +180,8 @@ impl Occupancy {
         Some(64 * (word + free) + blocked[free as usize].trailing_ones())
     }
 
-    /// Whether each run of a mask is as short as a free one in its row; always of narrow pages.
+    /// Returns `true` if no run of the mask's reach is longer than the longest free run in its row. Always returns `true` for
+    /// narrow pages.
     fn may_hold(&mut self, mask: &Turned, corner: Corner) -> bool {
         if self.free.is_empty() {
             return true;
@@ -187,7 +191,7 @@ impl Occupancy {
             .all(|run| self.longest_free(base + run.row as usize) >= run.end - run.start)
     }
 
-    /// The longest run of free cells of a row of a wide page, with the frame.
+    /// Returns the length of the longest run of free cells in a row of a wide page, including the frame.
     fn longest_free(&mut self, row: usize) -> u32 {
         if self.free[row] == UNKNOWN {
             let words = &self.rows[row * self.words * WIDTHS..][..self.words];
@@ -198,7 +202,7 @@ impl Occupancy {
         self.free[row]
     }
 
-    /// Takes the cells of a mask's body, whose lower left cell comes to lie at `corner`.
+    /// Occupies the cells of a mask's body whose lower left cell is at `corner`, and updates the used part.
     pub(super) fn take(&mut self, mask: &Turned, corner: Corner) {
         let x = corner.x + self.frame;
         let stride = self.words * WIDTHS;
@@ -222,7 +226,8 @@ impl Occupancy {
         *highest = top.max(*highest);
     }
 
-    /// Takes the cells of a body, whose lower left cell comes to lie at `corner`, also within the frame; not what sticks out of that.
+    /// Occupies the cells of a body whose lower left cell is at `corner`, including cells in the frame but none beyond it. The used
+    /// part stays as it is.
     pub(super) fn cover(&mut self, body: &[Run], page: u32, corner: [i64; 2]) {
         let stride = self.words * WIDTHS;
         let frame = i64::from(self.frame);
@@ -243,20 +248,20 @@ impl Occupancy {
         }
     }
 
-    /// Where the row of a corner lies among those of all pages.
+    /// Returns the index of the row of a corner among the rows of all pages.
     fn row(&self, corner: Corner) -> usize {
         corner.page as usize * self.height + (corner.y + self.frame) as usize
     }
 }
 
-/// Widths of windows: up to 64 cells.
+/// Number of widths of windows: 1 to 64 cells.
 pub(super) const WIDTHS: usize = 7;
 
-/// Derives the wider windows of a row from its cells, of which some between `start` and `end` were taken.
+/// Updates the wider windows of a row after cells between `start` and `end` were occupied.
 pub(super) fn widen(row: &mut [u64], words: usize, [start, end]: [u32; 2]) {
     let last = (end / 64) as usize;
     let mut next: [u64; WIDTHS] = from_fn(|k| row[k * words + last + 1]);
-    // The widest window that holds a cell begins less than 64 cells before it.
+    // The widest window that contains a cell begins less than 64 cells before it.
     for word in ((start.saturating_sub(63) / 64) as usize..=last).rev() {
         let mut cells = row[word];
         for k in 0..WIDTHS - 1 {
@@ -268,17 +273,17 @@ pub(super) fn widen(row: &mut [u64], words: usize, [start, end]: [u32; 2]) {
     }
 }
 
-/// Adds a row shifted by so many cells, from its first word on.
+/// Sets the bits of `blocked` that are set in the row, which is read from bit `shift` on.
 pub(super) fn add_shifted<const N: usize>(blocked: &mut [u64; N], row: &[u64], shift: u32) {
     let (first, shift) = ((shift / 64) as usize, shift % 64);
     let row = &row[first..=first + N];
     for i in 0..N {
-        // The double shift keeps a shift by 0 from becoming one by 64.
+        // The double shift avoids a shift by 64 if `shift` is 0.
         blocked[i] |= row[i] >> shift | row[i + 1] << 1 << (63 - shift);
     }
 }
 
-/// The bits of a word of a row that lie outside two columns, both of which are inside.
+/// Returns the bits of a word of a row that lie outside two columns, which themselves are inside.
 pub(super) fn outside([first, last]: [u32; 2], word: u32) -> u64 {
     let below = |column: u32| match column.saturating_sub(64 * word) {
         bits @ 0..64 => !(u64::MAX << bits),
@@ -287,7 +292,7 @@ pub(super) fn outside([first, last]: [u32; 2], word: u32) -> u64 {
     below(first) | !below(last + 1)
 }
 
-/// The longest run of zeros among bits.
+/// Returns the length of the longest run of zero bits.
 pub(super) fn longest_zeros(words: &[u64]) -> u32 {
     let (mut longest, mut open) = (0, 0);
     for &word in words {
@@ -309,17 +314,17 @@ pub(super) fn longest_zeros(words: &[u64]) -> u32 {
 
 /// Two windows of one width in one row, both of which have to be free.
 ///
-/// A run of length between 2ᵏ and 2ᵏ⁺¹ is free when two windows of 2ᵏ cells are: the first and the last in it. Runs longer than two
-/// of the widest windows take several probes.
+/// A run whose length is between 2ᵏ and 2ᵏ⁺¹ is free if its first and its last window of 2ᵏ cells are free. A run longer than two
+/// of the widest windows takes several probes.
 pub(super) struct Probe {
-    /// The row of the mask times [`WIDTHS`], plus k.
+    /// Row of the mask times [`WIDTHS`], plus k.
     pub lane: u32,
-    /// Columns of the mask where the windows begin.
+    /// Columns of the mask at which the windows begin.
     pub starts: [u32; 2],
 }
 
 impl Probe {
-    /// Those that tell whether all cells of some runs are free, in the order of the runs.
+    /// Returns the probes that test whether all cells of some runs are free, in the order of the runs.
     pub(super) fn of(runs: &[Run]) -> Vec<Self> {
         let mut probes = Vec::with_capacity(runs.len());
         for run in runs {
@@ -342,7 +347,7 @@ impl Probe {
     }
 }
 
-/// Where a body's lower left cell lies.
+/// Position of a body's lower left cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Corner {
     pub page: u32,
@@ -351,7 +356,7 @@ pub(super) struct Corner {
     pub y: u32,
 }
 
-/// A place for one mask.
+/// Place of one mask.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Spot {
     pub corner: Corner,
@@ -380,7 +385,8 @@ impl Spot {
     }
 }
 
-/// Where a place is looked for: pages, columns and rows from `lowest` to `highest`, both included.
+/// Region in which a place is searched: pages, columns and rows from `lowest` to `highest`, both included. On pages after the
+/// first, columns and rows start at 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
     pub lowest: Corner,
@@ -388,14 +394,14 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Everywhere.
+    /// All pages.
     pub(super) const ALL: Self = Self::from(Corner {
         page: 0,
         x: 0,
         y: 0,
     });
 
-    /// To the right and up, and anywhere on later pages.
+    /// Returns the window that extends to the right and up from a corner, and contains all later pages.
     pub(super) const fn from(lowest: Corner) -> Self {
         Self {
             lowest,

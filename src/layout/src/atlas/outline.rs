@@ -1,4 +1,4 @@
-//! Outline of a chart: its edges with holes, its area, and the angle at which it is packed.
+//! Outline of a chart: its boundary edges including those of holes, its area, and the angle at which it is packed.
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -6,31 +6,32 @@ use super::copies::Shape;
 use super::{AtlasError, ChartMap, Rotation};
 use unwrapd_maps::plane::Straightness;
 
-/// A chart's outline, turned to the angle at which it is packed.
+/// Outline of a chart, turned to the angle at which it is packed.
 #[derive(Clone, Debug)]
 pub(super) struct Outline {
     /// Directed edges around the area, which lies to their left, in the plane of the map.
     boundary: Arc<[[[f64; 2]; 2]]>,
     pub n_triangles: usize,
-    /// Square root of the area; 0 for a chart without area, as authored UVs have.
+    /// Square root of the area in mesh units; 0 for a chart without area, which authored UVs may have.
     pub size: f64,
-    /// Sides of the bounding rectangle once turned, in mesh units.
+    /// Sides of the bounding rectangle of the turned outline, in mesh units.
     pub extent: [f64; 2],
-    /// The axes of the outline in the plane of the map.
+    /// Axes of the outline in the plane of the map.
     pub straightness: Straightness,
     /// Moments in the plane of the map.
     pub shape: Shape,
     /// Rotations that the options permit.
     permitted: Rotation,
-    /// `true` if it has copies on the pages. Copies lie alike.
+    /// `true` if enough copies of the chart lie at the same angle. They are then turned alike.
     pub has_copies: bool,
-    /// The horizontal axis in the plane of the map, and what is subtracted after turning to it.
+    /// Unit vector in the plane of the map that becomes the horizontal axis.
     axis: [f64; 2],
+    /// Subtracted after turning: the lower left corner of the bounding rectangle, unless set by `with_corner`.
     low: [f64; 2],
 }
 
 impl Outline {
-    /// The outline of a map of this area, not turned yet.
+    /// Creates the outline of a map with the given area, not turned.
     pub(super) fn new(map: &ChartMap, area: f64) -> Self {
         let at = |v: u32| map.uv[v as usize];
         let boundary: Arc<[_]> = boundary(map).into_iter().map(|e| e.map(at)).collect();
@@ -49,7 +50,7 @@ impl Outline {
         outline.turned([1.0, 0.0])
     }
 
-    /// With another unit vector of the map's plane as horizontal axis.
+    /// Returns the outline turned so that `axis`, a unit vector in the plane of the map, becomes horizontal.
     pub(super) fn turned(&self, axis: [f64; 2]) -> Self {
         let mut turned = Self {
             axis,
@@ -72,7 +73,8 @@ impl Outline {
         turned
     }
 
-    /// With another origin than the lower left corner of the bounding rectangle: a point to the left of it and below.
+    /// Returns the outline with `corner` as its origin instead of the lower left corner of the bounding rectangle. `corner` is
+    /// given in turned coordinates and lies to the left of the rectangle and below it.
     pub(super) fn with_corner(&self, corner: [f64; 2]) -> Self {
         let extent = |k: usize| self.low[k] + self.extent[k] - corner[k];
         Self {
@@ -82,12 +84,12 @@ impl Outline {
         }
     }
 
-    /// Limits the rotations, relative to the map.
+    /// Limits the rotations, which are relative to the map.
     pub(super) fn limited_to(self, permitted: Rotation) -> Self {
         Self { permitted, ..self }
     }
 
-    /// Returns the rotations to try: quarter turns for an upright chart.
+    /// Returns the rotations to try: only quarter turns for an upright chart if any angle is permitted.
     pub(super) fn rotation(&self) -> Rotation {
         match (self.permitted, self.straightness) {
             (Rotation::Any, Straightness::Upright(_)) => Rotation::Quarter,
@@ -95,7 +97,7 @@ impl Outline {
         }
     }
 
-    /// Turned upright, if it leans; none of another.
+    /// Returns the outline turned upright if it leans and any angle is permitted; `None` otherwise.
     pub(super) fn straightened(&self) -> Option<Self> {
         match self.straightness {
             Straightness::Leaning(axis) if self.permitted == Rotation::Any => {
@@ -105,7 +107,7 @@ impl Outline {
         }
     }
 
-    /// Returns the outline turned upright; `None` if it is not straight.
+    /// Returns the outline turned upright; `None` if it leans or is round.
     pub(super) fn upright(&self) -> Option<Self> {
         match self.straightness {
             Straightness::Upright(axis) => Some(self.turned(axis)),
@@ -113,7 +115,8 @@ impl Outline {
         }
     }
 
-    /// Returns a straight outline turned upright if it is then no longer than `side`. A longer one counts as leaning: the layouts decide.
+    /// Returns an upright outline turned to its axes if no side is then longer than `side`. A longer one counts as leaning from
+    /// then on, and the layouts decide on its angle. Returns other outlines unchanged.
     pub(super) fn upright_within(&self, side: f64) -> Self {
         match (self.upright(), self.straightness) {
             (Some(upright), _) if upright.extent[0].max(upright.extent[1]) <= side => upright,
@@ -122,7 +125,7 @@ impl Outline {
         }
     }
 
-    /// Returns the outline turned like `first`, of which it is a copy at `angle` in the plane of the map.
+    /// Returns the outline turned like `first`, whose copy it is at `angle` in the plane of the map.
     pub(super) fn turned_like(&self, first: &Self, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
         let turned = |[c, s]: [f64; 2]| [c * cos - s * sin, c * sin + s * cos];
@@ -134,12 +137,12 @@ impl Outline {
         self.turned(turned(first.axis)).with(straightness)
     }
 
-    /// Returns its angle on the page, which copies that lie alike share.
+    /// Returns the angle of the outline on the page, in radians. Copies that lie alike have the same one.
     pub(super) fn lean(&self) -> f64 {
         self.shape.angle - self.axis[1].atan2(self.axis[0])
     }
 
-    /// Taken for one with other axes.
+    /// Returns the outline with `straightness` in place of its own.
     fn with(&self, straightness: Straightness) -> Self {
         Self {
             straightness,
@@ -147,43 +150,43 @@ impl Outline {
         }
     }
 
-    /// Turned counter-clockwise by an angle.
+    /// Returns the outline turned counter-clockwise by an angle in radians.
     pub(super) fn rotated(&self, angle: f64) -> Self {
         let ([c, s], (sin, cos)) = (self.axis, angle.sin_cos());
         self.turned([c * cos + s * sin, s * cos - c * sin])
     }
 
-    /// A point of the map, turned and shifted: the lower left corner of the bounding rectangle is the origin.
+    /// Turns and shifts a point of the map. The lower left corner of the bounding rectangle becomes the origin.
     pub(super) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [c, s] = self.axis;
         [c * x + s * y - self.low[0], c * y - s * x - self.low[1]]
     }
 
-    /// The point of the map that is the middle of the bounding rectangle.
+    /// Returns the point of the map at the center of the bounding rectangle.
     pub(super) fn middle(&self) -> [f64; 2] {
         let [c, s] = self.axis;
         let [x, y] = [0, 1].map(|k| self.low[k] + self.extent[k] / 2.0);
         [c * x - s * y, s * x + c * y]
     }
 
-    /// The corners of the outline in the plane of the map.
+    /// Returns the corners of the outline, in the plane of the map.
     pub(super) fn corners(&self) -> impl Iterator<Item = [f64; 2]> {
         self.boundary.iter().map(|edge| edge[0])
     }
 
-    /// The directed edges, turned and shifted.
+    /// Returns the directed edges, turned and shifted.
     pub(super) fn edges(&self) -> impl ExactSizeIterator<Item = [[f64; 2]; 2]> {
         self.boundary.iter().map(|edge| edge.map(|p| self.place(p)))
     }
 
-    /// Length of the boundary.
+    /// Returns the length of the boundary, in mesh units.
     pub(super) fn perimeter(&self) -> f64 {
         let length = |[p, q]: &[[f64; 2]; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
         self.boundary.iter().map(length).sum()
     }
 }
 
-/// Checks the charts and finds their outlines.
+/// Checks the charts and computes their outlines.
 pub(super) fn outlines(charts: &[ChartMap]) -> Result<Vec<Outline>, AtlasError> {
     let areas: Vec<f64> = charts
         .par_iter()
@@ -199,7 +202,7 @@ pub(super) fn outlines(charts: &[ChartMap]) -> Result<Vec<Outline>, AtlasError> 
         .collect())
 }
 
-/// The area of a chart, or what is wrong with it.
+/// Returns the area of a chart, or a function from its index to the error.
 fn check(map: &ChartMap) -> Result<f64, fn(usize) -> AtlasError> {
     if map.uv.iter().flatten().any(|x| !x.is_finite()) {
         return Err(|chart| AtlasError::NonFinite { chart });
@@ -219,7 +222,7 @@ fn check(map: &ChartMap) -> Result<f64, fn(usize) -> AtlasError> {
     Ok(area)
 }
 
-/// Sum of the signed areas.
+/// Returns the sum of the signed areas of the triangles.
 fn area(map: &ChartMap) -> f64 {
     map.triangles
         .iter()
@@ -233,16 +236,17 @@ fn doubled_area(map: &ChartMap, triangle: &[u32; 3]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// Returns the edges of all triangles but those that cancel, since they run in opposite directions. Their order follows from the
-/// triangles only.
+/// Returns the directed edges of all triangles, except those that cancel because they run in opposite directions. Their order
+/// depends only on the triangles.
 ///
-/// Flipped triangles, which maps without a barrier may have, are turned over first, so that they count as area too: their
-/// edges then run as those of their neighbors do, and stay, twice. Edges of triangles without area stay, too: they enclose nothing,
-/// but the chart reaches as far. Those of a closed surface whose UVs are a line would all cancel otherwise.
+/// Flipped triangles, which maps without a barrier may have, are turned over first, so that they count as area, too. The edges that
+/// they share with their neighbors then run in the same direction and are kept twice. Edges of triangles without area are also
+/// kept: they enclose nothing, but the chart extends that far. Otherwise, all edges of a closed surface whose UVs lie on a line
+/// would cancel.
 pub(super) fn boundary(map: &ChartMap) -> Vec<[u32; 2]> {
     let edges_of = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]];
     let mut boundary = Vec::new();
-    // Edges by their ends, and whether they run from the smaller one to the larger.
+    // Edges as their smaller and larger end, and whether they run from the smaller to the larger.
     let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(3 * map.triangles.len());
     for &triangle @ [a, b, c] in map.triangles {
         let doubled_area = doubled_area(map, &triangle);
@@ -269,21 +273,22 @@ pub(super) fn boundary(map: &ChartMap) -> Vec<[u32; 2]> {
     boundary
 }
 
-/// What a good angle makes small.
+/// Measure that a good angle minimizes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Enclosure {
-    /// The area of the bounding rectangle: many charts share the square.
+    /// Area of the bounding rectangle, for many charts that share a page.
     Rectangle,
-    /// The longer side of the bounding page, whose sides along u and v are that halved so often: one chart has it to itself.
+    /// Longer side of the bounding page, for one chart that decides the size of its page. Its sides along u and v are the longer
+    /// side halved this many times.
     Page([u32; 2]),
 }
 
-/// Hull edges tried at most; the hull of a round chart is thinned to this many.
+/// Maximum number of hull edges tried. The hull of a round chart is thinned to this many.
 const HULL_EDGES: usize = 512;
-/// Angles tried for the bounding page, over a quarter turn, each upright and on its side.
+/// Number of angles tried for the bounding page, over a quarter turn. Each is tried upright and on its side.
 const PAGE_ANGLES: u32 = 360;
 
-/// Unit vector that becomes the horizontal axis.
+/// Returns the unit vector that becomes the horizontal axis.
 pub(super) fn direction(hull: &[[f64; 2]], enclosure: Enclosure) -> [f64; 2] {
     match enclosure {
         Enclosure::Rectangle => smallest_rectangle(hull),
@@ -291,7 +296,7 @@ pub(super) fn direction(hull: &[[f64; 2]], enclosure: Enclosure) -> [f64; 2] {
     }
 }
 
-/// One side of the smallest enclosing rectangle lies on a hull edge.
+/// Returns the direction of the longer side of the smallest enclosing rectangle. One of its sides lies on a hull edge.
 fn smallest_rectangle(hull: &[[f64; 2]]) -> [f64; 2] {
     let mut best = ([1.0, 0.0], f64::INFINITY);
     for i in (0..hull.len()).step_by(hull.len().div_ceil(HULL_EDGES).max(1)) {
@@ -310,7 +315,7 @@ fn smallest_rectangle(hull: &[[f64; 2]]) -> [f64; 2] {
     best.0
 }
 
-/// The direction for the smallest page that encloses a hull, and its longer side.
+/// Returns the direction that becomes horizontal for the smallest page that encloses a hull, and the longer side of this page.
 pub(super) fn smallest_page(hull: &[[f64; 2]], halvings: [u32; 2]) -> ([f64; 2], f64) {
     let [u, v] = halvings.map(|times| f64::from(1_u32 << times));
     let mut best = ([1.0, 0.0], f64::INFINITY);

@@ -2,23 +2,23 @@
 use super::GRID_BITS;
 use unwrapd_maps::mesh::Resolution;
 
-/// The texture of an atlas: pages of one size, side by side along u.
+/// Texture of an atlas: pages of one size, side by side along u.
 ///
-/// Page k covers u from k to k + 1 and v from 0 to 1, the tile 1001 + k in the numbers of UDIM. There is one row of them: those are
-/// the tiles up to 1010, and v is as fine as with one page.
+/// Page k covers u from k to k + 1 and v from 0 to 1. It is tile 1001 + k in UDIM numbering. There is only one row of pages, the
+/// tiles up to 1010, so v is as fine as with one page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Texture {
-    /// Texels of each page.
+    /// Resolution of each page.
     pub resolution: Resolution,
-    /// Pages that charts may lie on, 1 to [`Texture::MOST_PAGES`].
+    /// Number of pages that charts may lie on, 1 to [`Texture::MOST_PAGES`].
     pub pages: u32,
 }
 
 impl Texture {
-    /// The tiles of one row.
+    /// Maximum number of pages: the tiles of one row.
     pub const MOST_PAGES: u32 = 10;
 
-    /// One square page.
+    /// Creates a texture with one square page.
     pub const fn square(side: u32) -> Self {
         Self {
             resolution: Resolution::square(side),
@@ -26,21 +26,23 @@ impl Texture {
         }
     }
 
-    /// The page's area over that of the square of its longer side.
+    /// Returns the area of a page relative to that of the square on its longer side.
     pub(super) fn share(self) -> f64 {
         let shrunk: u32 = self.resolution.halvings().iter().sum();
         1.0 / f64::from(1_u32 << shrunk)
     }
 
-    /// Cells along the longer side for about as many in a page as a square has with so many along each.
+    /// Returns the number of cells along the longer side of a page that has about as many cells as a square with `cells` along each
+    /// side.
     pub(super) fn raster(self, cells: u32) -> u32 {
         let shrunk: u32 = self.resolution.halvings().iter().sum();
         cells << shrunk.div_ceil(2)
     }
 
-    /// For u and v the step of the grid on which charts are rounded, as a power of two of 2^-[`GRID_BITS`].
+    /// Returns for u and v the exponent of the step of the grid on which charts are rounded: the step is 2^exponent units of
+    /// 2^-[`GRID_BITS`].
     ///
-    /// Both are equally long on the surface, and no finer than `f32` is at the right end of the last page: numbers from 2ᵏ to
+    /// Both steps are equally long on the surface, and no finer than `f32` at the right end of the last page: numbers from 2ᵏ to
     /// 2ᵏ⁺¹ are multiples of 2ᵏ⁻²³.
     pub(super) fn steps(self) -> [u32; 2] {
         let [u, v] = self.resolution.halvings();
@@ -49,7 +51,7 @@ impl Texture {
         [u + finer, v + finer]
     }
 
-    /// The shape of what charts may use of a page, to whose borders half of the padding is kept.
+    /// Returns the shape of the part of a page that charts may use, with half of `padding` kept to its borders.
     pub(super) fn shape(self, padding: f64) -> Shape {
         Shape {
             halvings: self.resolution.halvings(),
@@ -57,33 +59,33 @@ impl Texture {
         }
     }
 
-    /// Steps along the longer side of a page.
+    /// Returns the number of grid steps along the longer side of a page.
     pub(super) fn grid_side(self) -> f64 {
         let [u, v] = self.steps();
         f64::from(1_u32 << (GRID_BITS - u.min(v)))
     }
 
-    /// A point in steps on a page, in units of 2^-[`GRID_BITS`].
+    /// Converts a point on a page from grid steps to units of 2^-[`GRID_BITS`] in the atlas.
     pub(super) fn on_page(self, page: u32, [x, y]: [i32; 2]) -> [i32; 2] {
         let [u, v] = self.steps();
         [((page as i32) << GRID_BITS) + (x << u), y << v]
     }
 }
 
-/// The shape of the used part of each page, in cells.
+/// Shape of the used part of each page, in cells.
 ///
-/// All pages grow together and keep their shape: how far they are used is told by one number, the longer side without its borders.
+/// All pages grow together and keep their shape. One number tells how far they are used: the longer side without its borders.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Form {
     pub pages: u32,
-    /// For the sides along u and v how often the longer is halved.
+    /// Number of times that the longer side is halved to give the sides along u and v.
     halvings: [u32; 2],
-    /// What a side's borders are too long for its shape, in cells of the longer side.
+    /// Cells of the longer side that are lost along u and v because borders are not halved along with a side.
     inset: [u32; 2],
 }
 
 impl Form {
-    /// With so many cells kept free at each border.
+    /// Creates the form of pages with `border` cells kept free at each border.
     pub(super) fn new(texture: Texture, border: f64) -> Self {
         let halvings = texture.resolution.halvings();
         Self {
@@ -98,47 +100,48 @@ impl Form {
         self.halvings == [0; 2]
     }
 
-    /// The longer side of the least page that reaches so far to the right and up.
+    /// Returns the longer side of the smallest page on which charts may extend to `reach`, to the right and up.
     pub(super) fn side(self, reach: [u32; 2]) -> u32 {
         let of = |axis: usize| (reach[axis] << self.halvings[axis]) + self.inset[axis];
         of(0).max(of(1))
     }
 
-    /// How far a page with this longer side reaches to the right and up.
+    /// Returns the distances to which charts may extend to the right and up on a page with this longer side.
     pub(super) fn reach(self, side: u32) -> [u32; 2] {
         [0, 1].map(|axis| side.saturating_sub(self.inset[axis]) >> self.halvings[axis])
     }
 
-    /// The longer side of the least page without borders around a rectangle, upright or on its side.
+    /// Returns the longer side of the smallest page, without borders, around a rectangle that is upright or on its side.
     pub(super) fn around(self, [width, height]: [f64; 2]) -> f64 {
         let [u, v] = self.halvings.map(|times| f64::from(1_u32 << times));
         let (upright, on_side) = ((u * width).max(v * height), (u * height).max(v * width));
         upright.min(on_side)
     }
 
-    /// What borders are too long for the shape of a page at most, in cells of the longer side.
+    /// Returns the maximum number of cells of the longer side that are lost to borders along u or v.
     pub(super) fn most_inset(self) -> f64 {
         f64::from(self.inset[0].max(self.inset[1]))
     }
 }
 
-/// The shape of what charts may use of a page, in parts of cells.
+/// Shape of the part of a page that charts may use, in fractions of cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shape {
-    /// For the sides along u and v how often the longer is halved.
+    /// Number of times that the longer side is halved to give the sides along u and v.
     halvings: [u32; 2],
-    /// What is kept between charts, and to both borders together.
+    /// Distance kept between charts, and to two opposite borders together, in cells.
     padding: f64,
 }
 
 impl Shape {
-    /// How far a page whose longer side without its borders is this reaches to the right and up.
+    /// Returns the distances to which charts may extend to the right and up on a page whose longer side, without borders, is
+    /// `side`.
     pub(super) fn reach(self, side: f64) -> [f64; 2] {
         self.halvings
             .map(|times| (side + self.padding) / f64::from(1_u32 << times) - self.padding)
     }
 
-    /// The longer side of the least page that reaches so far to the right and up.
+    /// Returns the longer side, without borders, of the smallest page on which charts may extend to `reach`, to the right and up.
     pub(super) fn side(self, reach: [f64; 2]) -> f64 {
         let of = |axis: usize| {
             (reach[axis] + self.padding) * f64::from(1_u32 << self.halvings[axis]) - self.padding
@@ -146,7 +149,7 @@ impl Shape {
         of(0).max(of(1))
     }
 
-    /// The same on a raster so many times as fine.
+    /// Returns the shape on a raster that is `by` times as fine.
     pub(super) fn scaled(self, by: f64) -> Self {
         Self {
             padding: by * self.padding,

@@ -1,4 +1,4 @@
-//! In which order charts are placed, and how each is turned.
+//! Plan of a layout: the order in which charts are placed, and the angle of each.
 use std::f64::consts::TAU;
 
 use super::copies::{Shape, copies};
@@ -7,40 +7,40 @@ use super::page::Texture;
 use super::{AtlasOptions, Rotation};
 use unwrapd_method::numerics::hull::convex_hull;
 
-/// The share of a page that charts are hoped to fill.
+/// Share of a page that charts are expected to fill.
 pub(super) const HOPE: f64 = 0.75;
 
 /// Largest difference between the angles of copies that lie alike, in radians.
 const ALIKE: f64 = 1e-2;
 
-/// Number of charts per copy that a shape must have: among thousands of charts, some are equal by chance.
+/// Number of charts for each copy that a shape must have, and at least two: among thousands of charts, some are equal by chance.
 const CHARTS_PER_COPY: usize = 100;
 
-/// What a layout is made from.
+/// Input of a layout.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
-    /// The charts, each turned to an angle.
+    /// Outlines of the charts, each turned to an angle.
     pub outlines: Vec<Outline>,
-    /// For each chart the quarter turns beyond that: one, or what the layout finds best.
+    /// Quarter turns of each chart beyond that: a fixed number, or the one that the layout finds best.
     pub turns: Vec<QuarterTurns>,
     /// Indices of the charts that have triangles, in the order in which they are placed.
     pub order: Vec<usize>,
-    /// Where the charts lie about, if that is known.
+    /// Approximate positions of the charts, if known.
     pub near: Option<Near>,
 }
 
-/// A layout on a coarser raster, near which a finer one is looked for.
+/// Layout on a coarser raster that guides a finer one.
 #[derive(Clone, Debug)]
 pub(super) struct Near {
-    /// For each chart its page, and how far to the right and up it lies there at least, as shares of the longer side.
+    /// Page of each chart, and the lower bounds of its position to the right and up, as shares of the longer side.
     pub corners: Vec<(u32, [f64; 2])>,
-    /// How much farther it may lie before it is looked for elsewhere.
+    /// Width of the window above these bounds that is searched first, as a share of the longer side.
     pub window: f64,
     /// Mesh units along the longer side.
     pub extent: f64,
 }
 
-/// The quarter turns that a chart may be placed with.
+/// Quarter turns with which a chart may be placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum QuarterTurns {
     Any,
@@ -48,7 +48,8 @@ pub(super) enum QuarterTurns {
 }
 
 impl Plan {
-    /// The largest first, each in the smallest rectangle.
+    /// Plans to place the largest charts first. If any angle is permitted, copies lie alike, a chart that is alone is turned
+    /// upright if it is straight, and other charts are turned by [`level`].
     pub(super) fn largest_first(outlines: &[Outline], options: &AtlasOptions) -> Self {
         let texture = options.texture;
         let total: f64 = outlines.iter().map(|o| o.size * o.size).sum();
@@ -75,19 +76,20 @@ impl Plan {
         }
     }
 
-    /// The longest side of a chart's bounding rectangle, in mesh units.
+    /// Returns the longest side of all bounding rectangles, in mesh units.
     pub(super) fn longest(&self) -> f64 {
         let extents = self.outlines.iter().flat_map(|outline| outline.extent);
         extents.fold(0.0, f64::max)
     }
 
-    /// Sum of the charts' areas, in mesh units.
+    /// Returns the sum of the charts' areas, in square mesh units.
     pub(super) fn area(&self) -> f64 {
         self.outlines.iter().map(|o| o.size * o.size).sum()
     }
 }
 
-/// Turns the charts from index `n_level` on: copies like the first of their kind, others by `level`.
+/// Turns the charts from index `n_level` on: copies like the first of their kind if any angle is permitted, other charts by
+/// `level`.
 pub(super) fn alike(
     mut outlines: Vec<Outline>,
     n_level: usize,
@@ -105,7 +107,7 @@ pub(super) fn alike(
     outlines
 }
 
-/// Marks the charts that have copies. Returns the first copy of each chart, possibly itself.
+/// Marks the charts that have enough copies. Returns the first chart of each kind for each chart, possibly itself.
 pub(super) fn mark_copies(outlines: &mut [Outline]) -> Vec<usize> {
     let kinds = kinds(outlines);
     let mut n_alike = vec![0; outlines.len()];
@@ -119,7 +121,7 @@ pub(super) fn mark_copies(outlines: &mut [Outline]) -> Vec<usize> {
     kinds
 }
 
-/// Returns for each chart the first copy that lies alike, possibly itself.
+/// Returns for each chart the first chart that it is a copy of, if both lie alike; otherwise, the chart itself.
 fn kinds(outlines: &[Outline]) -> Vec<usize> {
     let shapes: Vec<Shape> = outlines.iter().map(|outline| outline.shape).collect();
     let lies_like = |(i, (first, _)): (usize, (usize, f64))| {
@@ -137,9 +139,9 @@ fn kinds(outlines: &[Outline]) -> Vec<usize> {
         .collect()
 }
 
-/// A chart turned upright, or else to its smallest rectangle; one that is longer than the side of a
-/// page with charts of an area of `total` may lie across it. One that is most of such a page decides its side, and is
-/// turned to the smallest page.
+/// Turns a straight chart upright if it is then no longer than the side of a square page for charts with a total area of `total`.
+/// Turns other charts to their smallest enclosing rectangle, so that a longer chart may lie across the page. A chart with more than
+/// half of the area decides the size of the page, and is turned to its smallest enclosing page.
 pub(super) fn level(outline: &Outline, total: f64, texture: Texture) -> Outline {
     let is_most = 2.0 * outline.size * outline.size > total;
     let outline = outline.upright_within((total / HOPE).sqrt());
@@ -161,7 +163,7 @@ fn turned(outline: &Outline, enclosure: Enclosure) -> Outline {
     outline.turned(direction(&hull, enclosure))
 }
 
-/// The charts that have triangles, the largest first.
+/// Returns the indices of the charts that have triangles, in descending order of the half perimeters of their rectangles.
 pub(super) fn by_size(outlines: &[&Outline]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..outlines.len())
         .filter(|&i| outlines[i].n_triangles > 0)

@@ -1,10 +1,9 @@
 //! Opens triangles that are too narrow for the grid.
 //!
-//! Every triangle of a patch gets a rest shape: its own, or, where its smallest height is below a few
-//! grid cells, one opened to that height. The symmetric Dirichlet energy of the maps from rest to
-//! plane, each triangle with the same weight however small, then pushes small triangles open and
-//! holds the others; it is minimized by the solver of the library, whose iterates are all strictly
-//! positive and whose energy falls. Vertices whose ring leaves the patch stay where they are.
+//! Every triangle of a patch gets a rest shape: its own shape, or, if its smallest height is below a few grid cells, one opened to
+//! that height. The symmetric Dirichlet energy of the maps from the rest shapes to the plane then pushes small triangles open and
+//! holds the others; each triangle has the same weight, however small. The energy is minimized by the solver of the library, whose
+//! iterates are all strictly positive and whose energy decreases. Vertices whose ring leaves the patch stay where they are.
 use std::collections::HashSet;
 
 use super::ChartMap;
@@ -17,21 +16,21 @@ use unwrapd_method::numerics::bounds::{Bounds, bounds_of, widened};
 use unwrapd_method::numerics::vec2::{dot, doubled_area, sub};
 use unwrapd_method::solver::{Control, Iterate, Objective, Settings, minimize};
 
-/// Smallest height of a rest shape, in grid cells. A triangle whose heights are √2 stays positive when
-/// its corners are rounded (each moves by √½ at most); the rest is for the neighbors' resistance.
+/// Smallest height of a rest shape, in grid cells. A triangle whose heights are √2 stays positive when its corners are rounded, as
+/// each moves by at most √½. The rest compensates for the resistance of the neighbors.
 const REST_HEIGHT: f64 = 4.0;
-/// Good enough when each triangle has this share of its rest area: heights of 2.4 cells.
+/// Share of its rest area from which on a triangle counts as open: heights of 2.4 cells.
 const ENOUGH: f64 = 0.6;
-/// Those heights.
+/// Smallest height of an open triangle, in grid cells.
 pub(super) const ENOUGH_CELLS: f64 = ENOUGH * REST_HEIGHT;
-/// Steps; opening a triangle costs one for each factor of about 1.4 in its area.
+/// Maximum number of steps. Opening a triangle takes one for each factor of about 1.4 in its area.
 const MAX_ITERATIONS: usize = 400;
-/// Triangles times steps, for large patches.
+/// Maximum number of triangles times steps, for large patches; at least 8 steps are made.
 const WORK: usize = 4_000_000;
 
-/// Moves vertices of the patch so that no height in it, and none of the gaps, is too small for a grid of the given cell, and
-/// returns the vertices it moved. Gaps are triangles that a chart leaves free between its edges and vertices. `plane` must be
-/// strictly positive on both.
+/// Moves vertices of the patch until its triangles and the gaps are wide enough for a grid with cells of size `cell`, or the limit
+/// of steps is reached. Returns the vertices that were free to move. Gaps are triangles that a chart leaves free between its edges
+/// and vertices. `patch` is sorted. `plane` must be strictly positive on the patch and the gaps.
 pub(super) fn relax(
     triangles: &[[u32; 3]],
     rings: &VertexFaces,
@@ -86,7 +85,7 @@ pub(super) fn relax(
     free
 }
 
-/// The triangle itself, or opened until its smallest height is enough; weight 1.
+/// Returns the triangle itself, or opened until its smallest height is [`REST_HEIGHT`], with weight 1.
 fn rest(triangle: [[f64; 2]; 3]) -> RestShape {
     let edge = |i: usize| {
         let (p, q) = (triangle[i], triangle[(i + 1) % 3]);
@@ -116,7 +115,7 @@ fn rest(triangle: [[f64; 2]; 3]) -> RestShape {
     }
 }
 
-/// The triangles within so many rings of some triangles, sorted.
+/// Returns the triangles within `n_rings` rings of some triangles, including these, sorted.
 pub(super) fn neighborhood(
     triangles: &[[u32; 3]],
     rings: &VertexFaces,
@@ -141,7 +140,7 @@ pub(super) fn neighborhood(
     patch
 }
 
-/// Smallest height.
+/// Returns the smallest height of a triangle; negative if the triangle is flipped.
 pub(super) fn height([a, b, c]: [[f64; 2]; 3]) -> f64 {
     let length = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
     let longest = length(a, b).max(length(b, c)).max(length(c, a));
@@ -153,17 +152,17 @@ pub(super) fn height([a, b, c]: [[f64; 2]; 3]) -> f64 {
     }
 }
 
-/// Neighborhoods tried; each has twice as many rings as the one before.
+/// Number of neighborhoods tried; each has twice as many rings as the one before.
 const ROUNDS: u32 = 10;
 
-/// Heights are opened to this multiple of the clearance, so that they keep it at a scale a little smaller.
+/// Heights are opened to this multiple of the clearance, so that they keep it at a slightly smaller scale.
 const MARGIN: f64 = 1.25;
 
 /// Gaps up to this multiple of the clearance are kept from closing while others are opened.
 const GUARDED: f64 = 3.0;
 
-/// The chart with heights and gaps of at least `clearance`, in the units of its map, as far as they could be opened; none
-/// if nothing has to be. The chart must be strictly positive.
+/// Returns the UVs of a chart with heights and gaps of at least `clearance`, in the units of its map, as far as they could be
+/// opened; `None` if none is narrower. The chart must be strictly positive.
 pub fn cleared(map: &ChartMap, clearance: f64) -> Option<Vec<[f64; 2]>> {
     let edges = boundary(map);
     let rings = VertexFaces::new(map.uv.len(), map.triangles);
@@ -192,17 +191,18 @@ pub fn cleared(map: &ChartMap, clearance: f64) -> Option<Vec<[f64; 2]>> {
     has_moved.then_some(plane)
 }
 
-/// Triangles from each boundary edge to the vertices of other edges that lie less than `width` beyond it, all positive.
+/// Returns the triangles from each boundary edge to the vertices of other edges that lie less than `width` beyond it. All of them
+/// are positive.
 fn gaps(edges: &[[u32; 2]], plane: &[[f64; 2]], width: f64) -> Vec<[u32; 3]> {
     let at = |v: u32| plane[v as usize];
     let reach = |edge: &[u32; 2]| widened(bounds_of(&edge.map(at)), width / 2.0);
     let boxes: Vec<Bounds> = edges.iter().map(reach).collect();
     let mut gaps = Vec::new();
-    // Charts that lie in heaps are not positive; should the search end early, fewer gaps are held.
+    // Only edges that lie in heaps exhaust the budget, and such charts are not positive. Fewer gaps are then guarded.
     BoxIndex::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
         for (edge, other) in [(i, j), (j, i)].map(|(i, j)| (edges[i as usize], edges[j as usize])) {
             let [a, b] = edge;
-            // The start of each edge: every vertex of a boundary is one.
+            // Starts of edges suffice: every vertex of a boundary is the start of one.
             let v = other[0];
             if v != a && v != b && is_beyond([a, b].map(at), at(v), width) {
                 gaps.push([b, a, v]);
@@ -214,7 +214,7 @@ fn gaps(edges: &[[u32; 2]], plane: &[[f64; 2]], width: f64) -> Vec<[u32; 3]> {
     gaps
 }
 
-/// Whether a point lies to the right of a directed edge, less than `width` away and with its foot on the edge.
+/// Returns whether a point lies to the right of a directed edge, less than `width` away, and has its foot on the edge.
 fn is_beyond([a, b]: [[f64; 2]; 2], p: [f64; 2], width: f64) -> bool {
     let (along, to) = (sub(b, a), sub(p, a));
     let (length_squared, foot) = (dot(along, along), dot(along, to));

@@ -1,4 +1,4 @@
-//! Arrangements: an order and a pose for each chart, from which their places follow.
+//! Arrangements: an order of the charts and a pose for each, from which their places follow.
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -11,23 +11,23 @@ use crate::atlas::squeeze::Body;
 use unwrapd_method::numerics::hull::convex_hull;
 use unwrapd_method::numerics::random::Random;
 
-/// How many poses are tried to fit a chart to its place.
+/// Number of random poses tried to fit a chart to its place.
 const FITTED: usize = 12;
 
-/// An order and a pose for every chart, and what comes of it.
+/// Order of the charts, pose of each, and the resulting places.
 #[derive(Clone)]
 pub(super) struct Arrangement {
     pub order: Vec<usize>,
     pub pose: Vec<usize>,
-    /// For each chart its lower left corner.
+    /// Lower left corner of each chart.
     pub corners: Vec<Corner>,
     pub side: u32,
-    /// The side, and below one cell how far the charts reach on average.
+    /// Side in cells, plus a fraction below 1 that increases with the mean distance to which charts extend.
     pub cost: f64,
 }
 
 impl Arrangement {
-    /// Takes the cells of the charts of some places in the order.
+    /// Occupies the cells of the charts at `places` of the order.
     pub(super) fn take(
         &self,
         poses: &[Arc<Poses>],
@@ -39,8 +39,8 @@ impl Arrangement {
         }
     }
 
-    /// Places the charts of some places in the order on a occupancy that holds those before; those behind do not count. None if that takes
-    /// more than a page of side `largest`.
+    /// Places the charts at `places` of the order on an occupancy that holds the charts before them; later charts do not count.
+    /// Does not occupy the cells of the last one. Returns `None` if a page of side `largest` is too small.
     pub(super) fn lay_out(
         &mut self,
         poses: &[Arc<Poses>],
@@ -75,8 +75,8 @@ impl Arrangement {
         Some(())
     }
 
-    /// Turns the chart at a place of the order to the pose, of a few, in which it reaches least far on a occupancy that holds the
-    /// charts before it.
+    /// Turns the chart at a place of the order to the best of a few poses: the one in which it extends least far on an occupancy
+    /// that holds the charts before it.
     pub(super) fn fit(
         &mut self,
         place: usize,
@@ -103,7 +103,7 @@ impl Arrangement {
         }
     }
 
-    /// Gives the pose of the chart at a place to its copies; returns the first place that changed.
+    /// Gives the pose of the chart at a place to its copies. Returns the first place that changed.
     pub(super) fn copy_pose(&mut self, place: usize, kind: &[usize]) -> usize {
         let chart = self.order[place];
         let pose = self.pose[chart];
@@ -117,7 +117,7 @@ impl Arrangement {
         first
     }
 
-    /// Another place among the first `n` of the order, or another pose, for one chart; returns the first place that is concerned,
+    /// Changes the place of a random chart among the first `n` of the order, or its pose. Returns the first place that is affected,
     /// and whether the chart there is to be [fitted](Self::fit).
     pub(super) fn change(
         &mut self,
@@ -149,8 +149,8 @@ impl Arrangement {
         (i.min(j), false)
     }
 
-    /// A number that differs, as good as surely, where arrangements effort different, given for each chart the first that looks like
-    /// it in each pose.
+    /// Returns a hash that almost surely differs between arrangements that look different. `kind` contains for each chart the first
+    /// chart that looks like it in each pose.
     ///
     /// From: Fowler, Noll, Vo 1991 (FNV-1a), over words.
     pub(super) fn key(&self, kind: &[usize]) -> u64 {
@@ -164,19 +164,19 @@ impl Arrangement {
     }
 }
 
-/// Sheets at most: with more charts only every second or third has one.
+/// Maximum number of snapshots. With more charts, not every place has one.
 const MOST: usize = 16;
 
-/// For some places of an arrangement a occupancy with all charts before it, so that a trial need not take their cells again.
+/// Occupancies with all charts before some places of an arrangement, so that a trial need not occupy their cells again.
 pub(super) struct Prefixes {
-    /// Places from one to the next.
+    /// Number of places between snapshots.
     every: usize,
-    /// As many as were needed so far.
+    /// Snapshots that were needed so far.
     snapshots: Vec<Occupancy>,
 }
 
 impl Prefixes {
-    /// Of an arrangement of so many charts, on a occupancy that is empty.
+    /// Creates the snapshots of an arrangement of `n_charts` charts from an empty occupancy.
     pub(super) fn new(empty: Occupancy, n_charts: usize) -> Self {
         Self {
             every: n_charts.div_ceil(MOST).max(1),
@@ -184,7 +184,7 @@ impl Prefixes {
         }
     }
 
-    /// Makes a occupancy hold the charts of an arrangement before a place, and nothing else.
+    /// Makes an occupancy hold the charts of an arrangement before a place, and nothing else.
     pub(super) fn hold(
         &mut self,
         occupancy: &mut Occupancy,
@@ -204,25 +204,25 @@ impl Prefixes {
         state.take(poses, occupancy, nearest * self.every..place);
     }
 
-    /// Forgets what is no longer true once the charts from a place on have changed.
+    /// Removes the snapshots that are outdated once the charts from a place on have changed.
     pub(super) fn change(&mut self, place: usize) {
         self.snapshots.truncate(place / self.every + 1);
     }
 }
 
-/// Angles within a quarter turn.
+/// Number of angles within a quarter turn.
 const ANGLES: usize = 16;
-/// What is kept free beside the padding, in cells: distances are looked up roughly.
+/// Distance kept beside the padding, in cells, because distances are looked up approximately.
 const ROOM: f64 = 0.1;
 
-/// The ways in which an outline may lie, each rastered when it is first asked for: 64, four quarter turns, or one.
+/// Poses of an outline, each rasterized when it is first needed: 64 for any angle, 4 for quarter turns, or 1.
 ///
 /// Pose `4 a + t` is turned by t quarters and a sixteenths of a quarter.
 pub(super) struct Poses {
-    /// For each angle within a quarter turn.
+    /// Outline at each angle within a quarter turn.
     outlines: Vec<Outline>,
     masks: Vec<OnceLock<Turned>>,
-    /// Poses of which no two effort alike.
+    /// Poses that differ on the raster.
     distinct: OnceLock<Vec<usize>>,
     body: OnceLock<Arc<Body>>,
     least_page: OnceLock<f64>,
@@ -249,7 +249,8 @@ impl Poses {
         }
     }
 
-    /// Poses of which no two effort alike on the raster: of a rectangle there are two, of a square there is one.
+    /// Returns the poses that differ on the raster. If only quarter turns are permitted, a rectangle has two and a square has one.
+    /// If any angle is permitted, returns all poses.
     pub(super) fn distinct(&self) -> &[usize] {
         self.distinct.get_or_init(|| {
             let mut distinct: Vec<usize> = Vec::new();
@@ -263,7 +264,7 @@ impl Poses {
         })
     }
 
-    /// The pose at the next angle, or that before.
+    /// Returns the pose at the next angle, or at the previous one.
     pub(super) fn next_angle(&self, pose: usize, is_after: bool) -> usize {
         let angles = self.outlines.len();
         let next = |place: usize, all: usize| (place + if is_after { 1 } else { all - 1 }) % all;
@@ -276,29 +277,29 @@ impl Poses {
         4 * (place % angles) + place / angles
     }
 
-    /// The outline of a pose, without its quarter turns.
+    /// Returns the outline of a pose, without its quarter turns.
     pub(super) fn outline(&self, pose: usize) -> &Outline {
         &self.outlines[pose / 4]
     }
 
-    /// The quarter turns of a pose.
+    /// Returns the quarter turns of a pose.
     pub(super) fn turns(pose: usize) -> u32 {
         pose as u32 % 4
     }
 
-    /// The angle of a pose.
+    /// Returns the angle of a pose, in radians.
     pub(super) fn angle(pose: usize) -> f64 {
         FRAC_PI_2 * ((pose / 4) as f64 / ANGLES as f64 + (pose % 4) as f64)
     }
 
-    /// The chart at the first angle, to be pushed about.
+    /// Returns the chart at the first angle, as a body that can be moved.
     pub(super) fn body(&self) -> Arc<Body> {
         let new = || Body::new(self.outline(0), self.scale, self.distances.padding + ROOM);
         self.body.get_or_init(|| Arc::new(new())).clone()
     }
 
-    /// The longer side of the smallest page around it, without borders, in mesh units; of pages whose sides along u and v are the
-    /// longer one halved so often.
+    /// Returns the longer side of the smallest page around the outline, without borders, in mesh units. The sides of the page along
+    /// u and v are the longer side halved `halvings` times.
     pub(super) fn least_page(&self, halvings: [u32; 2]) -> f64 {
         let least = || smallest_page(&convex_hull(self.outline(0).corners()), halvings).1;
         *self.least_page.get_or_init(least)

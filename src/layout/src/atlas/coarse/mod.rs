@@ -1,4 +1,4 @@
-//! Layouts on a coarse raster, which a search makes fuller.
+//! Layouts on a coarse raster, and a search that makes them fuller.
 mod arrangement;
 mod search;
 
@@ -15,54 +15,58 @@ use super::squeeze::{Pose, Squeezed};
 use super::{AtlasError, AtlasOptions, ChartMap, OnRead, Rotation};
 use arrangement::{Arrangement, Poses};
 
-/// Cells along the side of the square page that the charts are expected to need. With 64 worse cuts are chosen; with 256 a trial
+/// Cells along the side of the square page that the charts are expected to need. With 64, worse cuts are chosen. With 256, a trial
 /// costs four times as much, and less is found in the same time.
 const RASTER: u32 = 96;
-/// The same of more charts than so many for each page, each of which has fewer cells.
+/// Value that replaces [`RASTER`] with more than [`FEW`] charts per page, as each of them then has fewer cells.
 const FINE_RASTER: u32 = 256;
+/// Maximum number of charts per page on the raster of [`RASTER`] cells.
 const FEW: usize = 64;
-/// Maximum number of charts per page whose order is searched; several small charts count as one. With more, a trial takes too long, and
-/// the first layout is only squeezed.
+/// Maximum number of charts per page whose order is searched; several small charts count as one. With more charts, a trial takes
+/// too long, and the first layout is only squeezed.
 const CROWD: usize = 64;
-/// A chart is small whose rectangle has less than such a half perimeter, as a share of that side: it finds a place between the others.
+/// A chart is small if the half perimeter of its rectangle is at most this share of that side: it finds a place between the others.
 const SMALL: f64 = 0.12;
-/// Sides of squares in which all charts are first placed, in sides of the page.
+/// Sides of the squares in which all charts are first placed, in sides of the page; tried in this order until the charts fit.
 const SIDES: [u32; 5] = [1, 2, 4, 8, MOST_SIDES];
-/// A chart that is longer is a needle. Ten pages, which one chart may be expected to fill, are as large as 3.2 sides squared.
+/// Length of the longest chart that is not a needle, in sides of the page. Ten pages, the area that one chart may be expected to
+/// fill, are as large as 3.2 sides squared.
 const MOST_SIDES: u32 = 16;
-/// Cells of all pages of a occupancy at most, unless one side of the page takes more: those of a coarse page of [`MOST_SIDES`]. A search
-/// keeps dozens of snapshots, of two bytes a cell or so.
+/// Maximum number of cells of all pages of an occupancy: those of a coarse page of [`MOST_SIDES`]. Pages with one side are exempt.
+/// A search keeps dozens of snapshots, at about one to two bytes per cell.
 const MOST_CELLS: u64 = ((RASTER * MOST_SIDES) as u64).pow(2);
-/// Charts at most: of more the large ones leave room enough for the small ones.
+/// Maximum number of charts. With more, the large ones leave enough room for the small ones.
 const MOST_CHARTS: usize = 512;
 
-/// A layout on a coarse raster.
+/// Layout on a coarse raster.
 ///
-/// It follows from an order of the charts and a pose of each: every chart is placed where the used page grows least. Simulated
-/// annealing changes the one or the other and keeps what makes the page smaller, at first also what makes it a little larger. Of a
-/// crowd the largest chart is placed first, and so on.
-/// Charts are rounded to the nearest cells there, so that they may overlap by a fraction of one. What comes of that is squeezed, charts
-/// moving and turning all at once.
-/// What that costs is counted in words read, so the result is the same on every machine and for any number of threads.
+/// The layout follows from an order of the charts and a pose of each: every chart is placed where the used part of the page grows
+/// least. Simulated annealing changes the order or a pose, and keeps changes that make the page smaller, at first also some that
+/// make it a little larger. Crowds are not annealed: their largest charts are placed first.
+///
+/// Charts are rounded to the nearest cells, so they may overlap by a fraction of a cell. The result is then squeezed, and all
+/// charts move and turn at once.
+///
+/// The cost of the search is counted in words read, so the result is the same on every machine and for any number of threads.
 #[derive(Clone)]
 pub struct CoarseLayout {
-    /// The charts, turned as in their first pose.
+    /// Outlines of the charts, turned as in their first pose.
     level: Vec<Outline>,
-    /// For each chart its poses, which copies share.
+    /// Poses of each chart, which copies share.
     poses: Vec<Arc<Poses>>,
     raster: Raster,
     state: Arrangement,
-    /// What that or a better one became when charts made room for each other; none before the first search, nor of a crowd.
+    /// Squeezed pages of the best arrangement so far; empty before a search succeeds.
     pages: Vec<Page>,
-    /// The charts in the order of their sizes.
+    /// Indices of the charts in descending order of size.
     by_size: Vec<usize>,
-    /// How many of them are large.
+    /// Number of large charts among them.
     n_large: usize,
-    /// For each chart the first that it is a copy of.
+    /// Index, for each chart, of the first chart that it is a copy of, possibly itself.
     kind: Arc<[usize]>,
 }
 
-/// How charts become cells.
+/// Raster on which charts become cells.
 #[derive(Clone, Copy)]
 struct Raster {
     /// Cells along the side of the square page that the charts are expected to need.
@@ -76,8 +80,8 @@ struct Raster {
 }
 
 impl CoarseLayout {
-    /// The charts in the order of their sizes; nothing for so many, or so few words, that a search would see only a few layouts,
-    /// where a needle is longer than the raster, or where the charts have no area.
+    /// Places the charts in the order of their sizes. Returns `None` if there are too many charts or no words for a search, if a
+    /// needle is longer than the raster, if the charts have no area, or if they do not fit on the largest raster.
     pub fn new(charts: &[ChartMap], options: &AtlasOptions) -> Result<Option<Self>, AtlasError> {
         let outlines = outlines(charts)?;
         if outlines.len() > MOST_CHARTS || options.budget_words == 0 {
@@ -115,8 +119,8 @@ impl CoarseLayout {
         coarse.lay_out().then_some(coarse)
     }
 
-    /// The same with some parts, which come last among the charts, in place of one chart. They are laid out when that is
-    /// [improved](Self::improve): until then it fills nothing.
+    /// Returns the layout with `parts` in place of one chart; they come last among the charts. It is laid out only when it is
+    /// [improved](Self::improve), and its fill is 0 until then.
     pub fn replaced(&self, chart: usize, parts: &[ChartMap]) -> Result<Self, AtlasError> {
         let (mut charts, mut poses) = (self.level.clone(), self.poses.clone());
         charts.remove(chart);
@@ -135,7 +139,7 @@ impl CoarseLayout {
     /// Loss of fill that is accepted for [straightened](Self::straightened) charts.
     pub const STRAIGHT: f64 = 0.02;
 
-    /// The same with charts upright that lean, to be laid out anew; none where no chart does.
+    /// Returns a layout with the leaning charts turned upright, which has yet to be laid out; `None` if no chart leans.
     pub fn straightened(&self) -> Option<Self> {
         let straight: Vec<Option<Outline>> = self.level.iter().map(Outline::straightened).collect();
         straight.iter().any(Option::is_some).then_some(())?;
@@ -144,7 +148,8 @@ impl CoarseLayout {
         Some(Self::largest_first(level.collect(), &[], self.raster))
     }
 
-    /// Sorts the charts by size without placing them. `known` are poses of the first charts; they are reused where they still apply.
+    /// Sorts the charts by size without placing them. `known` are poses of the first charts, which are reused where they still
+    /// apply.
     fn largest_first(mut level: Vec<Outline>, known: &[Arc<Poses>], raster: Raster) -> Self {
         let kind = mark_copies(&mut level);
         let mut poses: Vec<Arc<Poses>> = Vec::with_capacity(level.len());
@@ -180,7 +185,7 @@ impl CoarseLayout {
         }
     }
 
-    /// Places all charts in their order, in a square as large as that takes within reason; false if that is too small.
+    /// Places all charts in their order, in the first of several squares in which they fit. Returns `false` if they fit in none.
     fn lay_out(&mut self) -> bool {
         let n = self.state.order.len();
         self.raster.sides().any(|side| {
@@ -197,14 +202,14 @@ impl CoarseLayout {
         self.state.cost.is_finite()
     }
 
-    /// The share of the page that is filled, about.
+    /// Returns the approximate share of the page that is filled; 0 before the charts are laid out.
     pub fn fill(&self) -> f64 {
         let ratio = self.raster.cells() / (self.side() + self.raster.padding);
         HOPE * ratio * ratio
     }
 
-    /// The scale, in UV units to the mesh unit along the longer side, that no layout of these charts exceeds: each has to fit on a
-    /// page by itself.
+    /// Returns the upper bound of the scale of any layout of these charts, in UV units per mesh unit along the longer side: each
+    /// chart has to fit on a page by itself.
     pub fn most_scale(&self) -> f64 {
         let halvings = self.raster.texture.resolution.halvings();
         let sides = self.poses.iter().map(|poses| poses.least_page(halvings));
@@ -217,12 +222,12 @@ impl CoarseLayout {
         self.n_charts() > CROWD * self.raster.texture.pages as usize
     }
 
-    /// Whether it has been improved.
+    /// Returns `true` if a search has squeezed it.
     pub(super) fn is_searched(&self) -> bool {
         !self.pages.is_empty()
     }
 
-    /// The longer side of a page, in cells.
+    /// Returns the longer side of the largest page, in cells.
     fn side(&self) -> f64 {
         match &self.pages[..] {
             [] => self.state.cost,
@@ -231,7 +236,7 @@ impl CoarseLayout {
     }
 }
 
-/// The side of the largest page, infinite without pages.
+/// Returns the longer side of the largest page, in cells; infinite without pages.
 fn squeezed_side(pages: &[Page]) -> f64 {
     let sides = pages.iter().map(|page| page.squeezed.side);
     sides.max_by(f64::total_cmp).unwrap_or(f64::INFINITY)
@@ -247,19 +252,19 @@ impl Raster {
         Arc::new(Poses::new(outline, self.scale, distances))
     }
 
-    /// Cells along the longer side of the page that the charts are expected to need.
+    /// Returns the cells along the longer side of the page that the charts are expected to need.
     fn cells(self) -> f64 {
         f64::from(self.texture.raster(self.side))
     }
 
-    /// Those of [`SIDES`] whose snapshots are not too large; the first always.
+    /// Returns those of [`SIDES`] whose snapshots are not too large, and always the first.
     fn sides(self) -> impl Iterator<Item = u32> {
         let cells =
             move |sides: u32| u64::from(self.texture.pages) * u64::from(sides * self.side).pow(2);
         (SIDES.into_iter()).take_while(move |&sides| sides == 1 || cells(sides) <= MOST_CELLS)
     }
 
-    /// The same for so many sides of the page.
+    /// Returns the cells along the longer side of a page that is `sides` times as long as the expected one.
     fn largest(self, sides: u32) -> u32 {
         self.texture.raster(sides * self.side)
     }
@@ -270,11 +275,11 @@ impl Raster {
     }
 }
 
-/// Cells of the raster of the last layout for each of those, along a side.
+/// Factor by which the raster of the final layout is finer along each side.
 const FINE: f64 = 2.0;
 
 impl CoarseLayout {
-    /// The arrangement as places and angles, of the pages that have charts.
+    /// Returns the arrangement as poses of charts, for each page that has charts.
     pub(super) fn loose(&self) -> Vec<Page> {
         let pose = |&chart: &usize| {
             let (poses, pose) = (&self.poses[chart], self.state.pose[chart]);
@@ -312,8 +317,8 @@ impl CoarseLayout {
         pages.filter(|page| !page.charts.is_empty()).collect()
     }
 
-    /// Returns the rotated charts and a layout that keeps exactly the padding; `None` if none is found, or if the charts leave no room
-    /// for the padding.
+    /// Returns the rotated charts and a layout that keeps exactly the padding. Returns `None` if none is found, or if the charts
+    /// leave no room for the padding.
     pub(in crate::atlas) fn with_exact_gap(
         &self,
         options: &AtlasOptions,
@@ -333,7 +338,7 @@ impl CoarseLayout {
         gap::layout(&level, &pages, FINE * self.raster.scale, (options, on_read))
     }
 
-    /// The arrangement as a plan for a fine raster.
+    /// Returns the arrangement as a plan for a fine raster.
     pub(in crate::atlas) fn plan(&self) -> Plan {
         let Arrangement {
             order,

@@ -12,26 +12,27 @@ use crate::atlas::gap::Page;
 use crate::atlas::squeeze::Body;
 use unwrapd_method::numerics::random::Random;
 
-/// Larger pages that a search accepts at its begin and at its end, in cells: about half a cell of a raster of 256 and a tenth.
+/// Temperatures at the start and the end of annealing: the mean increase in cost, in cells, up to which a trial is accepted.
 const TEMPERATURES: [f64; 2] = [0.25, 0.05];
-/// What a trial costs for each chart beside the words it reads, and what one costs that was tried before.
+/// Cost of a trial for each large chart besides the words it reads, in words.
 const WORDS_PER_CHART: u64 = 375;
+/// Cost of a trial that was made before, in words.
 const WORDS_IF_KNOWN: u64 = 100;
-/// Trials in a row that were all made before, for each chart and each of its poses, or of its places if those are more: after so
-/// many, nothing is left to be tried, as good as surely.
+/// Factor of the number of trials in a row, all made before, after which a search ends: `IN_VAIN · n · max(n, poses)` for n large
+/// charts. By then, almost surely nothing is left to try.
 const IN_VAIN: usize = 40;
-/// Small charts that cost as much as a large one.
+/// Number of small charts that cost as much as a large one.
 const SMALL_PER_LARGE: usize = 4;
 
 impl CoarseLayout {
-    /// The number of charts, of which several small ones count as one: a search takes as long as they are many.
+    /// Returns the number of charts, where several small ones count as one. The effort of a search depends on it.
     pub fn n_charts(&self) -> usize {
         let small = self.state.order.len() - self.n_large.min(self.state.order.len());
         self.n_large + small.div_ceil(SMALL_PER_LARGE)
     }
 
-    /// Searches for a fuller layout and keeps the present one if none is found. Reads about `words` words, or fewer if nothing is left to
-    /// try. A crowd is only squeezed, at the last effort.
+    /// Searches for a fuller layout, and keeps the present one if none is found. Reads about `words` words, or fewer if nothing is
+    /// left to try. A crowd is only squeezed, and only with [`Effort::High`].
     pub fn improve(&mut self, effort: Effort, words: u64, on_read: &OnRead) {
         let told = AtomicU64::new(0);
         let count = |read| {
@@ -39,7 +40,7 @@ impl CoarseLayout {
             on_read(read)
         };
         self.improve_within(effort, words, &count);
-        // What it need not read is as good as read.
+        // Words that were not needed count as read.
         on_read(words.saturating_sub(told.into_inner()));
     }
 
@@ -68,7 +69,7 @@ impl CoarseLayout {
                 *self = coarse;
             }
         }
-        // Where squeezing fails, the arrangement is still a plan.
+        // If squeezing fails, the arrangement is still a plan.
         if self.pages.is_empty()
             && let Some(fullest) = fullest.filter(|state| state.cost < self.state.cost)
         {
@@ -79,7 +80,7 @@ impl CoarseLayout {
         }
     }
 
-    /// Anneals from several seeds, reading about `words` words in all; returns the best arrangements, the best first.
+    /// Anneals from several seeds, and reads about `words` words in all. Returns the best arrangements, the best first.
     fn arrangements(
         &self,
         (effort, schedule): (Effort, &Schedule),
@@ -103,7 +104,7 @@ impl CoarseLayout {
         found
     }
 
-    /// The coarse with another arrangement, squeezed; none where charts could not be brought apart.
+    /// Returns the layout with another arrangement, squeezed; `None` if its charts could not be separated.
     fn settled(&self, state: Arrangement, words: u64, on_read: &OnRead) -> Option<Self> {
         let mut coarse = Self {
             state,
@@ -121,7 +122,7 @@ impl CoarseLayout {
         Some(coarse)
     }
 
-    /// The best arrangement that is found while about so many words are read.
+    /// Returns the best arrangement found while about `words` words are read.
     ///
     /// Only the large charts change their order and poses. The small ones are placed once, at the end.
     fn annealed(&self, words: u64, random: &mut Random, on_read: &OnRead) -> Arrangement {
@@ -180,15 +181,15 @@ impl CoarseLayout {
         if placed { best } else { self.state.clone() }
     }
 
-    /// Trials in a row that may have been made before.
+    /// Returns the number of trials in a row, all made before, after which a search ends.
     fn most_in_vain(&self) -> usize {
         let n = self.n_large;
         let poses = self.poses.iter().map(|poses| poses.distinct().len());
         IN_VAIN * n * poses.max().unwrap_or(0).max(n)
     }
 
-    /// Lets charts of the largest page effort for other places, and of that which is the largest then, while about so many words are
-    /// read.
+    /// Relocates charts of the largest page, then of the page that is the largest after that, once for each page. Reads about
+    /// `words` words.
     fn relocate(&mut self, words: u64, seed: u64, on_read: &OnRead) {
         let mut pages = std::mem::take(&mut self.pages);
         let n = pages.len();

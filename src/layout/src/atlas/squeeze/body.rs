@@ -6,14 +6,14 @@ use crate::atlas::Rotation;
 use crate::atlas::outline::Outline;
 use unwrapd_method::numerics::vec2::{cross, dot, sub};
 
-/// Where a body is and how it is turned.
+/// Position and angle of a body.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::atlas) struct Pose {
-    /// Where its middle is.
+    /// Position of its middle.
     pub middle: [f64; 2],
-    /// The angle by which it is turned, counter-clockwise.
+    /// Angle by which it is turned counter-clockwise, in radians.
     pub angle: f64,
-    /// Its cosine and sine.
+    /// Cosine and sine of the angle.
     turn: [f64; 2],
 }
 
@@ -27,24 +27,24 @@ impl Pose {
         }
     }
 
-    /// Turned further, and shifted.
+    /// Returns the pose shifted by `by` and turned further by `angle`.
     pub(super) fn moved(&self, by: [f64; 2], angle: f64) -> Self {
         Self::new([0, 1].map(|k| self.middle[k] + by[k]), self.angle + angle)
     }
 
-    /// From the frame of the body.
+    /// Maps a point from the frame of the body to the page.
     pub(super) fn place(&self, p: [f64; 2]) -> [f64; 2] {
         let [x, y] = self.turned(p);
         [self.middle[0] + x, self.middle[1] + y]
     }
 
-    /// A vector in the frame of the body.
+    /// Rotates a vector from the frame of the body to that of the page.
     pub(super) fn turned(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [c, s] = self.turn;
         [c * x - s * y, s * x + c * y]
     }
 
-    /// To the frame of the body.
+    /// Maps a point from the page to the frame of the body.
     pub(super) fn back(&self, p: [f64; 2]) -> [f64; 2] {
         let [c, s] = self.turn;
         let [x, y] = [p[0] - self.middle[0], p[1] - self.middle[1]];
@@ -52,25 +52,25 @@ impl Pose {
     }
 }
 
-/// A chart in a frame whose origin is the middle of its rectangle, in cells.
+/// Chart in a frame whose origin is the middle of its rectangle, in cells.
 pub(in crate::atlas) struct Body {
     pub(super) field: Field,
     pub(super) runs: Vec<Run>,
     /// Half the sides of its rectangle.
     pub(super) half: [f64; 2],
-    /// How far it reaches.
+    /// Half the diagonal of its rectangle; at least 1.
     pub(super) radius: f64,
     pub(super) rotation: Rotation,
 }
 
 impl Body {
-    /// An outline at so many cells per mesh unit, which keeps others so many cells away.
+    /// Creates the body of an outline at `scale` cells per mesh unit, which keeps other charts `kept` cells away.
     pub(in crate::atlas) fn new(outline: &Outline, scale: f64, kept: f64) -> Self {
         let half = outline.extent.map(|x| x * scale / 2.0);
         let place = |p: [f64; 2]| [p[0] * scale - half[0], p[1] * scale - half[1]];
         let edges: Vec<[[f64; 2]; 2]> = outline.edges().map(|edge| edge.map(place)).collect();
         let field = Field::new(&edges, kept);
-        // A point in a slit touches nothing.
+        // Points in a slit touch nothing.
         let runs = runs(&edges, |p| field.at(p).0 > -1.5 * kept - 0.5);
         Self {
             runs,
@@ -85,7 +85,7 @@ impl Body {
         }
     }
 
-    /// A rectangle around it.
+    /// Returns the bounds, at a pose, of the body's rectangle.
     pub(super) fn bounds(&self, pose: &Pose) -> [[f64; 2]; 2] {
         let [c, s] = pose.turn.map(f64::abs);
         let [w, h] = self.half;
@@ -94,21 +94,21 @@ impl Body {
     }
 }
 
-/// Between points along the outline, in cells.
+/// Distance between sample points along the outline, in cells.
 const SPACING: f64 = 1.0;
-/// Corners turn by more than this, in radians; a point lies on each.
+/// Angle from which on a turn of the outline is a corner, in radians. Every corner has a sample point.
 const CORNER: f64 = 0.4;
-/// Points of one run.
+/// Number of points in a run.
 pub(super) const RUN: usize = 8;
 
-/// Some points that follow each other, within a circle.
+/// Consecutive sample points, and a circle around them.
 pub(super) struct Run {
     pub points: [[f64; 2]; RUN],
     pub center: [f64; 2],
     pub radius: f64,
 }
 
-/// Points along closed lines, evenly and at their corners; of those that may be left out only some.
+/// Returns sample points along closed lines, spaced evenly and at corners, in runs. Includes only points that `is_wanted` accepts.
 pub(super) fn runs(edges: &[[[f64; 2]; 2]], is_wanted: impl Fn([f64; 2]) -> bool) -> Vec<Run> {
     let mut runs = Vec::new();
     for line in lines(edges) {
@@ -135,7 +135,7 @@ impl Run {
     }
 }
 
-/// The closed lines that directed edges make.
+/// Joins directed edges to closed lines.
 fn lines(edges: &[[[f64; 2]; 2]]) -> Vec<Vec<[f64; 2]>> {
     let key = |p: [f64; 2]| p.map(f64::to_bits);
     let mut next: HashMap<[u64; 2], Vec<usize>> = HashMap::new();
@@ -163,7 +163,7 @@ fn lines(edges: &[[[f64; 2]; 2]]) -> Vec<Vec<[f64; 2]>> {
     lines
 }
 
-/// Points along a closed line.
+/// Returns points along a closed line, spaced evenly and at its corners.
 fn spaced(line: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
     let mut since = SPACING;

@@ -1,31 +1,33 @@
-//! How far points are from where a chart keeps others away.
+//! Distances of points to the region that a chart keeps free of others.
 use unwrapd_method::numerics::vec2::{dot, squared_distance};
 
-/// Cells around the region.
+/// Width of the raster beyond the region, in cells.
 const MARGIN: f64 = 6.0;
-/// Distances up to which edges are looked at, beyond the distance kept.
+/// Distance up to which edges are measured, beyond the distance kept, in cells.
 const BAND: f64 = 2.5;
-/// What the nearest node may say more than the point, plus the error of distances beyond the band.
+/// Bound on the difference between the value at the nearest node and that at the point, plus the error of distances beyond the
+/// band, in cells.
 const BLUR: f64 = 1.25;
-/// A node that is this much deeper than its distance says lies in a slit, which is too narrow for anything.
+/// A node that is deeper in the region than its distance to the nearest edge implies, by more than this many cells, lies in a slit
+/// that is too narrow for anything.
 const NARROW: f64 = 1.5;
 
 /// Column and row of a node.
 type Node = [u32; 2];
 
-/// Signed distance to the border of the region nearer to a chart than a distance to be kept: positive outside.
+/// Signed distance to the border of the region that is nearer to a chart than the distance to be kept; positive outside.
 ///
-/// Values at the nodes of a raster with cells of side 1, bilinear between them. Gaps of the chart that are narrower than twice the
-/// distance belong to the region as if they were filled.
+/// The field stores values at the nodes of a raster with cells of side 1, and is bilinear between them. Gaps of the chart that are
+/// narrower than twice the distance belong to the region, as if they were filled.
 pub(super) struct Field {
     size: [usize; 2],
-    /// The first node.
+    /// Position of the first node.
     low: [f64; 2],
     values: Vec<f32>,
 }
 
 impl Field {
-    /// Of the chart to the left of directed edges.
+    /// Computes the field of the chart to the left of directed edges, which keeps a distance of `kept` cells.
     pub(super) fn new(edges: &[[[f64; 2]; 2]], kept: f64) -> Self {
         let mut raster = Raster::around(edges, kept + MARGIN);
         raster.measure(edges, kept + BAND);
@@ -37,7 +39,8 @@ impl Field {
         }
     }
 
-    /// The signed distance of a point, and its gradient; beyond the raster some distance that is positive.
+    /// Returns the signed distance of a point and its gradient. Beyond the raster, the distance is a positive constant and the
+    /// gradient 0.
     pub(super) fn at(&self, p: [f64; 2]) -> (f64, [f64; 2]) {
         let [x, y] = [p[0] - self.low[0], p[1] - self.low[1]];
         let [width, height] = self.size;
@@ -53,7 +56,7 @@ impl Field {
         (below + y * (above - below), gradient)
     }
 
-    /// No more than the distance of a point; cheaper.
+    /// Returns a lower bound of the signed distance of a point. This is cheaper than the distance.
     pub(super) fn at_least(&self, p: [f64; 2]) -> f64 {
         let [x, y] = [p[0] - self.low[0], p[1] - self.low[1]];
         let last = self.size.map(|n| (n - 1) as f64);
@@ -69,11 +72,11 @@ impl Field {
     }
 }
 
-/// What is known of the nodes.
+/// Distances of the nodes to the chart's outline, and the nodes inside it.
 struct Raster {
     size: [usize; 2],
     low: [f64; 2],
-    /// Distance to the nearest edge, infinite beyond the band.
+    /// Distance to the nearest edge; infinite far from all edges.
     distance: Vec<f64>,
     is_inside: Vec<bool>,
 }
@@ -95,7 +98,7 @@ impl Raster {
         }
     }
 
-    /// Distances up to `band`.
+    /// Measures distances up to `band`.
     fn measure(&mut self, edges: &[[[f64; 2]; 2]], band: f64) {
         for edge in edges {
             let [first, last] = [0, 1].map(|end| {
@@ -122,9 +125,9 @@ impl Raster {
         }
     }
 
-    /// The nodes around which the edges wind.
+    /// Marks the nodes around which the edges wind.
     fn wind(&mut self, edges: &[[[f64; 2]; 2]]) {
-        // Row, where it is crossed, and how the winding changes there.
+        // Row, position at which it is crossed, and change of the winding number there.
         let mut crossings: Vec<(usize, f64, i32)> = Vec::new();
         for &[p, q] in edges {
             let (from, to, sign) = if p[1] <= q[1] { (p, q, 1) } else { (q, p, -1) };
@@ -140,7 +143,7 @@ impl Raster {
         for pair in crossings.windows(2) {
             let [(row, start, sign), (_, end, _)] = [pair[0], pair[1]];
             winding += sign;
-            // Closed lines leave no winding at the end of a row.
+            // The winding number of closed lines is 0 at the end of a row.
             if winding != 0 && start < end {
                 let row = row * self.size[0];
                 self.is_inside[row + start.ceil() as usize..row + end.ceil() as usize].fill(true);
@@ -148,7 +151,7 @@ impl Raster {
         }
     }
 
-    /// The distances beyond that to be kept, negative where it is not kept.
+    /// Returns the signed distances of the nodes to the border of the region.
     fn signed(&self, kept: f64) -> Vec<f32> {
         let nodes = self.nodes();
         let is_known =
@@ -189,7 +192,8 @@ impl Raster {
         !self.is_inside[index] && self.distance[index] >= kept
     }
 
-    /// Of the way from a known free node: the distance there and on, or from there back to the region's border.
+    /// Estimates the distance of a node to the border of the region from its distance to a known free node. Adds the distance of
+    /// the known node to the border if the node is free, too, and subtracts it if the node lies in the region.
     fn by(&self, node: Node, known: Node, kept: f64) -> f64 {
         let way = [0, 1].map(|k| f64::from(node[k]) - f64::from(known[k]));
         let rest = self.distance[self.index(known)] - kept;
@@ -197,7 +201,7 @@ impl Raster {
         dot(way, way).sqrt() + if is_free { rest } else { -rest }
     }
 
-    /// All nodes, row by row.
+    /// Returns all nodes, row by row.
     fn nodes(&self) -> impl DoubleEndedIterator<Item = Node> + Clone + use<> {
         let [width, height] = self.size.map(|n| n as u32);
         (0..height).flat_map(move |j| (0..width).map(move |i| [i, j]))
@@ -207,7 +211,7 @@ impl Raster {
         j as usize * self.size[0] + i as usize
     }
 
-    /// For each node that is not known the known one from which it is nearest, by way of its neighbors.
+    /// Assigns to each node the nearest known node that its neighbors pass on. A known node keeps itself.
     ///
     /// From: Danielsson 1980, Euclidean Distance Mapping.
     fn spread(&self, from: &mut [Option<Node>], kept: f64) {

@@ -1,14 +1,15 @@
-//! Layouts squeezed into a smaller square.
+//! Layouts squeezed into a smaller page.
 //!
-//! Placing charts one after the other leaves room between them that no order and no angle out of a few takes away. Here all
-//! charts move and turn at once: the square shrinks by a little, and where charts overlap then they are pushed apart, the sum of
-//! squares of how deep points of one lie within the reach of another being minimized (Levenberg's method). Where that does not
-//! help, the charts that overlap try other places, overlaps that persist weighing more and more.
+//! Placing charts one after the other leaves room between them that no order and no small set of angles removes. Here, all charts
+//! move and turn at once: the page shrinks a little, and charts that then overlap are pushed apart. This minimizes the sum of the
+//! squared depths of points of one chart within the reach of another (Levenberg's method). If it fails, the charts that overlap try
+//! other places, and overlaps that persist get larger weights.
 //!
-//! Distances are looked up in rasters, so a layout is right up to a fraction of a cell; whoever uses it has to effort again.
+//! Distances are looked up in rasters, so a layout is only accurate to a fraction of a cell, and the caller has to measure it.
+//!
 //! From: Egeblad, Nielsen, Odgaard 2007, Fast neighborhood search for two- and three-dimensional nesting problems (guided local
-//! search); Imamichi, Yagiura, Nagamochi 2009, An iterated local search algorithm based on nonlinear programming for the
-//! irregular strip packing problem.
+//! search); Imamichi, Yagiura, Nagamochi 2009, An iterated local search algorithm based on nonlinear programming for the irregular
+//! strip packing problem.
 mod body;
 mod field;
 mod overlap;
@@ -23,34 +24,37 @@ pub(super) use body::{Body, Pose};
 use overlap::{Equations, Pairs, Scene};
 use unwrapd_method::numerics::random::Random;
 
-/// By how much the square's side shrinks at a time, at first and at last, as a share.
+/// Share by which the side of the page shrinks at a time: at first, and at last, when shrinking ends.
 const SHRINKS: [f64; 2] = [0.01, 4e-4];
-/// The same where charts may go elsewhere.
+/// First share for pages that have already been squeezed, and the share by which a page shrinks before charts are relocated.
 const LEAP: f64 = 0.004;
-/// By how much the page grows where charts overlap, and where they need a little more room, and how often at most.
+/// Share by which the page grows while charts overlap, and while they need a little more room.
 const GROWTHS: [f64; 2] = [0.01, 1e-3];
+/// Maximum number of times that the page grows.
 const MOST_GROWTHS: usize = 16;
-/// Steps that separate charts.
+/// Maximum number of steps that separate charts.
 const STEPS: usize = 50;
-/// Rounds of moves elsewhere that do not lessen the overlap, after which the square is as small as it gets from there.
+/// Number of idle rounds of relocation after which the search gives up.
 const MOST_IDLE: usize = 6;
-/// A round is idle that leaves more than this share of the least overlap so far.
+/// A round is idle if it leaves more than this share of the smallest overlap so far.
 const IDLE: f64 = 0.98;
-/// What an overlap's weight is multiplied by in each round while it lasts, at least and at most, and once it is gone.
+/// Factors of the weight of an overlap in each round while it lasts, for the smallest and the largest overlap.
 const HEAVIER: [f64; 2] = [1.2, 2.0];
+/// Factor of the weight in each round once the overlap is gone.
 const LIGHTER: f64 = 0.95;
 
-/// Charts on a page whose longer side, without its borders, has some length.
+/// Poses of charts on a page.
 #[derive(Clone)]
 pub(super) struct Squeezed {
     pub poses: Vec<Pose>,
+    /// Longer side of the page, without borders, in cells.
     pub side: f64,
     pub shape: Shape,
 }
 
 impl Squeezed {
-    /// Lets charts that overlap go apart, the page growing as it takes, then shrinks it as far as they make room for each other where
-    /// they are; reads about so many words at most. Whether they are apart.
+    /// Separates overlapping charts, growing the page if needed, then shrinks the page as far as charts make room for each other
+    /// where they are. Stops shrinking once about `words` words are read. Returns whether no overlap remains.
     pub(super) fn settle(&mut self, bodies: &[Arc<Body>], words: u64, on_read: &OnRead) -> bool {
         let limit = ReadLimit::new(words, on_read);
         let mut scene = Scene::new(bodies, self.reach(), 0.0, limit);
@@ -61,12 +65,12 @@ impl Squeezed {
         is_apart
     }
 
-    /// How far charts may reach to the right and up.
+    /// Returns the distances to which charts may extend to the right and up, in cells.
     fn reach(&self) -> [f64; 2] {
         self.shape.reach(self.side)
     }
 
-    /// Brings charts apart, the page growing by such a share at a time; whether they are.
+    /// Separates charts, growing the page by the share `by` whenever that fails. Returns whether they are apart.
     fn grow(&mut self, scene: &mut Scene, by: f64) -> bool {
         for _ in 0..MOST_GROWTHS {
             if scene.separate(&mut self.poses, STEPS).1 {
@@ -78,8 +82,8 @@ impl Squeezed {
         false
     }
 
-    /// Makes charts keep `room` more than before, the square as small as is found while about so many words are read; whether
-    /// they do.
+    /// Makes charts keep `room` more cells than their bodies require, growing the page if needed, then shrinks the page. Stops
+    /// shrinking once about `words` words are read. Returns whether charts keep that distance.
     pub(super) fn loosen(
         &mut self,
         bodies: &[Arc<Body>],
@@ -95,7 +99,7 @@ impl Squeezed {
         is_apart
     }
 
-    /// Shrinks the square as far as is found while about so many words are read.
+    /// Searches for a smaller page, relocating charts, until about `words` words are read.
     pub(super) fn search(&mut self, bodies: &[Arc<Body>], words: u64, seed: u64, on_read: &OnRead) {
         let mut random = Random::new(seed);
         let limit = ReadLimit::new(words, on_read);
@@ -115,14 +119,14 @@ impl Squeezed {
         }
     }
 
-    /// Lets two charts change places.
+    /// Exchanges the positions of two random charts.
     fn swap(&mut self, random: &mut Random) {
         let [a, b] = [0, 1].map(|_| random.below(self.poses.len()));
         let middle = self.poses[a].middle;
         self.poses[a].middle = std::mem::replace(&mut self.poses[b].middle, middle);
     }
 
-    /// The same on a raster so many times as fine.
+    /// Returns the page on a raster that is `by` times as fine.
     pub(super) fn refined(&self, by: f64) -> Self {
         let mut refined = self.clone();
         refined.scale(by);
@@ -130,7 +134,7 @@ impl Squeezed {
         refined
     }
 
-    /// Scales the page and the places on it, not the charts.
+    /// Scales the page and the positions on it, but not the charts.
     fn scale(&mut self, by: f64) {
         self.side *= by;
         for pose in &mut self.poses {
@@ -138,6 +142,7 @@ impl Squeezed {
         }
     }
 
+    /// Shrinks the page, at first by the share `first`, which is halved whenever charts cannot be separated where they are.
     fn shrink(&mut self, scene: &mut Scene, first: f64) {
         scene.weights = Pairs::new(self.poses.len(), 1.0);
         let mut by = first;
@@ -153,7 +158,7 @@ impl Squeezed {
         }
     }
 
-    /// Separates charts by moving those that overlap to wherever they overlap least; whether that succeeded.
+    /// Separates charts by moving overlapping ones to where they overlap least. Returns whether that succeeded.
     fn relocate(&mut self, scene: &mut Scene, random: &mut Random) -> bool {
         scene.reach = self.reach();
         scene.weights = Pairs::new(self.poses.len(), 1.0);
@@ -183,17 +188,17 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Whether the search goes on.
+    /// Returns whether the search may go on.
     fn may_read(&mut self) -> bool {
         self.limit.admits(self.work)
     }
 
-    /// Whether the caller has ended it.
+    /// Returns whether the caller has ended the search.
     fn is_ended(&mut self) -> bool {
         self.limit.is_ended(self.work)
     }
 
-    /// Makes overlaps count more that are there still.
+    /// Increases the weights of overlaps that persist, and decreases the others to no less than 1.
     fn reweigh(&mut self, overlap: &Pairs) {
         let most = overlap
             .iter()
@@ -211,23 +216,27 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Levenberg's damping at first, its factors after a step that is taken and one that is not, and where it is given up.
+/// Initial damping of Levenberg's method.
 const DAMPING: f64 = 1e-2;
+/// Factors of the damping after a step that is accepted and after one that is rejected.
 const AFTER_STEP: [f64; 2] = [0.25, 6.0];
+/// Smallest damping.
 const LEAST_DAMPING: f64 = 1e-7;
+/// Damping above which the iteration gives up.
 const MOST_DAMPING: f64 = 1e3;
-/// The longest step, in cells.
+/// Largest component of a step of one body, in cells.
 const LONGEST: f64 = 4.0;
-/// Steps that leave more than this share of the energy, of which so many in a row are enough.
+/// A step is slow if it leaves more than this share of the energy.
 const SLOW: f64 = 0.97;
+/// Number of accepted slow steps in a row that end the iteration.
 const MOST_SLOW: usize = 5;
-/// What the equations of a step cost for each body, in the words that other searches read.
+/// Cost of the equations of a step for each body, in words.
 const WORDS_PER_BODY: u64 = 500;
-/// Bodies that overlap less are apart, in cells.
+/// Depth in cells below which bodies count as apart.
 pub(super) const TOLERANCE: f64 = 0.04;
 
 impl Scene<'_> {
-    /// Brings all bodies apart, as far as that goes from where they are; how they overlap then, and whether they are apart.
+    /// Separates all bodies, as far as possible from where they are. Returns their overlaps, and whether the bodies are apart.
     ///
     /// From: Levenberg 1944, A Method for the Solution of Certain Non-Linear Problems in Least Squares.
     pub(super) fn separate(&mut self, poses: &mut Vec<Pose>, most_steps: usize) -> (Pairs, bool) {
@@ -258,7 +267,7 @@ impl Scene<'_> {
         (now.overlap, is_apart)
     }
 
-    /// Brings one body away from all others, as far as that goes from a pose; that pose and its energy.
+    /// Separates one body from all others, as far as possible from the pose `from`. Returns its energy and its pose.
     pub(super) fn settle(
         &mut self,
         poses: &[Pose],

@@ -7,36 +7,36 @@ use crate::atlas::effort::ReadLimit;
 use unwrapd_method::numerics::cholesky::SymmetricPattern;
 use unwrapd_method::numerics::conjugate_gradients::ConjugateGradients;
 
-/// What looking up a distance costs, in the words that other searches read.
+/// Cost of looking up a distance, in words.
 const WORDS_PER_LOOKUP: u64 = 8;
-/// Bodies whose rectangles are farther apart do not touch, in cells.
+/// Distance between the rectangles of two bodies, along either axis, from which on they are not tested for contacts, in cells.
 const APART: f64 = 2.0;
 
-/// A point that is too near.
+/// Sample point that is too near to another body, or beyond the border.
 pub(super) struct Contact {
     pub point: [f64; 2],
-    /// How much too near.
+    /// Distance that is missing, in cells.
     pub depth: f64,
-    /// The direction in which the point would have to go.
+    /// Direction in which the point has to move.
     pub out: [f64; 2],
 }
 
-/// A page and the bodies that should lie on it.
+/// Page and the bodies that should lie on it.
 pub(super) struct Scene<'a> {
     pub bodies: &'a [Arc<Body>],
-    /// How far they may reach to the right and up.
+    /// Distances to which bodies may extend to the right and up, in cells.
     pub reach: [f64; 2],
-    /// What is kept between bodies beyond the distance that each keeps.
+    /// Distance kept between bodies beyond the one that each keeps, in cells.
     pub room: f64,
     /// Weights of the overlaps.
     pub weights: Pairs,
-    /// What looking cost so far, in words.
+    /// Cost of the search so far, in words.
     pub work: u64,
-    /// What it may cost.
+    /// Limit of this cost.
     pub limit: ReadLimit<'a>,
 }
 
-/// A number for each two bodies, and for each body and the border: those at equal indices.
+/// Number for each pair of bodies, and for each body and the border, whose entry has two equal indices.
 #[derive(Clone)]
 pub(super) struct Pairs {
     n: usize,
@@ -65,7 +65,7 @@ impl Pairs {
 }
 
 impl Scene<'_> {
-    /// Points of body `a` that are too near to body `b`.
+    /// Visits the points of body `a` that are too near to body `b`.
     pub(super) fn contacts(
         &mut self,
         [a, b]: [usize; 2],
@@ -97,7 +97,7 @@ impl Scene<'_> {
         self.work += WORDS_PER_LOOKUP * lookups;
     }
 
-    /// Roughly the sum of squared depths of points of body `a` within the reach of body `b`.
+    /// Estimates the sum of squared depths of points of body `a` within the reach of body `b`, from the centers of runs.
     pub(super) fn rough(&mut self, [a, b]: [usize; 2], poses: [&Pose; 2]) -> f64 {
         let (body, other) = (&self.bodies[a], &self.bodies[b]);
         self.work += WORDS_PER_LOOKUP * body.runs.len() as u64;
@@ -109,7 +109,7 @@ impl Scene<'_> {
         RUN as f64 * sum
     }
 
-    /// Points of a body that are too near to the border or beyond it.
+    /// Visits the points of a body that are beyond the border, once for each side.
     pub(super) fn contacts_of_border(
         &mut self,
         a: usize,
@@ -143,13 +143,13 @@ impl Scene<'_> {
         }
     }
 
-    /// Whether two bodies may touch, by their rectangles.
+    /// Returns whether the rectangles of two bodies are so near that the bodies are tested for contacts.
     pub(super) fn are_near(a: &[[f64; 2]; 2], b: &[[f64; 2]; 2]) -> bool {
         (0..2).all(|k| a[0][k] < b[1][k] + APART && b[0][k] < a[1][k] + APART)
     }
 }
 
-/// Unknowns of a body: two shifts and, times its radius, an angle.
+/// Number of unknowns of a body: two shifts, and an angle times its radius.
 const DOF: usize = 3;
 /// Added to the diagonal, so that bodies that touch nothing stay.
 const LEAST: f64 = 1e-12;
@@ -157,23 +157,24 @@ const LEAST: f64 = 1e-12;
 type Row = [f64; DOF];
 type Block = [Row; DOF];
 
-/// How bodies overlap, and what a step of some of them would change: Σ w (d − J·Δ)² over all points that are too near, with
-/// their depths d, to be minimized over the movements Δ.
+/// Least-squares equations of a step that reduces overlaps: minimize Σ w (d − J·Δ)² over the movements Δ, where the sum is over all
+/// points that are too near, with weights w and depths d.
 pub(super) struct Equations {
     /// Σ w d².
     pub energy: f64,
-    /// The largest depth.
+    /// Largest depth.
     pub deepest: f64,
-    /// Σ d² of each pair, where all bodies move.
+    /// Σ d² of each pair; empty if only one body moves.
     pub overlap: Pairs,
-    /// Blocks of Σ w JᵀJ: for each body, and for each two that touch, sorted.
+    /// Block of Σ w JᵀJ for each body.
     of_body: Vec<Block>,
+    /// Block of Σ w JᵀJ for each two bodies that touch, sorted.
     of_pair: Vec<([usize; 2], Block)>,
     /// Σ w Jᵀd.
     right: Vec<Row>,
 }
 
-/// How the depth of a contact changes with a body's movement: −∂d.
+/// Returns the row of J for a contact: how fast the depth decreases with each unknown of the body whose point it is.
 fn row(body: &Body, pose: &Pose, contact: &Contact) -> Row {
     let Contact { point, out, .. } = contact;
     let arm = [point[0] - pose.middle[0], point[1] - pose.middle[1]];
@@ -185,7 +186,7 @@ fn row(body: &Body, pose: &Pose, contact: &Contact) -> Row {
 }
 
 impl Equations {
-    /// Of all bodies.
+    /// Computes the equations of all bodies.
     pub(super) fn of_all(scene: &mut Scene, poses: &[Pose]) -> Self {
         let n = poses.len();
         let bodies = scene.bodies;
@@ -205,7 +206,7 @@ impl Equations {
         equations
     }
 
-    /// Of one body, the others staying where they are.
+    /// Computes the equations of one body, while the others stay where they are.
     pub(super) fn of_one(scene: &mut Scene, poses: &[Pose], a: usize, pose: &Pose) -> Self {
         let mut equations = Self::new(1);
         let bodies = scene.bodies;
@@ -237,7 +238,7 @@ impl Equations {
         }
     }
 
-    /// What a body and the border have in common, and its Σ d²; the body's unknowns are those at `index`.
+    /// Adds the contacts of a body with the border, and returns their Σ d². The unknowns of the body are those at `index`.
     fn touch_border(&mut self, scene: &mut Scene, index: usize, a: usize, pose: &Pose) -> f64 {
         let body = &scene.bodies[a];
         let weight = scene.weights.get(a, a);
@@ -249,7 +250,7 @@ impl Equations {
         overlap
     }
 
-    /// What two bodies have in common.
+    /// Adds the contacts of two bodies.
     fn touch(&mut self, [a, b]: [usize; 2], scene: &mut Scene, poses: &[Pose]) {
         let bodies = scene.bodies;
         let weight = scene.weights.get(a, b);
@@ -272,7 +273,7 @@ impl Equations {
         }
     }
 
-    /// A contact as far as it concerns one body.
+    /// Adds a contact, as far as it concerns one body.
     fn add(&mut self, index: usize, weight: f64, depth: f64, row: Row) {
         self.energy += weight * depth * depth;
         self.deepest = self.deepest.max(depth);
@@ -286,8 +287,8 @@ impl Equations {
         }
     }
 
-    /// The movements that minimize the sum with `damping` times the largest diagonal entry added: for each body the shifts, and
-    /// the angle times its radius.
+    /// Returns the movements that minimize the sum: for each body the two shifts, and the angle times its radius. Adds `damping`
+    /// times the largest diagonal entry to the diagonal. Returns `None` if the equations cannot be solved.
     pub(super) fn step(&self, damping: f64) -> Option<Vec<Row>> {
         let diagonal = self
             .of_body
@@ -317,12 +318,12 @@ impl Equations {
     }
 }
 
-/// The unknown that a degree of freedom of a body is.
+/// Returns the index of the unknown of a body's degree of freedom.
 fn place(body: usize, freedom: usize) -> u32 {
     (DOF * body + freedom) as u32
 }
 
-/// Adds w a bᵀ.
+/// Adds w a bᵀ to a block.
 fn add_product(block: &mut Block, weight: f64, a: Row, b: Row) {
     for (row, x) in block.iter_mut().zip(a) {
         for (entry, y) in row.iter_mut().zip(b) {

@@ -6,24 +6,27 @@ use super::overlap::{Equations, Pairs, Scene};
 use crate::atlas::Rotation;
 use unwrapd_method::numerics::random::Random;
 
-/// Poses tried anywhere, and near where the body is.
+/// Number of poses tried anywhere on the page.
 const ANYWHERE: usize = 24;
+/// Number of poses tried near the pose of the body.
 const NEARBY: usize = 16;
-/// Of those the best, from which the body is pushed out of others.
+/// Number of the best of these poses, from which the body is pushed out of others.
 const SETTLED: usize = 3;
+/// Maximum number of steps that push a body.
 const STEPS: usize = 12;
-/// How near is nearby: in shares of the page's sides, in radians.
+/// Largest shift to a nearby pose along each axis, as a share of the page's side.
 const WAY: f64 = 0.06;
+/// Largest turn to a nearby pose, in radians.
 const ANGLE: f64 = 0.3;
-/// The share of nearby poses that are turned by quarters.
+/// Share of nearby poses that are turned by quarters.
 const QUARTERS: f64 = 0.3;
-/// By how many cells the rectangle around a body may be wider than the page.
+/// Number of cells by which the rectangle around a body may exceed the page.
 const ROUGHLY: f64 = 4.0;
-/// Overlaps of less are left to all bodies' common steps.
+/// Overlaps below this value, in square cells, are left to the common steps of all bodies.
 const NEGLIGIBLE: f64 = 1e-3;
 
 impl Scene<'_> {
-    /// Moves each body that overlaps, one after the other, to the best place found for it.
+    /// Moves each overlapping body, one after the other in random order, to the best place found for it.
     pub(super) fn move_overlapping(
         &mut self,
         poses: &mut [Pose],
@@ -79,7 +82,8 @@ impl Scene<'_> {
             .map_or(here, |best| best.1)
     }
 
-    /// Roughly the energy of a body, given up when it exceeds the limit. Nothing of it may lie far beyond the border.
+    /// Estimates the energy of a body's overlaps with other bodies, and stops once it exceeds `limit`. Ignores the border, so the
+    /// body must not lie far beyond it.
     fn rough_energy(&mut self, poses: &[Pose], a: usize, pose: &Pose, limit: f64) -> f64 {
         let bodies = self.bodies;
         let bounds = bodies[a].bounds(pose);
@@ -125,7 +129,8 @@ impl Scene<'_> {
         here.moved(by, angle)
     }
 
-    /// Shifted so that the body's rectangle lies within the square, if it fits.
+    /// Returns the pose shifted so that the body's rectangle lies within the page; `None` if it exceeds the page by more than
+    /// [`ROUGHLY`].
     fn within(&self, body: usize, pose: Pose) -> Option<Pose> {
         let [low, high] = self.bodies[body].bounds(&pose);
         let mut by = [0.0; 2];
