@@ -100,8 +100,9 @@ fn round(p: [f64; 2]) -> [i32; 2] {
     p.map(|x| x.round() as i32)
 }
 
-/// Returns the vertices of the border edges that may cross other border edges once they are rounded, in increasing order. O(n log
-/// n) in the edges of the border.
+/// Returns the vertices of the border edges that may cross other border edges once they are rounded, in increasing order.
+///
+/// Time: O(n log n) in the edges of the border.
 pub(super) fn near_vertices(map: &ChartMap, outline: &Outline, unit: f64) -> Vec<u32> {
     let edges: Vec<Segment> = outline
         .edges()

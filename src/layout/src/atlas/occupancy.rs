@@ -25,8 +25,8 @@ pub(super) struct Occupancy {
     words: usize,
     /// Rows of a page, including its frame.
     height: usize,
-    /// Bits of all pages, row by row. Each row has `words` words for each width 2ᵏ, in which bit x is set if one of the cells x..x
-    /// + 2ᵏ is occupied.
+    /// Bits of all pages, row by row. Each row has `words` words for each width 2ᵏ, in which bit x is set if one of the 2ᵏ cells
+    /// from x on is occupied.
     rows: Vec<u64>,
     /// Longest run of free cells of each row, or [`UNKNOWN`]; empty for narrow pages.
     free: Vec<u32>,

@@ -115,8 +115,8 @@ impl Outline {
         }
     }
 
-    /// Returns an upright outline turned to its axes if no side is then longer than `side`. A longer one counts as leaning from
-    /// then on, and the layouts decide on its angle. Returns other outlines unchanged.
+    /// Returns a straight outline turned upright if it is then no longer than `side`. A longer one counts as leaning from then on,
+    /// and the layouts decide on its angle. Returns other outlines unchanged.
     pub(super) fn upright_within(&self, side: f64) -> Self {
         match (self.upright(), self.straightness) {
             (Some(upright), _) if upright.extent[0].max(upright.extent[1]) <= side => upright,

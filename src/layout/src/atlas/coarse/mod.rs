@@ -208,7 +208,7 @@ impl CoarseLayout {
         HOPE * ratio * ratio
     }
 
-    /// Returns the upper bound of the scale of any layout of these charts, in UV units per mesh unit along the longer side: each
+    /// Returns an upper bound of the scale of any layout of these charts, in UV units per mesh unit along the longer side: each
     /// chart has to fit on a page by itself.
     pub fn most_scale(&self) -> f64 {
         let halvings = self.raster.texture.resolution.halvings();
@@ -222,7 +222,7 @@ impl CoarseLayout {
         self.n_charts() > CROWD * self.raster.texture.pages as usize
     }
 
-    /// Returns `true` if a search has squeezed it.
+    /// Returns `true` if a search has squeezed the layout.
     pub(super) fn is_searched(&self) -> bool {
         !self.pages.is_empty()
     }

@@ -96,7 +96,7 @@ impl Body {
 
 /// Distance between sample points along the outline, in cells.
 const SPACING: f64 = 1.0;
-/// Angle from which on a turn of the outline is a corner, in radians. Every corner has a sample point.
+/// Smallest turn of the outline that counts as a corner, in radians. Every corner has a sample point.
 const CORNER: f64 = 0.4;
 /// Number of points in a run.
 pub(super) const RUN: usize = 8;

@@ -9,7 +9,7 @@ use unwrapd_method::numerics::conjugate_gradients::ConjugateGradients;
 
 /// Cost of looking up a distance, in words.
 const WORDS_PER_LOOKUP: u64 = 8;
-/// Distance between the rectangles of two bodies, along either axis, from which on they are not tested for contacts, in cells.
+/// Two bodies whose rectangles are at least this many cells apart along an axis are not tested for contacts.
 const APART: f64 = 2.0;
 
 /// Sample point that is too near to another body, or beyond the border.
