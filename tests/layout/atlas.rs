@@ -366,7 +366,7 @@ fn charts_come_as_near_as_they_may() {
     let charts: Vec<Chart> = (0..9)
         .map(|i| blob(1.0 + f64::from(i % 3), 2 + i % 4, 0.2))
         .collect();
-    for padding_texels in [2, 8] {
+    for padding_texels in [2, 8, 40] {
         let options = AtlasOptions {
             padding_texels,
             ..AtlasOptions::default()
@@ -402,7 +402,7 @@ fn charts_of_which_one_is_enlarged_lie_on_the_raster() {
 }
 
 #[test]
-fn a_draft_becomes_fuller_when_a_chart_is_cut() {
+fn a_layout_becomes_fuller_when_a_chart_is_cut() {
     let options = AtlasOptions::default();
     let whole = bar(4);
     let mut layout = CoarseLayout::new(&maps(&[bar(1), whole, bar(1)]), &options)
@@ -442,7 +442,7 @@ fn a_search_ends_when_all_has_been_tried() {
 }
 
 #[test]
-fn crowds_and_needles_have_no_draft() {
+fn crowds_and_needles_have_no_coarse_layout() {
     let crowd: Vec<Chart> = (0..600).map(|_| bar(1)).collect();
     let needle = (vec![[0.0, 0.0], [1e6, 0.0], [1e6, 1.0]], vec![[0, 1, 2]]);
     // On the finer raster of many charts the sheets of such long ones would take hundreds of megabytes.
@@ -679,22 +679,24 @@ fn charts_with_straight_outlines_are_packed_upright() {
 }
 
 #[test]
-fn what_leans_can_be_laid_straight() {
-    let polygon = |corners: u32| -> Chart {
-        let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(corners) + 0.3;
-        let uv = (0..corners).map(|k| [angle(k).cos(), angle(k).sin()]);
-        let triangles = (2..corners).map(|k| [0, k - 1, k]);
-        (uv.collect(), triangles.collect())
+fn straight_charts_lie_along_the_axes_if_that_costs_little() {
+    let hexagon = |turn: f64| -> Chart {
+        let angle = |k: u32| std::f64::consts::TAU * (f64::from(k) / 6.0 + turn);
+        let uv = (0..6).map(|k| [angle(k).cos(), angle(k).sin()]);
+        (uv.collect(), (2..6).map(|k| [0, k - 1, k]).collect())
     };
-    let straightened = |corners: u32| {
-        let charts = [polygon(corners), polygon(corners)];
-        let layout = CoarseLayout::new(&maps(&charts), &AtlasOptions::default());
-        layout.expect("charts").expect("few").straightened()
-    };
-    // All of a square runs along two directions anyway, of a hexagon a third, of a round chart next to nothing.
-    assert!(straightened(4).is_none());
-    assert!(straightened(6).is_some());
-    assert!(straightened(40).is_none());
+    for turn in [0.05, 0.11] {
+        let charts = [hexagon(turn), hexagon(2.0 * turn)];
+        let atlas = pack(&maps(&charts), &AtlasOptions::default()).expect("a layout");
+        for placed in &atlas.placed {
+            let off_axis = |k: usize| {
+                let [p, q] = [placed.grid[k], placed.grid[(k + 1) % 6]];
+                (p[0] - q[0]).abs().min((p[1] - q[1]).abs())
+            };
+            let least = (0..6).map(off_axis).min();
+            assert!(least <= Some(4), "{turn}: {least:?}");
+        }
+    }
 }
 
 #[test]

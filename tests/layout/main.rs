@@ -12,6 +12,7 @@ mod given_back;
 #[allow(dead_code)]
 mod layouts;
 mod not_given_back;
+mod optima;
 mod own_axes;
 mod pages;
 #[path = "../places.rs"]

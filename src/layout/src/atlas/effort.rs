@@ -37,23 +37,25 @@ pub(super) struct Schedule {
     pub starts: u32,
     /// Number of the best arrangements that are squeezed.
     pub squeezed: usize,
-    /// Shares of the words for annealing, squeezing and relocation.
-    pub shares: [f64; 3],
+}
+
+impl Schedule {
+    /// Share of the words for annealing; the rest is for squeezing. Shares from .5 to .7 give the same fill on average.
+    pub const ANNEALING: f64 = 0.6;
 }
 
 impl Effort {
     pub(super) fn schedule(self) -> Schedule {
-        let of = |words, fewest, starts: u32, squeezed, shares| Schedule {
+        let of = |words, fewest, starts, squeezed| Schedule {
             words,
             fewest,
             starts,
             squeezed,
-            shares,
         };
         match self {
-            Self::Low => of(1.5e6, 4, 1, 1, [0.7, 0.3, 0.0]),
-            Self::Medium => of(3e6, 1, 2, 2, [0.6, 0.4, 0.0]),
-            Self::High => of(30e6, 1, 4, 3, [0.5, 0.25, 0.25]),
+            Self::Low => of(1.5e6, 4, 1, 1),
+            Self::Medium => of(3e6, 1, 2, 2),
+            Self::High => of(30e6, 1, 4, 3),
         }
     }
 
@@ -63,10 +65,6 @@ impl Effort {
         let n = n_charts.max(schedule.fewest) as f64 / CHARTS;
         // Rounded alike everywhere, unlike a power.
         (schedule.words * n * n.sqrt()) as u64
-    }
-
-    pub(super) fn seed(self) -> u64 {
-        100 * self as u64
     }
 }
 

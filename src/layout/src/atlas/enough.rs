@@ -52,7 +52,7 @@ pub fn enough(charts: &[ChartMap], options: &AtlasOptions) -> Result<Enough, Atl
     let slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
     let coarse = CoarseLayout::new(charts, &largest)?;
-    let coarse = searched(coarse.as_ref(), &largest, UNHEARD);
+    let coarse = coarse.map(|coarse| searched(&coarse, &largest, UNHEARD).0);
     let fullest = best(&first, coarse.as_ref(), &slack, &largest, UNHEARD);
     let longer = f64::from(options.texture.resolution.longer());
     let reached = |scale: f64| scale / options.texture.grid_side() * longer;

@@ -19,6 +19,9 @@ const ROUNDS: usize = 4;
 const SPARE: f64 = 0.01;
 /// Distance by which rounding may move a vertex, in cells.
 const ROUNDED: f64 = 0.002;
+/// Smallest share by which charts are spread if no round keeps them far enough apart; it is doubled up to [`SPREADS`] times.
+const LEAST_SPREAD: f64 = 1e-4;
+const SPREADS: u32 = 8;
 /// Each of these rounds reads about one part in `SHARE` of the word budget at most.
 const SHARE: u64 = 16;
 /// Number of times that the side of a page is corrected for the padding, which depends on it.
@@ -70,7 +73,7 @@ struct Tight<'a> {
 
 impl Tight<'_> {
     /// Places the charts of a page as near to each other as permitted if the longer side of the largest page is at least `least`.
-    /// Returns `None` if no round keeps them far enough apart.
+    /// Returns `None` if they cannot be kept far enough apart.
     fn places(&self, page: &Page, least: f64) -> Option<Places> {
         let mut squeezed = page.squeezed.clone();
         let kept = self.padding(squeezed.side);
@@ -84,10 +87,8 @@ impl Tight<'_> {
             if !squeezed.loosen(&bodies, room, (words, self.on_read)) {
                 break;
             }
-            let mut places = Places::new(&level, &squeezed, self.scale);
-            places.side = self.side(places.reach);
-            let missing = self.padding(places.side.max(least)) + 2.0 * ROUNDED - places.gap;
-            if missing <= 0.0 && self.around(places.side) <= self.page(places.side) {
+            let (places, missing) = self.measured(&level, &squeezed, least);
+            if missing <= 0.0 && self.fits(&places) {
                 best = Some(places);
             }
             if (-2.0 * SPARE..=0.0).contains(&missing) {
@@ -95,7 +96,29 @@ impl Tight<'_> {
             }
             room += missing + SPARE;
         }
-        best
+        // Where charts overlap, the distance that is missing is not known.
+        best.or_else(|| {
+            let mut shares = (0..SPREADS).map(|power| LEAST_SPREAD * f64::from(1 << power));
+            shares.find_map(|share| {
+                let spread = squeezed.spread(1.0 + share);
+                let (places, missing) = self.measured(&level, &spread, least);
+                (missing <= 0.0 && self.fits(&places)).then_some(places)
+            })
+        })
+    }
+
+    /// Returns whether the page has room for the places, which matters at a prescribed scale.
+    fn fits(&self, places: &Places) -> bool {
+        self.around(places.side) <= self.page(places.side)
+    }
+
+    /// Places charts as squeezed, and measures the distance that is missing between two of them, in cells; negative if they are farther
+    /// apart than they have to be.
+    fn measured(&self, level: &[&Outline], squeezed: &Squeezed, least: f64) -> (Places, f64) {
+        let mut places = Places::new(level, squeezed, self.scale);
+        places.side = self.side(places.reach);
+        let missing = self.padding(places.side.max(least)) + 2.0 * ROUNDED - places.gap;
+        (places, missing)
     }
 
     /// Returns the longer side, without borders, of the smallest page on which charts may extend to `reach`, to the right and up.

@@ -161,19 +161,22 @@ impl Snap<'_> {
         mut bad: Vec<u32>,
     ) -> Option<()> {
         let mut plane = map.uv.to_vec();
-        for round_of in 0..=ROUNDS {
+        for attempt in 0..=ROUNDS {
             let exact = |v: u32| outline.place(plane[v as usize]).map(|x| x * unit);
             self.nudge(&mut bad, exact);
             if bad.is_empty() {
                 return Some(());
             }
-            let patch = neighborhood(self.triangles, &self.rings, &bad, 1 << round_of);
-            let cell = 1.0 / unit;
-            let free = relax(self.triangles, &self.rings, &patch, &[], cell, &mut plane);
-            for v in free {
-                self.grid[v as usize] = round(outline.place(plane[v as usize]).map(|x| x * unit));
+            if attempt < ROUNDS {
+                let patch = neighborhood(self.triangles, &self.rings, &bad, 1 << attempt);
+                let cell = 1.0 / unit;
+                let free = relax(self.triangles, &self.rings, &patch, &[], cell, &mut plane);
+                for v in free {
+                    self.grid[v as usize] =
+                        round(outline.place(plane[v as usize]).map(|x| x * unit));
+                }
+                bad = self.without_area(&patch);
             }
-            bad = self.without_area(&patch);
         }
         None
     }

@@ -3,6 +3,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 use super::copies::Shape;
+use super::page::page_side;
 use super::{AtlasError, ChartMap, Rotation};
 use unwrapd_maps::plane::Straightness;
 
@@ -317,15 +318,14 @@ fn smallest_rectangle(hull: &[[f64; 2]]) -> [f64; 2] {
 
 /// Returns the direction that becomes horizontal for the smallest page that encloses a hull, and the longer side of this page.
 pub(super) fn smallest_page(hull: &[[f64; 2]], halvings: [u32; 2]) -> ([f64; 2], f64) {
-    let [u, v] = halvings.map(|times| f64::from(1_u32 << times));
     let mut best = ([1.0, 0.0], f64::INFINITY);
     for step in 0..PAGE_ANGLES {
         let angle = std::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(PAGE_ANGLES);
         let d = [angle.cos(), angle.sin()];
         let [width, height] = extent(hull, d);
         for (d, side) in [
-            (d, (u * width).max(v * height)),
-            ([-d[1], d[0]], (u * height).max(v * width)),
+            (d, page_side([width, height], halvings)),
+            ([-d[1], d[0]], page_side([height, width], halvings)),
         ] {
             if side < best.1 {
                 best = (d, side);

@@ -15,6 +15,14 @@ use super::{
 
 /// Layouts tried until no vertex moves farther than its chart's room.
 const ROUNDS: usize = 6;
+/// Maximum number of searches per unit of patience. Each doubling of their number gains less.
+const SEARCHES: u64 = 4;
+/// Number of charts up to which this many searches are made. With more charts, searches take longer and differ less.
+const FEW: u64 = 10;
+/// Words per triangle that all searches may read, so that they take about as long as mapping the charts. One search is made anyway.
+const WORDS_PER_TRIANGLE: u64 = 20_000;
+/// Fill that straight charts may lose by lying along the axes.
+const STRAIGHT: f64 = 0.02;
 
 /// Places every chart on a page, any two charts at least the padding apart.
 ///
@@ -26,59 +34,69 @@ pub fn pack(charts: &[ChartMap], options: &AtlasOptions) -> Result<Atlas, AtlasE
     pack_coarse(charts, coarse.as_ref(), options, UNHEARD)
 }
 
-/// As [`pack`], from a coarse of the layout; without one the largest chart is placed first, and so on. A scale that is given is
-/// tried in that way at first.
+/// Like [`pack`], but starts from a coarse layout. Without one, and at first at a given scale, the largest charts are placed first.
 pub fn pack_coarse(
     charts: &[ChartMap],
     coarse: Option<&CoarseLayout>,
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Result<Atlas, AtlasError> {
-    let mut slack = vec![SLACK; charts.len()];
+    let slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
-    let (coarse, found) = match options.scale {
-        Scale::Largest => (searched(coarse, options, on_read), None),
-        Scale::TexelsPerUnit(_) => match layout::layout(&first, &slack, options, on_read) {
-            Some(layout) => (None, Some((first.clone(), layout))),
-            None => (searched(coarse, options, on_read), None),
-        },
-    };
-    let tight = match found {
-        None => coarse
-            .as_ref()
-            .and_then(|coarse| coarse.with_exact_gap(options, on_read)),
-        Some(_) => None,
-    };
+    if let Scale::TexelsPerUnit(_) = options.scale
+        && let Some(layout) = layout::layout(&first, &slack, options, on_read)
+    {
+        return on_raster(charts, (first, layout), options, on_read);
+    }
+    let searched = coarse.map(|coarse| searched(coarse, options, on_read));
+    let (coarse, exact) = searched.map_or((None, None), |(coarse, exact)| (Some(coarse), exact));
     // The order of a crowd is not searched: placing the largest charts first may be fuller.
     let is_crowd = coarse.as_ref().is_some_and(CoarseLayout::is_crowded);
-    let found = found.or_else(|| {
-        (is_crowd || tight.is_none())
-            .then(|| best(&first, coarse.as_ref(), &slack, options, on_read))?
-    });
-    let is_fuller = |scale: f64| found.as_ref().is_none_or(|(_, found)| scale > found.scale);
-    if let Some((outlines, layout)) = tight.filter(|(_, tight)| is_fuller(tight.scale)) {
+    let mut raster = None;
+    if is_crowd || exact.is_none() {
+        raster = best(&first, coarse.as_ref(), &slack, options, on_read);
+    }
+    let is_fuller = |scale: f64| raster.as_ref().is_none_or(|(_, found)| scale > found.scale);
+    if let Some((outlines, layout)) = exact.filter(|(_, exact)| is_fuller(exact.scale)) {
         let snapped = on_grid(charts, &outlines, &layout, Repair::Open);
         if !is_cramped(&snapped, &layout, &mut slack.clone()) {
             return Ok(atlas(charts, &layout, &slack, snapped, options));
         }
     }
-    let none = match options.scale {
-        Scale::Largest => AtlasError::TooManyCharts {
-            charts: charts.len(),
-        },
-        Scale::TexelsPerUnit(_) => AtlasError::TextureTooSmall,
-    };
-    let found = found.or_else(|| best(&first, coarse.as_ref(), &slack, options, on_read));
-    let (plan, mut layout) = found.ok_or_else(|| none.clone())?;
+    let raster = raster.or_else(|| best(&first, coarse.as_ref(), &slack, options, on_read));
+    let found = raster.ok_or_else(|| none_fits(charts, options))?;
+    on_raster(charts, found, options, on_read)
+}
+
+/// Rounds a layout on the raster to the grid. Lays charts out anew, with more room, while a vertex has to move farther than its chart
+/// has room for.
+fn on_raster(
+    charts: &[ChartMap],
+    (plan, mut layout): (Plan, Layout),
+    options: &AtlasOptions,
+    on_read: &OnRead,
+) -> Result<Atlas, AtlasError> {
+    let mut slack = vec![SLACK; charts.len()];
     for _ in 0..ROUNDS {
         let snapped = on_grid(charts, &plan.outlines, &layout, Repair::Open);
         if !is_cramped(&snapped, &layout, &mut slack) {
             return Ok(atlas(charts, &layout, &slack, snapped, options));
         }
-        layout = layout::layout(&plan, &slack, options, on_read).ok_or_else(|| none.clone())?;
+        layout = layout::layout(&plan, &slack, options, on_read)
+            .ok_or_else(|| none_fits(charts, options))?;
     }
     let rounded = on_grid(charts, &plan.outlines, &layout, Repair::Nothing);
     Ok(atlas(charts, &layout, &slack, rounded, options))
+}
+
+/// Returns the error if no layout is found.
+fn none_fits(charts: &[ChartMap], options: &AtlasOptions) -> AtlasError {
+    match options.scale {
+        Scale::Largest => AtlasError::TooManyCharts {
+            charts: charts.len(),
+        },
+        Scale::TexelsPerUnit(_) => AtlasError::TextureTooSmall,
+    }
 }
 
 /// Enlarges the slack of every chart with a vertex that moves farther than that. Returns whether there is one.
@@ -105,32 +123,64 @@ pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasEr
     )
 }
 
-/// Returns the coarse after a search, which is made here unless it was made before.
+/// Outlines and a layout in which charts keep exactly the padding.
+type Exact = (Vec<Outline>, Layout);
+
+/// Searches for the fullest layout. Straight charts lie along the axes unless the page gains more than [`STRAIGHT`] of its area by
+/// other angles; at a given scale, a little less fill may be too little.
 pub(super) fn searched(
-    coarse: Option<&CoarseLayout>,
+    coarse: &CoarseLayout,
     options: &AtlasOptions,
     on_read: &OnRead,
-) -> Option<CoarseLayout> {
-    let mut coarse = coarse?.clone();
-    if coarse.is_searched() {
-        return Some(coarse);
-    }
-    let words = options.patience * Effort::High.words(coarse.n_charts());
-    let improve = |coarse: &mut CoarseLayout| {
-        coarse.improve(Effort::High, words.min(options.budget_words), on_read);
-    };
-    improve(&mut coarse);
-    // At a given scale, a little less fill may be too little.
+) -> (CoarseLayout, Option<Exact>) {
+    let any = fullest(coarse.clone(), options, on_read);
     let straight = coarse
         .straightened()
         .filter(|_| options.scale == Scale::Largest);
-    if let Some(mut straight) = straight {
-        improve(&mut straight);
-        if straight.fill() >= coarse.fill() - CoarseLayout::STRAIGHT {
-            return Some(straight);
+    let Some(straight) = straight else {
+        return any;
+    };
+    let straight = fullest(straight, options, on_read);
+    if straight.0.fill() >= any.0.fill() - STRAIGHT {
+        straight
+    } else {
+        any
+    }
+}
+
+/// Searches from several seeds, and brings charts exactly as near as permitted. As more patience only adds seeds and the fullest result
+/// counts, it never gives an emptier page.
+fn fullest(
+    mut coarse: CoarseLayout,
+    options: &AtlasOptions,
+    on_read: &OnRead,
+) -> (CoarseLayout, Option<Exact>) {
+    let words = Effort::High.words(coarse.n_charts());
+    let most = (SEARCHES * FEW / FEW.max(coarse.n_charts() as u64)).max(1);
+    let paid = WORDS_PER_TRIANGLE * coarse.n_triangles() as u64 / words.max(1);
+    let searches = paid.clamp(1, most);
+    let is_searched = coarse.is_searched();
+    let mut left = options.budget_words;
+    let mut fullest: Option<Exact> = None;
+    for round in 1..=options.patience {
+        let before = coarse.fill();
+        // The search that was made before is one of the first round.
+        let made = u64::from(round == 1 && is_searched);
+        for _ in made..searches {
+            if left > 0 {
+                coarse.improve(Effort::High, words.min(left), on_read);
+            }
+            left = left.saturating_sub(words);
+        }
+        if round == 1 || coarse.fill() > before {
+            let exact = coarse.with_exact_gap(options, on_read);
+            let scale = |exact: &Option<Exact>| exact.as_ref().map_or(0.0, |(_, it)| it.scale);
+            if scale(&exact) > scale(&fullest) {
+                fullest = exact;
+            }
         }
     }
-    Some(coarse)
+    (coarse, fullest)
 }
 
 /// The plan whose layout has the largest scale: the one given, or what a search made of it.

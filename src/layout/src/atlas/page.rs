@@ -113,9 +113,8 @@ impl Form {
 
     /// Returns the longer side of the smallest page, without borders, around a rectangle that is upright or on its side.
     pub(super) fn around(self, [width, height]: [f64; 2]) -> f64 {
-        let [u, v] = self.halvings.map(|times| f64::from(1_u32 << times));
-        let (upright, on_side) = ((u * width).max(v * height), (u * height).max(v * width));
-        upright.min(on_side)
+        let side = |extent| page_side(extent, self.halvings);
+        side([width, height]).min(side([height, width]))
     }
 
     /// Returns the maximum number of cells of the longer side that are lost to borders along u or v.
@@ -156,4 +155,10 @@ impl Shape {
             ..self
         }
     }
+}
+
+/// Returns the longer side of the smallest page around a rectangle. Its sides along u and v are the longer side halved this many times.
+pub(super) fn page_side(extent: [f64; 2], halvings: [u32; 2]) -> f64 {
+    let [u, v] = [0, 1].map(|axis| extent[axis] * f64::from(1_u32 << halvings[axis]));
+    u.max(v)
 }

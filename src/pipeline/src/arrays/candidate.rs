@@ -90,8 +90,8 @@ pub struct Search<'a> {
     rounds: &'static [(Effort, usize)],
     /// Scale that was reached before.
     reached: f64,
-    /// Multiple of the words that an effort usually reads.
-    multiple: f64,
+    /// Share of the words that an effort usually reads.
+    share: f64,
 }
 
 impl<'a> Search<'a> {
@@ -112,14 +112,16 @@ impl<'a> Search<'a> {
             on_read,
             rounds,
             reached,
-            multiple: patience * share.min(1.0),
+            share: share.min(1.0),
         }
     }
 
     /// Improves the layout of a candidate.
     fn improve(&self, candidate: &mut Candidate, effort: Effort) {
-        let words = self.multiple * effort.words(candidate.layout.n_charts()) as f64;
-        candidate.layout.improve(effort, words as u64, self.on_read);
+        let words = self.share * effort.words(candidate.layout.n_charts()) as f64;
+        for _ in 0..self.options.patience {
+            candidate.layout.improve(effort, words as u64, self.on_read);
+        }
     }
 
     /// Removes candidates that cannot exceed the scale reached before and gives the others the first effort. Returns
@@ -144,21 +146,7 @@ impl<'a> Search<'a> {
             each.for_each(|candidate| self.improve(candidate, effort));
             candidates.sort_by(by_value);
         }
-        let best = candidates.into_iter().next()?;
-        let straight = self.straightened(&best);
-        Some(straight.unwrap_or(best))
-    }
-
-    /// Returns the candidate with leaning charts turned upright, if the layout stays about as full.
-    fn straightened(&self, best: &Candidate) -> Option<Candidate> {
-        let mut straight = Candidate {
-            layout: best.layout.straightened()?,
-            ..best.clone()
-        };
-        for effort in [Effort::Medium, Effort::High] {
-            self.improve(&mut straight, effort);
-        }
-        (straight.value() >= best.value() - CoarseLayout::STRAIGHT).then_some(straight)
+        candidates.into_iter().next()
     }
 }
 

@@ -55,11 +55,16 @@ pub struct CoarseLayout {
     /// Poses of each chart, which copies share.
     poses: Vec<Arc<Poses>>,
     raster: Raster,
+    /// Arrangement with the largest charts first.
+    first: Arrangement,
+    /// Best arrangement so far.
     state: Arrangement,
     /// Squeezed pages of the best arrangement so far; empty before a search succeeds.
     pages: Vec<Page>,
-    /// Indices of the charts in descending order of size.
-    by_size: Vec<usize>,
+    /// Number of searches so far.
+    n_searches: u64,
+    /// `true` once a search has nothing left to try.
+    is_exhausted: bool,
     /// Number of large charts among them.
     n_large: usize,
     /// Index, for each chart, of the first chart that it is a copy of, possibly itself.
@@ -136,11 +141,8 @@ impl CoarseLayout {
         Ok(Self::largest_first(level, &poses, self.raster))
     }
 
-    /// Loss of fill that is accepted for [straightened](Self::straightened) charts.
-    pub const STRAIGHT: f64 = 0.02;
-
     /// Returns a layout with the leaning charts turned upright, which has yet to be laid out; `None` if no chart leans.
-    pub fn straightened(&self) -> Option<Self> {
+    pub(super) fn straightened(&self) -> Option<Self> {
         let straight: Vec<Option<Outline>> = self.level.iter().map(Outline::straightened).collect();
         straight.iter().any(Option::is_some).then_some(())?;
         let straight = straight.into_iter().zip(&self.level);
@@ -167,35 +169,41 @@ impl CoarseLayout {
             let [width, height] = level[chart].extent;
             (width + height) * raster.scale > SMALL * raster.cells()
         };
+        let n_large = by_size.iter().take_while(is_large).count().max(1);
+        let first = Arrangement {
+            order: by_size,
+            pose: vec![0; poses.len()],
+            corners: vec![Corner::default(); poses.len()],
+            side: 0,
+            cost: f64::INFINITY,
+        };
         Self {
-            n_large: by_size.iter().take_while(is_large).count().max(1),
+            n_large,
             kind: kind.into(),
-            state: Arrangement {
-                order: by_size.clone(),
-                pose: vec![0; poses.len()],
-                corners: vec![Corner::default(); poses.len()],
-                side: 0,
-                cost: f64::INFINITY,
-            },
+            state: first.clone(),
+            first,
             level,
             poses,
             raster,
             pages: Vec::new(),
-            by_size,
+            n_searches: 0,
+            is_exhausted: false,
         }
     }
 
     /// Places all charts in their order, in the first of several squares in which they fit. Returns `false` if they fit in none.
     fn lay_out(&mut self) -> bool {
-        let n = self.state.order.len();
-        self.raster.sides().any(|side| {
+        let n = self.first.order.len();
+        let is_laid_out = self.raster.sides().any(|side| {
             let largest = self.raster.largest(side);
             let mut occupancy = self.raster.occupancy(largest);
             let laid_out = self
-                .state
+                .first
                 .lay_out(&self.poses, &mut occupancy, 0..n, largest);
             laid_out.is_some()
-        })
+        });
+        self.state = self.first.clone();
+        is_laid_out
     }
 
     fn is_laid_out(&self) -> bool {
@@ -217,14 +225,19 @@ impl CoarseLayout {
         (1.0 - self.raster.padding / self.raster.cells()) / longest
     }
 
-    /// Returns `true` if there are too many charts to search their order.
-    pub fn is_crowded(&self) -> bool {
-        self.n_charts() > CROWD * self.raster.texture.pages as usize
+    /// Returns the number of triangles of all charts.
+    pub(super) fn n_triangles(&self) -> usize {
+        self.level.iter().map(|outline| outline.n_triangles).sum()
     }
 
     /// Returns `true` if a search has squeezed the layout.
     pub(super) fn is_searched(&self) -> bool {
         !self.pages.is_empty()
+    }
+
+    /// Returns `true` if there are too many charts to search their order.
+    pub fn is_crowded(&self) -> bool {
+        self.n_charts() > CROWD * self.raster.texture.pages as usize
     }
 
     /// Returns the longer side of the largest page, in cells.
@@ -301,7 +314,7 @@ impl CoarseLayout {
         };
         let page = |number: u32| {
             let is_here = |&&chart: &&usize| self.state.corners[chart].page == number;
-            let charts: Vec<usize> = self.by_size.iter().filter(is_here).copied().collect();
+            let charts: Vec<usize> = self.first.order.iter().filter(is_here).copied().collect();
             let squeezed = Squeezed {
                 poses: charts.iter().map(pose).collect(),
                 side: f64::from(self.state.side),

@@ -1,4 +1,4 @@
-//! Search for a fuller layout: simulated annealing, squeezing, and relocation.
+//! Search for a fuller layout: simulated annealing, then squeezing, from several seeds.
 use rayon::prelude::*;
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -8,7 +8,6 @@ use super::arrangement::{Arrangement, Prefixes};
 use super::{CoarseLayout, squeezed_side};
 use crate::atlas::OnRead;
 use crate::atlas::effort::{Effort, ReadLimit, Schedule};
-use crate::atlas::gap::Page;
 use crate::atlas::squeeze::Body;
 use unwrapd_method::numerics::random::Random;
 
@@ -21,6 +20,8 @@ const WORDS_IF_KNOWN: u64 = 100;
 /// Factor of the number of trials in a row, all made before, after which a search ends: `IN_VAIN · n · max(n, poses)` for n large
 /// charts. By then, almost surely nothing is left to try.
 const IN_VAIN: usize = 40;
+/// Distance between the seeds of two searches, at least the number of starts of one.
+const SEEDS_PER_SEARCH: u64 = 100;
 /// Number of small charts that cost as much as a large one.
 const SMALL_PER_LARGE: usize = 4;
 
@@ -31,8 +32,8 @@ impl CoarseLayout {
         self.n_large + small.div_ceil(SMALL_PER_LARGE)
     }
 
-    /// Searches for a fuller layout, and keeps the present one if none is found. Reads about `words` words, or fewer if nothing is
-    /// left to try. A crowd is only squeezed, and only with [`Effort::High`].
+    /// Searches for a fuller layout from new seeds, and keeps the present one if none is found. Reads about `words` words, or fewer if
+    /// nothing is left to try. A crowd is only squeezed, and only with [`Effort::High`].
     pub fn improve(&mut self, effort: Effort, words: u64, on_read: &OnRead) {
         let told = AtomicU64::new(0);
         let count = |read| {
@@ -48,19 +49,21 @@ impl CoarseLayout {
         let is_laid_out = self.is_laid_out() || self.lay_out();
         if self.state.order.is_empty()
             || !is_laid_out
+            || self.is_exhausted
             || (self.is_crowded() && effort != Effort::High)
         {
             return;
         }
         let schedule = effort.schedule();
-        let [annealing, squeezing, moving] = schedule.shares.map(|share| share * words as f64);
-        let found = if self.is_crowded() {
-            vec![self.state.clone()]
+        let annealing = Schedule::ANNEALING * words as f64;
+        let (found, is_exhausted) = if self.is_crowded() {
+            (vec![self.state.clone()], true)
         } else {
-            self.arrangements((effort, &schedule), annealing, on_read)
+            self.arrangements(&schedule, annealing, on_read)
         };
+        let n_searches = self.n_searches + 1;
         let fullest = found.first().cloned();
-        let each = (squeezing / schedule.squeezed as f64) as u64;
+        let each = ((words as f64 - annealing) / schedule.squeezed as f64) as u64;
         let settled: Vec<Option<Self>> = (found.into_par_iter().with_max_len(1))
             .map(|state| self.settled(state, each, on_read))
             .collect();
@@ -75,33 +78,27 @@ impl CoarseLayout {
         {
             self.state = fullest;
         }
-        if moving > 0.0 && !self.is_crowded() {
-            self.relocate(moving as u64, effort.seed(), on_read);
-        }
+        (self.n_searches, self.is_exhausted) = (n_searches, is_exhausted);
     }
 
-    /// Anneals from several seeds, and reads about `words` words in all. Returns the best arrangements, the best first.
+    /// Anneals from several seeds, and reads about `words` words in all. Returns the best arrangements, the best first, and whether
+    /// nothing is left to try.
     fn arrangements(
         &self,
-        (effort, schedule): (Effort, &Schedule),
+        schedule: &Schedule,
         words: f64,
         on_read: &OnRead,
-    ) -> Vec<Arrangement> {
+    ) -> (Vec<Arrangement>, bool) {
         let each = (words / f64::from(schedule.starts)) as u64;
         let starts = (0..schedule.starts).into_par_iter().with_max_len(1);
-        let mut found: Vec<Arrangement> = starts
-            .map(|start| {
-                self.annealed(
-                    each,
-                    &mut Random::new(effort.seed() + u64::from(start)),
-                    on_read,
-                )
-            })
-            .collect();
+        let seed = SEEDS_PER_SEARCH * self.n_searches;
+        let (mut found, is_exhausted): (Vec<Arrangement>, Vec<bool>) = starts
+            .map(|start| self.annealed(each, &mut Random::new(seed + u64::from(start)), on_read))
+            .unzip();
         found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         found.dedup_by_key(|state| state.key(&self.kind));
         found.truncate(schedule.squeezed);
-        found
+        (found, is_exhausted.into_iter().all(|is| is))
     }
 
     /// Returns the layout with another arrangement, squeezed; `None` if its charts could not be separated.
@@ -122,21 +119,22 @@ impl CoarseLayout {
         Some(coarse)
     }
 
-    /// Returns the best arrangement found while about `words` words are read.
+    /// Returns the best arrangement found while about `words` words are read, and whether nothing is left to try. Starts with the
+    /// largest charts first.
     ///
     /// Only the large charts change their order and poses. The small ones are placed once, at the end.
-    fn annealed(&self, words: u64, random: &mut Random, on_read: &OnRead) -> Arrangement {
+    fn annealed(&self, words: u64, random: &mut Random, on_read: &OnRead) -> (Arrangement, bool) {
         let (large, all) = (self.n_large, self.state.order.len());
-        let largest = self.state.side + self.state.side / 16;
+        let largest = self.first.side + self.first.side / 16;
         let mut occupancy = self.raster.occupancy(largest + largest / 4);
         let mut prefixes = Prefixes::new(occupancy.clone(), large);
-        let mut state = self.state.clone();
+        let mut state = self.first.clone();
         if large < all
             && state
                 .lay_out(&self.poses, &mut occupancy, 0..large, largest)
                 .is_none()
         {
-            return state;
+            return (state, true);
         }
         let mut best = state.clone();
         let mut known = HashSet::from([state.key(&self.kind)]);
@@ -178,7 +176,8 @@ impl CoarseLayout {
         let most = largest + largest / 4;
         let placed =
             large == all || (best.lay_out(&self.poses, &mut occupancy, large..all, most)).is_some();
-        if placed { best } else { self.state.clone() }
+        let best = if placed { best } else { self.first.clone() };
+        (best, in_vain == most_in_vain)
     }
 
     /// Returns the number of trials in a row, all made before, after which a search ends.
@@ -186,25 +185,6 @@ impl CoarseLayout {
         let n = self.n_large;
         let poses = self.poses.iter().map(|poses| poses.distinct().len());
         IN_VAIN * n * poses.max().unwrap_or(0).max(n)
-    }
-
-    /// Relocates charts of the largest page, then of the page that is the largest after that, once for each page. Reads about
-    /// `words` words.
-    fn relocate(&mut self, words: u64, seed: u64, on_read: &OnRead) {
-        let mut pages = std::mem::take(&mut self.pages);
-        let n = pages.len();
-        for round in 0..n as u64 {
-            let largest = |(_, a): &(usize, &Page), (_, b): &(usize, &Page)| {
-                a.squeezed.side.total_cmp(&b.squeezed.side)
-            };
-            if let Some((index, _)) = pages.iter().enumerate().max_by(largest) {
-                let page = &mut pages[index];
-                let bodies = self.bodies(&page.charts);
-                let each = words / n as u64;
-                page.squeezed.search(&bodies, each, seed + round, on_read);
-            }
-        }
-        self.pages = pages;
     }
 
     fn bodies(&self, charts: &[usize]) -> Vec<Arc<Body>> {

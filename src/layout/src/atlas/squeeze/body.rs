@@ -56,6 +56,8 @@ impl Pose {
 pub(in crate::atlas) struct Body {
     pub(super) field: Field,
     pub(super) runs: Vec<Run>,
+    /// Distance that it keeps from other charts, in cells.
+    pub(super) kept: f64,
     /// Half the sides of its rectangle.
     pub(super) half: [f64; 2],
     /// Half the diagonal of its rectangle; at least 1.
@@ -75,6 +77,7 @@ impl Body {
         Self {
             runs,
             field,
+            kept,
             half,
             radius: half[0].hypot(half[1]).max(1.0),
             rotation: if outline.has_copies {

@@ -2,18 +2,15 @@
 //!
 //! Placing charts one after the other leaves room between them that no order and no small set of angles removes. Here, all charts
 //! move and turn at once: the page shrinks a little, and charts that then overlap are pushed apart. This minimizes the sum of the
-//! squared depths of points of one chart within the reach of another (Levenberg's method). If it fails, the charts that overlap try
-//! other places, and overlaps that persist get larger weights.
+//! squared depths of points of one chart within the reach of another (Levenberg's method).
 //!
 //! Distances are looked up in rasters, so a layout is only accurate to a fraction of a cell, and the caller has to measure it.
 //!
-//! From: Egeblad, Nielsen, Odgaard 2007, Fast neighborhood search for two- and three-dimensional nesting problems (guided local
-//! search); Imamichi, Yagiura, Nagamochi 2009, An iterated local search algorithm based on nonlinear programming for the irregular
+//! From: Imamichi, Yagiura, Nagamochi 2009, An iterated local search algorithm based on nonlinear programming for the irregular
 //! strip packing problem.
 mod body;
 mod field;
 mod overlap;
-mod relocate;
 
 use std::sync::Arc;
 
@@ -21,27 +18,16 @@ use super::OnRead;
 use super::effort::ReadLimit;
 use super::page::Shape;
 pub(super) use body::{Body, Pose};
-use overlap::{Equations, Pairs, Scene};
-use unwrapd_method::numerics::random::Random;
+use overlap::{Equations, Scene};
 
 /// Share by which the side of the page shrinks at a time: at first, and at last, when shrinking ends.
 const SHRINKS: [f64; 2] = [0.01, 4e-4];
-/// First share for pages that have already been squeezed, and the share by which a page shrinks before charts are relocated.
+/// First share by which a page shrinks that has already been squeezed.
 const LEAP: f64 = 0.004;
 /// Share by which the page grows while charts overlap, and while they need a little more room.
 const GROWTHS: [f64; 2] = [0.01, 1e-3];
 /// Maximum number of times that the page grows.
 const MOST_GROWTHS: usize = 16;
-/// Maximum number of steps that separate charts.
-const STEPS: usize = 50;
-/// Number of idle rounds of relocation after which the search gives up.
-const MOST_IDLE: usize = 6;
-/// A round is idle if it leaves more than this share of the smallest overlap so far.
-const IDLE: f64 = 0.98;
-/// Factors of the weight of an overlap in each round while it lasts, for the smallest and the largest overlap.
-const HEAVIER: [f64; 2] = [1.2, 2.0];
-/// Factor of the weight in each round once the overlap is gone.
-const LIGHTER: f64 = 0.95;
 
 /// Poses of charts on a page.
 #[derive(Clone)]
@@ -73,7 +59,7 @@ impl Squeezed {
     /// Separates charts, growing the page by the share `by` whenever that fails. Returns whether they are apart.
     fn grow(&mut self, scene: &mut Scene, by: f64) -> bool {
         for _ in 0..MOST_GROWTHS {
-            if scene.separate(&mut self.poses, STEPS).1 {
+            if scene.separate(&mut self.poses) {
                 return true;
             }
             self.scale(1.0 + by);
@@ -99,39 +85,19 @@ impl Squeezed {
         is_apart
     }
 
-    /// Searches for a smaller page, relocating charts, until about `words` words are read.
-    pub(super) fn search(&mut self, bodies: &[Arc<Body>], words: u64, seed: u64, on_read: &OnRead) {
-        let mut random = Random::new(seed);
-        let limit = ReadLimit::new(words, on_read);
-        let mut scene = Scene::new(bodies, self.reach(), 0.0, limit);
-        let mut is_stuck = false;
-        while scene.may_read() {
-            let mut trial = self.clone();
-            if is_stuck {
-                trial.swap(&mut random);
-            }
-            trial.scale(1.0 - LEAP);
-            is_stuck = !trial.relocate(&mut scene, &mut random);
-            if !is_stuck {
-                trial.shrink(&mut scene, LEAP);
-                *self = trial;
-            }
-        }
-    }
-
-    /// Exchanges the positions of two random charts.
-    fn swap(&mut self, random: &mut Random) {
-        let [a, b] = [0, 1].map(|_| random.below(self.poses.len()));
-        let middle = self.poses[a].middle;
-        self.poses[a].middle = std::mem::replace(&mut self.poses[b].middle, middle);
-    }
-
     /// Returns the page on a raster that is `by` times as fine.
     pub(super) fn refined(&self, by: f64) -> Self {
         let mut refined = self.clone();
         refined.scale(by);
         refined.shape = self.shape.scaled(by);
         refined
+    }
+
+    /// Returns the page with the distances between the charts scaled.
+    pub(super) fn spread(&self, by: f64) -> Self {
+        let mut spread = self.clone();
+        spread.scale(by);
+        spread
     }
 
     /// Scales the page and the positions on it, but not the charts.
@@ -144,35 +110,17 @@ impl Squeezed {
 
     /// Shrinks the page, at first by the share `first`, which is halved whenever charts cannot be separated where they are.
     fn shrink(&mut self, scene: &mut Scene, first: f64) {
-        scene.weights = Pairs::new(self.poses.len(), 1.0);
         let mut by = first;
         while by > SHRINKS[1] && scene.may_read() {
             let mut trial = self.clone();
             trial.scale(1.0 - by);
             scene.reach = trial.reach();
-            if scene.separate(&mut trial.poses, STEPS).1 {
+            if scene.separate(&mut trial.poses) {
                 *self = trial;
             } else {
                 by /= 2.0;
             }
         }
-    }
-
-    /// Separates charts by moving overlapping ones to where they overlap least. Returns whether that succeeded.
-    fn relocate(&mut self, scene: &mut Scene, random: &mut Random) -> bool {
-        scene.reach = self.reach();
-        scene.weights = Pairs::new(self.poses.len(), 1.0);
-        let (mut overlap, mut is_apart) = scene.separate(&mut self.poses, STEPS);
-        let (mut least, mut idle) = (f64::INFINITY, 0);
-        while !is_apart && idle < MOST_IDLE && scene.may_read() {
-            scene.reweigh(&overlap);
-            scene.move_overlapping(&mut self.poses, &overlap, random);
-            (overlap, is_apart) = scene.separate(&mut self.poses, STEPS / 2);
-            let sum: f64 = overlap.iter().map(|(.., overlap)| overlap).sum();
-            idle = if sum < IDLE * least { 0 } else { idle + 1 };
-            least = least.min(sum);
-        }
-        is_apart
     }
 }
 
@@ -182,7 +130,6 @@ impl<'a> Scene<'a> {
             bodies,
             reach,
             room,
-            weights: Pairs::new(bodies.len(), 1.0),
             work: 0,
             limit,
         }
@@ -197,25 +144,10 @@ impl<'a> Scene<'a> {
     fn is_ended(&mut self) -> bool {
         self.limit.is_ended(self.work)
     }
-
-    /// Increases the weights of overlaps that persist, and decreases the others to no less than 1.
-    fn reweigh(&mut self, overlap: &Pairs) {
-        let most = overlap
-            .iter()
-            .map(|(.., overlap)| overlap)
-            .fold(0.0, f64::max);
-        for (a, b, overlap) in overlap.iter() {
-            let weight = self.weights.get_mut(a, b);
-            *weight *= if overlap > 0.0 {
-                HEAVIER[0] + (HEAVIER[1] - HEAVIER[0]) * overlap / most
-            } else {
-                LIGHTER
-            };
-            *weight = weight.max(1.0);
-        }
-    }
 }
 
+/// Maximum number of steps that separate bodies.
+const STEPS: usize = 50;
 /// Initial damping of Levenberg's method.
 const DAMPING: f64 = 1e-2;
 /// Factors of the damping after a step that is accepted and after one that is rejected.
@@ -233,24 +165,24 @@ const MOST_SLOW: usize = 5;
 /// Cost of the equations of a step for each body, in words.
 const WORDS_PER_BODY: u64 = 500;
 /// Depth in cells below which bodies count as apart.
-pub(super) const TOLERANCE: f64 = 0.04;
+const TOLERANCE: f64 = 0.04;
 
 impl Scene<'_> {
-    /// Separates all bodies, as far as possible from where they are. Returns their overlaps, and whether the bodies are apart.
+    /// Separates all bodies, as far as possible from where they are. Returns whether they are apart.
     ///
     /// From: Levenberg 1944, A Method for the Solution of Certain Non-Linear Problems in Least Squares.
-    pub(super) fn separate(&mut self, poses: &mut Vec<Pose>, most_steps: usize) -> (Pairs, bool) {
-        let mut now = Equations::of_all(self, poses);
+    fn separate(&mut self, poses: &mut Vec<Pose>) -> bool {
+        let mut now = Equations::new(self, poses);
         let mut damping = DAMPING;
         let mut slow = 0;
-        for _ in 0..most_steps {
+        for _ in 0..STEPS {
             let is_over = now.deepest < TOLERANCE || slow == MOST_SLOW || damping > MOST_DAMPING;
             if is_over || self.is_ended() {
                 break;
             }
             self.work += WORDS_PER_BODY * poses.len() as u64;
             let trial = now.step(damping).map(|step| self.stepped(poses, &step));
-            let next = trial.map(|trial| (Equations::of_all(self, &trial), trial));
+            let next = trial.map(|trial| (Equations::new(self, &trial), trial));
             if let Some((next, trial)) = next.filter(|(next, _)| next.energy < now.energy) {
                 slow = if next.energy > SLOW * now.energy {
                     slow + 1
@@ -263,48 +195,17 @@ impl Scene<'_> {
                 damping *= AFTER_STEP[1];
             }
         }
-        let is_apart = now.deepest < TOLERANCE;
-        (now.overlap, is_apart)
-    }
-
-    /// Separates one body from all others, as far as possible from the pose `from`. Returns its energy and its pose.
-    pub(super) fn settle(
-        &mut self,
-        poses: &[Pose],
-        body: usize,
-        from: Pose,
-        most_steps: usize,
-    ) -> (f64, Pose) {
-        let mut pose = from;
-        let mut now = Equations::of_one(self, poses, body, &pose);
-        let mut damping = DAMPING;
-        for _ in 0..most_steps {
-            if now.deepest < TOLERANCE || damping > MOST_DAMPING {
-                break;
-            }
-            let step = now.step(damping).unwrap_or_default();
-            let trial = self.stepped_one(body, &pose, step.first().copied().unwrap_or_default());
-            let next = Equations::of_one(self, poses, body, &trial);
-            if next.energy < now.energy {
-                (now, pose) = (next, trial);
-                damping = (damping * AFTER_STEP[0]).max(LEAST_DAMPING);
-            } else {
-                damping *= AFTER_STEP[1];
-            }
-        }
-        (now.energy, pose)
+        now.deepest < TOLERANCE
     }
 
     fn stepped(&self, poses: &[Pose], step: &[[f64; 3]]) -> Vec<Pose> {
-        let bodies = poses.iter().zip(step).enumerate();
+        let bodies = self.bodies.iter().zip(poses).zip(step);
         bodies
-            .map(|(i, (pose, &step))| self.stepped_one(i, pose, step))
+            .map(|((body, pose), step)| {
+                let longest = step.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                let [x, y, arc] = step.map(|x| x * (LONGEST / longest.max(LONGEST)));
+                pose.moved([x, y], arc / body.radius)
+            })
             .collect()
-    }
-
-    fn stepped_one(&self, body: usize, pose: &Pose, step: [f64; 3]) -> Pose {
-        let longest = step.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let [x, y, arc] = step.map(|x| x * (LONGEST / longest.max(LONGEST)));
-        pose.moved([x, y], arc / self.bodies[body].radius)
     }
 }

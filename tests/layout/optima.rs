@@ -1,0 +1,112 @@
+//! Layouts whose best fill is known, and what holds for all.
+use unwrapd_layout::atlas::{Atlas, AtlasOptions, Rotation, pack};
+use unwrapd_method::numerics::random::Random;
+
+use crate::layouts::{Chart, assert_positive_and_inside, bar, blob, maps, smallest_gap};
+
+fn rectangle([width, height]: [f64; 2]) -> Chart {
+    let uv = vec![[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]];
+    (uv, vec![[0, 1, 2], [0, 2, 3]])
+}
+
+fn packed(charts: &[Chart], options: &AtlasOptions) -> Atlas {
+    let atlas = pack(&maps(charts), options).expect("a layout");
+    assert_positive_and_inside(charts, &atlas);
+    atlas
+}
+
+/// Options without padding.
+fn touching(rotation: Rotation) -> AtlasOptions {
+    AtlasOptions {
+        padding_texels: 0,
+        rotation,
+        ..AtlasOptions::default()
+    }
+}
+
+#[test]
+fn square_numbers_of_squares_fill_the_page() {
+    for side in [1, 2, 3, 4, 6, 8, 12] {
+        let charts = vec![rectangle([1.0; 2]); side * side];
+        for rotation in [Rotation::Any, Rotation::None] {
+            let fill = packed(&charts, &touching(rotation)).utilization;
+            assert!(fill >= 0.97, "{side}² squares, {rotation:?}: {fill}");
+        }
+    }
+}
+
+#[test]
+fn a_cut_square_is_put_together_again() {
+    for seed in 0..6 {
+        let mut random = Random::new(seed);
+        let mut sides: Vec<[f64; 2]> = vec![[1.0, 1.0]];
+        // The largest piece is cut across its longer side.
+        for _ in 0..4 + seed {
+            let area = |i: &usize| sides[*i][0] * sides[*i][1];
+            let largest = (0..sides.len()).max_by(|a, b| area(a).total_cmp(&area(b)));
+            let [width, height] = sides.swap_remove(largest.expect("pieces"));
+            let at = 0.3 + 0.4 * random.unit();
+            sides.extend(if width > height {
+                [[at * width, height], [(1.0 - at) * width, height]]
+            } else {
+                [[width, at * height], [width, (1.0 - at) * height]]
+            });
+        }
+        let charts: Vec<Chart> = sides.into_iter().map(rectangle).collect();
+        // As tight packing.
+        let options = AtlasOptions {
+            patience: 10,
+            ..touching(Rotation::Quarter)
+        };
+        let fill = packed(&charts, &options).utilization;
+        assert!(fill >= 0.97, "{} pieces: {fill}", charts.len());
+    }
+}
+
+#[test]
+fn more_patience_never_gives_an_emptier_page() {
+    for seed in 0..4 {
+        let mut random = Random::new(seed);
+        let chart = |_| blob(0.5 + random.unit(), 2 + random.below(4) as u32, 0.3);
+        let charts: Vec<Chart> = (0..7).map(chart).collect();
+        let scale = |patience: u64| {
+            let options = AtlasOptions {
+                patience,
+                budget_words: patience * 40_000_000,
+                ..AtlasOptions::default()
+            };
+            packed(&charts, &options).scale
+        };
+        let scales = [1, 2, 4].map(scale);
+        assert!(scales.is_sorted(), "{seed}: {scales:?}");
+    }
+}
+
+#[test]
+fn extremes_have_a_place_beside_others() {
+    let point = rectangle([1e-7; 2]);
+    let needle = rectangle([3.0, 1e-3]);
+    let long = bar(40);
+    let ring = |radius: f64| {
+        let (uv, triangles) = crate::layouts::disk(2, 24, |ring, _| radius * ring as f64);
+        // Without the triangles around the center.
+        (uv, triangles[24..].to_vec())
+    };
+    let zoo = [
+        vec![point.clone(), blob(1.0, 3, 0.2)],
+        vec![needle.clone(), blob(1.0, 3, 0.2), blob(0.5, 5, 0.2)],
+        vec![long, rectangle([1.0; 2]), rectangle([1.0; 2])],
+        vec![point, needle, ring(1.0), blob(0.6, 4, 0.1)],
+    ];
+    for (number, charts) in (0..).zip(&zoo) {
+        for rotation in [Rotation::Any, Rotation::Quarter, Rotation::None] {
+            let options = AtlasOptions {
+                rotation,
+                ..AtlasOptions::default()
+            };
+            let atlas = packed(charts, &options);
+            let gap = smallest_gap(charts, &atlas, 1024);
+            assert!(gap >= 1.999, "zoo {number}, {rotation:?}: {gap}");
+        }
+    }
+}
