@@ -15,7 +15,7 @@ async fn a_rolling_update_loses_nothing() {
         workers_first: false,
         jobs: 42,
         seed: 10,
-        patience: Duration::from_mins(2),
+        patience: Duration::from_mins(10),
     };
     let updated = update.judged(None).await;
     println!(
