@@ -5,6 +5,7 @@
 //! and a `scatter` of blobs whose areas vary over four decades. Prints the share of the page that is filled, the smallest distance
 //! of two charts in texels at 1024, millions of words read, processor seconds and peak megabytes so far.
 
+#[expect(dead_code, reason = "only processor time is wanted")]
 mod clock;
 
 use std::collections::BTreeMap;
@@ -56,8 +57,9 @@ fn main() {
 fn report(case: &str, options: &AtlasOptions) {
     let (kind, number) = case.split_once(':').expect("KIND:N");
     let charts = charts(kind, number.parse().expect("a number of charts"));
-    let map = |(uv, triangles): &'_ Chart| -> ChartMap<'_> { ChartMap { uv, triangles } };
-    let maps: Vec<ChartMap> = charts.iter().map(map).collect();
+    let maps: Vec<ChartMap> = (charts.iter())
+        .map(|(uv, triangles)| ChartMap { uv, triangles })
+        .collect();
     let words = AtomicU64::new(0);
     let on_read = |read| {
         words.fetch_add(read, Ordering::Relaxed);
