@@ -43,7 +43,7 @@ pub use coarse::CoarseLayout;
 pub(crate) use effort::UNHEARD;
 pub use effort::{Effort, OnRead};
 pub use enough::{Enough, enough};
-pub use pack::{fits, pack, pack_coarse};
+pub use pack::{expected_words, fits, pack, pack_coarse};
 pub use page::Texture;
 pub use relax::cleared;
 

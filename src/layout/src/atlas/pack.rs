@@ -148,6 +148,19 @@ pub(super) fn searched(
     }
 }
 
+/// Returns the number of searches per unit of patience.
+fn searches(n_charts: usize, n_triangles: usize) -> u64 {
+    let most = (SEARCHES * FEW / FEW.max(n_charts as u64)).max(1);
+    let paid = WORDS_PER_TRIANGLE * n_triangles as u64 / Effort::High.words(n_charts).max(1);
+    paid.clamp(1, most)
+}
+
+/// Returns the approximate number of words that [`pack`] reads.
+pub fn expected_words(n_charts: usize, n_triangles: usize, options: &AtlasOptions) -> u64 {
+    let words = searches(n_charts, n_triangles) * Effort::High.words(n_charts);
+    (options.patience * words).min(options.budget_words)
+}
+
 /// Searches from several seeds, and brings charts exactly as near as permitted. As more patience only adds seeds and the fullest result
 /// counts, it never gives an emptier page.
 fn fullest(
@@ -156,9 +169,7 @@ fn fullest(
     on_read: &OnRead,
 ) -> (CoarseLayout, Option<Exact>) {
     let words = Effort::High.words(coarse.n_charts());
-    let most = (SEARCHES * FEW / FEW.max(coarse.n_charts() as u64)).max(1);
-    let paid = WORDS_PER_TRIANGLE * coarse.n_triangles() as u64 / words.max(1);
-    let searches = paid.clamp(1, most);
+    let searches = searches(coarse.n_charts(), coarse.n_triangles());
     let is_searched = coarse.is_searched();
     let mut left = options.budget_words;
     let mut fullest: Option<Exact> = None;

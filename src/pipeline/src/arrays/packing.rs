@@ -4,7 +4,7 @@ use super::clearance::texels_apart;
 use super::compact::{self, MOST_CHARTS};
 use super::plan::{Plan, Search};
 use super::settings::Settings;
-use unwrapd_layout::atlas::{AtlasOptions, Effort, Scale, Texture};
+use unwrapd_layout::atlas::{self, AtlasOptions, Scale, Texture};
 use unwrapd_layout::charts::MappedChart;
 
 /// Number of words that packing all meshes of a document may read, and the least and most for one mesh: a hundred
@@ -68,13 +68,17 @@ pub fn likely_words(of: (&Settings, &Plan), n_meshes: usize, n_faces: usize) -> 
     (of.0.layout.packing.passes() * words).min(search_words(of, n_meshes))
 }
 
-/// Returns the approximate number of words that packing `n_charts` charts reads.
-pub fn expected_words(plan: &Plan, options: &AtlasOptions, n_charts: usize) -> u64 {
-    let of_page = if plan.compaction.is_some() && n_charts <= MOST_CHARTS {
-        compact::expected_words(n_charts, options)
-    } else {
-        options.patience * Effort::High.words(n_charts)
-    };
+/// Returns the approximate number of words that packing the charts reads.
+pub fn expected_words(plan: &Plan, options: &AtlasOptions, charts: &[MappedChart]) -> u64 {
+    let n_charts = charts.len();
+    let n_triangles = charts
+        .iter()
+        .map(|mapped| mapped.chart.disk.triangles.len())
+        .sum();
+    let mut of_page = atlas::expected_words(n_charts, n_triangles, options);
+    if plan.compaction.is_some() && n_charts <= MOST_CHARTS {
+        of_page += compact::expected_words(n_charts, options);
+    }
     // On all numbers of pages, one after the other.
     u64::from(options.texture.pages) * of_page
 }

@@ -139,7 +139,7 @@ pub fn unwrap_all(
             }
             let options = atlas_options((settings, &plan), n_atlases, &charts);
             let charts = weighted(charts, meshes[index].seams);
-            let expected = expected_words(&plan, &options, charts.len());
+            let expected = expected_words(&plan, &options, &charts);
             let portion = Portion::of_atlas(tracker, words(index), expected);
             let on_read = |words| portion.read(words);
             let how = (settings, &plan, n_atlases);
