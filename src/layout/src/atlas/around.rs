@@ -21,12 +21,12 @@ use unwrapd_method::numerics::bounds::{Bounds, bounds_of, touch, widened};
 use unwrapd_method::numerics::random::Random;
 use unwrapd_method::solver::Control;
 
-/// Cells by which the used part of a page is rounded down at most, and one more.
+/// Free cells around pages beyond the reach of charts: the used part of a page may be rounded down.
 const FRAME: u32 = 4;
-/// Layouts tried until no vertex moves farther than its chart's room.
+/// Maximum number of layouts, each with more room for vertices that had to move farther than the last one allowed.
 const ROUNDS: usize = 6;
 
-/// Packs charts around others that stay, with quarter turns at most. The atlas has the packed charts first.
+/// Packs charts around others that stay, with quarter turns at most. The atlas contains the packed charts, then those that stay.
 pub fn pack_around(
     charts: &[ChartMap],
     stays: &[Stay],
@@ -114,7 +114,7 @@ fn around(
     Err(AroundError::NoRoom)
 }
 
-/// Pages on which the cells of charts that stay are taken.
+/// Returns pages on which the charts that stay occupy cells.
 fn taken(packing: &Packing, staying: &[Staying]) -> Occupancy {
     let whole = packing.whole();
     // Charts that stay may reach into the borders, which are free of others.
@@ -130,55 +130,55 @@ fn taken(packing: &Packing, staying: &[Staying]) -> Occupancy {
 /// A chart that stays where it is.
 #[derive(Clone, Copy, Debug)]
 pub struct Stay<'a> {
-    /// Its map, of which the unit is the longer side of a page and the origin the lower left corner of the first.
+    /// Map of the chart. Its unit is the longer side of a page, its origin the lower left corner of the first page.
     pub map: ChartMap<'a>,
-    /// What it is a part of: parts of one island keep no distance.
+    /// Island that the chart belongs to. Charts of one island keep no distance from each other.
     pub island: usize,
 }
 
-/// Why charts cannot be packed around others.
+/// Error of packing charts around others.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum AroundError {
-    /// One that stays leaves the page that its middle is on, or all pages.
+    /// A chart that stays extends beyond the page that holds its middle, or lies on no page.
     #[error("island {island} leaves its page")]
     OffPage {
-        /// The island.
+        /// Island of the chart.
         island: usize,
     },
-    /// Two that stay are nearer than the padding, or overlap.
+    /// Two charts that stay are nearer than the padding, or overlap.
     #[error("islands {} and {} are {texels} texels apart", islands[0], islands[1])]
     TooNear {
-        /// Both.
+        /// Islands of the charts.
         islands: [usize; 2],
-        /// Their distance; 0 where they overlap.
+        /// Their distance; 0 if they overlap.
         texels: f64,
     },
-    /// The others do not fit around those that stay.
+    /// The other charts do not fit.
     #[error("the other charts do not fit")]
     NoRoom,
-    /// The charts cannot be placed at all.
+    /// The charts cannot be placed on any page.
     #[error(transparent)]
     Atlas(#[from] AtlasError),
 }
 
-/// Scales tried after the first at which the charts fit.
+/// Maximum number of scales tried after the first one at which the charts fit.
 const ATTEMPTS: usize = 12;
-/// The search ends when the largest scale and one that failed are as near as this.
+/// Ratio of a scale that failed to the largest one that did not, below which the search ends.
 const NEAR: f64 = 1.003;
-/// By how much the scale grows as long as the charts fit.
+/// Factor of the scale while the charts fit.
 const LARGER: f64 = 1.15;
-/// By how much the scale shrinks where they do not, at most and at least.
+/// Smallest and largest factor of the scale if the charts do not fit.
 const SMALLER: [f64; 2] = [0.5, 0.95];
-/// The share of what area allows from which on a scale is too small to be of use: there is no room.
+/// Smallest scale tried, as a share of the scale at which the charts would cover the free area.
 const LEAST: f64 = 0.01;
-/// The share of the pages that is hoped to be free at least.
+/// Smallest share of the pages that is assumed to be free.
 const LEAST_FREE: f64 = 1e-3;
-/// By how much the scale grows with each order that allows it, and how many in vain end the search.
+/// Factor of the scale for each trial order, and number of failed trials in a row, per unit of patience, that end the search.
 const GROWTH: f64 = 1.004;
 const MOST_IDLE: u64 = 100;
 const SEED: u64 = 1;
 
-/// The scale, in cells per mesh unit, and a place for every chart; none where one finds none.
+/// Returns the scale, in cells per mesh unit, and a place for each chart; `None` if a chart finds no place.
 pub(super) fn placed(
     packing: &Packing,
     staying: &[Staying],
@@ -201,7 +201,7 @@ pub(super) fn placed(
     }
 }
 
-/// The same at the largest scale that is found.
+/// Returns the largest scale found at which the charts fit in the order of the plan, and their places.
 fn largest(packing: &Packing, staying: &[Staying], budget_words: u64) -> Option<(f64, Attempt)> {
     let texture = packing.texture;
     let pages = f64::from(texture.pages) * texture.share();
@@ -241,8 +241,8 @@ fn largest(packing: &Packing, staying: &[Staying], budget_words: u64) -> Option<
     best
 }
 
-/// The same at a larger scale, if another order or other quarter turns are found by chance that allow it; a crowd hardly gains by
-/// that.
+/// Tries random changes of the order and of quarter turns, and keeps those that allow a larger scale. Does nothing for a crowd, which
+/// hardly gains.
 fn grown(
     packing: &Packing,
     (mut scale, mut best): (f64, Attempt),
@@ -287,16 +287,16 @@ fn grown(
     (scale, best)
 }
 
-/// How far a chart may reach beyond its page, in units of u and v: less than half a step of the grid, so that it does not when it is
-/// rounded.
+/// Distance to which a chart may extend beyond its page, in units of u and v: less than half a step of the grid, so that rounding
+/// brings it back.
 const BEYOND: f64 = 1.0 / 33_554_432.0;
-/// What rounding may take of a distance, in longer sides of a page.
+/// Tolerance of distances for rounding, in longer sides of a page.
 const ROUNDED: f64 = 1e-9;
 
 /// A chart that stays on its page.
 pub(super) struct Staying {
     pub page: u32,
-    /// In longer sides of a page, from the lower left corner of the first one.
+    /// Outline in longer sides of a page, from the lower left corner of the first one.
     pub outline: Outline,
     island: usize,
     bounds: Bounds,
@@ -304,7 +304,7 @@ pub(super) struct Staying {
 }
 
 impl Staying {
-    /// All of them, each within its page.
+    /// Checks that each chart lies within a page, and rounds it to the grid.
     pub(super) fn all(stays: &[Stay], texture: Texture) -> Result<Vec<Self>, AroundError> {
         let maps: Vec<ChartMap> = stays.iter().map(|stay| stay.map).collect();
         let outlined = outlines(&maps)?.into_iter().zip(stays);
@@ -326,7 +326,8 @@ impl Staying {
         staying.collect()
     }
 
-    /// The cells that it touches on its page, and the place of the lower left one, counted from where borders of so many cells end.
+    /// Returns the cells that the chart touches on its page, and the position of the lower left one, counted from the inner corner of
+    /// borders that are `border` cells wide.
     pub(super) fn body(&self, texture: Texture, cells: u32, border: f64) -> (Vec<Run>, [i64; 2]) {
         let cells = f64::from(cells);
         let around = (self.snapped.largest_move + 1.0) * cells / texture.grid_side();
@@ -344,7 +345,7 @@ impl Staying {
         (mask.body.runs(), first.map(|x| x as i64))
     }
 
-    /// Where it lies, on the grid.
+    /// Returns the chart on the grid.
     pub(super) fn placed(self, texture: Texture) -> Placed {
         let on_page = |point| texture.on_page(0, point);
         Placed {
@@ -352,7 +353,7 @@ impl Staying {
         }
     }
 
-    /// Whether a corner of another one lies inside.
+    /// Returns whether the first corner of another chart lies inside.
     fn covers(&self, other: &Self) -> bool {
         let Some([x, y]) = other.outline.corners().next() else {
             return false;
@@ -372,7 +373,7 @@ impl Staying {
     }
 }
 
-/// The page that a box lies on.
+/// Returns the page that contains a box; `None` if it lies on no page or extends beyond one.
 fn page([low, high]: Bounds, texture: Texture) -> Option<u32> {
     let sides = texture.resolution.sides();
     let page = (f64::midpoint(low[0], high[0]) / sides[0]).floor();
@@ -385,7 +386,7 @@ fn page([low, high]: Bounds, texture: Texture) -> Option<u32> {
     (is_page && is_inside(0) && is_inside(1)).then_some(page as u32)
 }
 
-/// The two islands that are nearest to each other of those nearer than `gap`, and their distance: 0 where they overlap.
+/// Returns the nearest two islands and their distance if it is less than `gap`; 0 if they overlap.
 pub(super) fn too_near(charts: &[Staying], gap: f64) -> Option<([usize; 2], f64)> {
     let mut edges = Vec::new();
     let mut owners = Vec::new();
@@ -422,7 +423,7 @@ pub(super) fn too_near(charts: &[Staying], gap: f64) -> Option<([usize; 2], f64)
     nearest.map(|(distance, islands)| (islands, distance))
 }
 
-/// Charts whose boxes meet.
+/// Returns the pairs of charts whose boxes meet.
 fn pairs(charts: &[Staying]) -> Vec<(usize, usize)> {
     let boxes: Vec<Bounds> = charts.iter().map(|chart| chart.bounds).collect();
     let mut pairs = Vec::new();

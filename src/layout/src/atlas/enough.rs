@@ -1,4 +1,4 @@
-//! What would do where charts do not fit at the scale that is asked for.
+//! Textures that would be large enough for charts that do not fit at a prescribed scale.
 use std::fmt;
 
 use super::coarse::CoarseLayout;
@@ -10,23 +10,23 @@ use super::plan::Plan;
 use super::{AtlasError, AtlasOptions, Borders, ChartMap, Scale, UNHEARD};
 use unwrapd_maps::mesh::Resolution;
 
-/// By how much a larger texture exceeds what the best layout needs: searches in two textures differ.
+/// Factor by which a larger texture exceeds the need of the best layout, since searches in two textures differ.
 const MARGIN: f64 = 1.03;
-/// The shorter side of a texture is a multiple of so many texels.
+/// Divisor of the shorter side of a texture, in texels.
 const WHOLE: u32 = 16;
-/// The longest side of a texture.
+/// Longest side of a texture, in texels.
 const LONGEST: u32 = 65_536;
 
-/// A texture that would do.
+/// Textures that would be large enough.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Enough {
-    /// A resolution with as many pages.
+    /// Resolution with the same number of pages.
     pub resolution: Option<Resolution>,
-    /// So many pages of the same resolution.
+    /// Number of pages of the same resolution.
     pub pages: Option<u32>,
 }
 
-/// After what is too small.
+/// Continues a message that says what is too small.
 impl fmt::Display for Enough {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.resolution, self.pages) {
@@ -40,7 +40,7 @@ impl fmt::Display for Enough {
     }
 }
 
-/// What would do for charts at the scale that is given, as far as one layout of each kind tells.
+/// Estimates textures that are large enough for charts at the prescribed scale, from one layout of each kind.
 pub fn enough(charts: &[ChartMap], options: &AtlasOptions) -> Result<Enough, AtlasError> {
     let Scale::TexelsPerUnit(texels) = options.scale else {
         return Ok(Enough::default());
@@ -63,7 +63,7 @@ pub fn enough(charts: &[ChartMap], options: &AtlasOptions) -> Result<Enough, Atl
     })
 }
 
-/// A resolution so many times as large.
+/// Returns a resolution that is `times` as large; `None` if its longer side would exceed [`LONGEST`].
 fn resolution(times: f64, options: &AtlasOptions) -> Option<Resolution> {
     let Resolution { width, height } = options.texture.resolution;
     let shorter = times * f64::from(width.min(height));
@@ -77,7 +77,7 @@ fn resolution(times: f64, options: &AtlasOptions) -> Option<Resolution> {
     (longer <= LONGEST).then_some(Resolution { width, height })
 }
 
-/// As many as a layout uses that may use all there can be.
+/// Returns the pages that a layout uses if it may use [`Texture::MOST_PAGES`]; `None` if these are too few.
 fn pages(first: &Plan, slack: &[f64], options: &AtlasOptions) -> Option<u32> {
     let many = AtlasOptions {
         texture: Texture {

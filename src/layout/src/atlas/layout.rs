@@ -1,7 +1,7 @@
 //! Layouts on a conservative raster, which keep the padding by construction.
 //!
-//! At a given scale, charts are placed greedily, the largest first, each where the used part of the pages grows least. The scale is then
-//! corrected by the result, a few times; the fullest layout counts. A prescribed scale has one attempt, which fills page after page.
+//! At one scale, charts are placed greedily, the largest first, each where the used part of the pages grows least. The result tells
+//! the next scale; after a few attempts, the fullest layout counts. A prescribed scale has one attempt, which fills page after page.
 use rayon::prelude::*;
 use std::collections::HashMap;
 
@@ -13,45 +13,45 @@ use super::plan::{HOPE, Near, Plan, QuarterTurns};
 use super::{AtlasOptions, OnRead, Scale};
 use unwrapd_method::solver::Control;
 
-/// Where all charts lie.
+/// Scale and places of all charts.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
     /// Grid steps per mesh unit.
     pub scale: f64,
     /// Grid steps per cell.
     pub cell: f64,
-    /// Free cells at each border.
+    /// Cells kept free at each border.
     pub border: f64,
-    /// How far vertices may be moved beyond their charts' slack, in cells.
+    /// Distance that vertices may be moved beyond the slack of their charts, in cells.
     pub spare: f64,
     /// Distance kept between charts, in texels.
     pub padding_texels: f64,
-    /// For each chart its place, and the factor by which it exceeds the common scale.
+    /// Place of each chart, and the factor by which it exceeds the common scale.
     pub charts: Vec<(Spot, f64)>,
 }
 
-/// Scales tried at most, and at most until one fits (each is then smaller by some per cent).
+/// Maximum number of scales tried once one fits, and before.
 const ATTEMPTS: [usize; 2] = [12, 400];
-/// The search ends when the best scale and one that failed are as near as this. With many charts the fill hardly depends on luck, and
-/// every attempt costs more.
+/// Ratio of a scale that failed to the best one, below which the search ends; and with many charts, for which an attempt costs more
+/// and the fill hardly depends on luck.
 const NEAR: f64 = 1.003;
 const NEAR_IF_MANY: f64 = 1.005;
-/// Maximum number of words of a search for many charts, once the best scale is within `FAIR` of one that failed or of the next: the
-/// first leaves up to a fifth of the pages empty.
+/// Maximum number of words of a search for many charts, once the best scale is within a factor of `FAIR` of one that failed or of the
+/// next. The first scale may leave a fifth of the pages empty.
 const WORDS_IF_MANY: u64 = 150_000_000;
 const FAIR: f64 = 1.01;
-/// Share of the pages that many charts are expected to fill with their padding, and share of the room after an attempt that the next
-/// scale aims at, as one that does not fit is in vain.
+/// Share of the pages that many charts are expected to fill with their padding. `HASTE` is the share of the room left by an attempt that
+/// the next scale aims at, since an attempt that does not fit is wasted.
 const HOPE_IF_MANY: f64 = 0.87;
 const HASTE: f64 = 0.995;
 /// Scales at which a layout with copies alike is tried, relative to the fullest. It may be fuller, as copies lie in rows; the last
 /// scale costs 6 % of the fill. With many charts, only scales up to 1 are tried.
 const ALIKE: [f64; 5] = [1.06, 1.03, 1.0, 0.985, 0.97];
-/// The same for a layout that is known from a coarser raster, and by how much the scale is lowered should it not fit.
+/// Value that replaces [`NEAR`] for a layout known from a coarser raster, and factor of the scale if it does not fit.
 const NEAR_IF_KNOWN: f64 = 1.0005;
 const LOWERED: f64 = 0.993;
 
-/// Cells along a side of a square, of which each chart has some 16 along its own.
+/// Returns the cells along a side of a square page. Each chart has about 16 along its own side.
 pub(super) fn raster(n_charts: usize, most_cells: u32) -> u32 {
     match n_charts {
         0..=400 => {
@@ -64,7 +64,7 @@ pub(super) fn raster(n_charts: usize, most_cells: u32) -> u32 {
     }
 }
 
-/// Cells kept free between charts.
+/// Returns the cells kept free between charts.
 pub(super) fn padding(options: &AtlasOptions, n_charts: usize, cells: f64) -> f64 {
     let texture = options.texture;
     // The smallest charts, with their padding, take at most half of the pages.
@@ -74,7 +74,7 @@ pub(super) fn padding(options: &AtlasOptions, n_charts: usize, cells: f64) -> f6
     (f64::from(options.packed_texels()) * cells / longer).min(most)
 }
 
-/// The best layout found of a plan; none when there are more charts than cells.
+/// Returns the best layout found of a plan; `None` if the charts do not fit, at any scale or at the prescribed one.
 pub(super) fn layout(
     plan: &Plan,
     slack: &[f64],
@@ -133,7 +133,7 @@ pub(super) fn layout(
     })
 }
 
-/// Charts whose area takes a smaller share of their room than this are lines: the difference of roots would be rounding.
+/// Charts whose area is a smaller share of their room than this count as lines: the difference of roots would be rounding.
 pub(super) const SLIVERS: f64 = 1e-9;
 
 /// Returns a layout with copies alike at a scale; `None` if there are no copies or they do not fit.
@@ -157,7 +157,7 @@ fn density((scale, attempt): &(f64, Attempt)) -> f64 {
     scale / f64::from(attempt.side.max(1))
 }
 
-/// The scale (cells per mesh unit) with the best fill, and its layout.
+/// Searches for the scale, in cells per mesh unit, with the best fill. Returns it with its layout.
 fn best(packing: &Packing, budget_words: u64) -> Option<(f64, Attempt)> {
     let known = packing.plan.near.as_ref();
     let (near, most_words) = match known {
@@ -239,7 +239,7 @@ struct Demand {
     terms: [f64; 3],
     /// Cells of all pages.
     pages: f64,
-    /// The scale at which the longest chart fits.
+    /// Scale at which the longest chart fits.
     most: f64,
     cells: f64,
 }
@@ -293,24 +293,24 @@ impl Demand {
     }
 }
 
-/// How far a vertex may end up from its exact position, in cells, without another layout.
+/// Distance of a vertex from its exact position, in cells, that needs no other layout.
 pub(super) const SLACK: f64 = 1.0 / 64.0;
 
-/// Grid cells a chart has for each of its triangles (an equilateral triangle of height 4 has 9).
-/// A smaller chart, far below a texel, is enlarged to that: nothing smaller can be represented.
+/// Least number of grid cells of a chart for each of its triangles; an equilateral triangle of height 4 has 9. Smaller charts, which
+/// are far below a texel, are enlarged: nothing smaller can be represented.
 const CELLS_PER_TRIANGLE: f64 = 16.0;
-/// What rastering a piece of boundary, and turning and placing a chart, cost in words.
+/// Cost of rastering a boundary edge, and of turning and placing a chart, in words.
 const WORK_PER_EDGE: u64 = 100;
 const WORK_PER_CHART: u64 = 10_000;
-/// With more charts than this pages are used to their borders from the start.
+/// Number of charts above which pages are used to their borders from the start.
 const MANY: usize = 400;
-/// Charts whose masks are made at a time.
+/// Number of charts whose masks are made at a time.
 const BATCH: usize = 4096;
 
-/// What is to be packed, and the distances to be kept.
+/// Charts to be packed, and the distances to be kept.
 pub(super) struct Packing<'a> {
     pub plan: &'a Plan,
-    /// For each chart, how far its vertices may be moved afterward, in cells.
+    /// Distance that the vertices of each chart may be moved afterward, in cells.
     pub slack: &'a [f64],
     pub texture: Texture,
     /// Cells along the longer side of a page.
@@ -320,58 +320,58 @@ pub(super) struct Packing<'a> {
     pub border: f64,
     /// `true` if charts that have copies are not turned, so that copies lie alike.
     pub is_alike: bool,
-    /// How far pages are used from the start.
+    /// Extent of the used part of pages at the start.
     pub extent: Extent,
-    /// Pages on which cells are taken before the first chart is placed.
+    /// Pages on which cells are occupied before the first chart is placed.
     pub taken: Option<&'a Occupancy>,
     pub on_read: &'a OnRead<'a>,
 }
 
-/// How far pages are used from the start.
+/// Extent of the used part of pages at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Extent {
-    /// As little as charts need; they may come to need more than there is.
+    /// Empty; grows as charts need, possibly beyond the page.
     Growing,
-    /// To their borders; a row where one chart found no place is not searched again for another of about the same size.
+    /// The whole page. A row without a place for one chart is not searched again for another of about the same size.
     Full,
 }
 
-/// A place for every chart.
+/// Places of all charts at one scale.
 pub(super) struct Attempt {
-    /// For each chart its place, and the factor by which it exceeds the common scale.
+    /// Place of each chart, and the factor by which it exceeds the common scale.
     pub spots: Vec<(Spot, f64)>,
-    /// The longer side of what is used of a page, and the rows used of all.
+    /// Longer side of the used part of a page, and the rows used of all pages.
     pub side: u32,
     pub rows: u32,
 }
 
 impl Packing<'_> {
-    /// Cells of a page that charts may use, along its longer side.
+    /// Returns the cells of a page that charts may use, along its longer side.
     pub(super) fn target(&self) -> f64 {
         (f64::from(self.cells) - 2.0 * self.border).floor()
     }
 
-    /// Whether there are so many charts that the fill hardly depends on luck.
+    /// Returns whether there are so many charts that the fill hardly depends on luck.
     pub(super) fn is_crowded(&self) -> bool {
         self.plan.order.len() > MANY
     }
 
-    /// The shape of pages without their borders.
+    /// Returns the shape of pages without their borders.
     pub(super) fn form(&self) -> Form {
         Form::new(self.texture, self.border)
     }
 
-    /// The same in whole cells.
+    /// Returns [`target`](Self::target) in whole cells, at least 1.
     pub(super) fn whole(&self) -> u32 {
         self.target().max(1.0) as u32
     }
 
-    /// Cells kept free around a chart, with what charts may be moved by.
+    /// Returns the cells kept free around a chart, including the slack.
     pub(super) fn reach(&self) -> f64 {
         self.padding + 2.0 * SLACK
     }
 
-    /// All charts placed at one scale, or the share of their area that was placed.
+    /// Places all charts at one scale. If one does not fit, returns the share of their area that was placed.
     pub(super) fn attempt(&self, scale: f64, work: &mut u64) -> Result<Attempt, f64> {
         let target = self.whole();
         let is_full = self.is_crowded() || self.extent == Extent::Full;
@@ -422,7 +422,7 @@ impl Packing<'_> {
         })
     }
 
-    /// The turned masks of a chart and its stretch; none when it does not fit at all.
+    /// Returns the turned masks of a chart and its stretch; `None` if it is longer than a page.
     fn turned(
         &self,
         i: usize,
@@ -485,7 +485,7 @@ pub(super) fn stretch(outline: &Outline, unit: f64) -> f64 {
         .max(1.0)
 }
 
-/// A place for a chart near where it should lie, or else to the right and up of that.
+/// Returns a place for a chart near its expected one, or else to the right of it and above.
 fn find_near(
     near: &Near,
     chart: usize,

@@ -1,23 +1,24 @@
-//! Charts placed on the pages of a texture, on an integer grid.
+//! Packs charts on the pages of a texture, on an integer grid.
 //!
-//! Chart maps arrive in mesh units, all at one density. The order in which they are placed and the
-//! angle of each are searched on a coarse raster, a [`CoarseLayout`]. All charts of a page are then moved and turned at
-//! once until the page gets no smaller, and their distances are measured. Where there are many charts, and
-//! where that fails, they are packed at one scale by a conservative raster, with a gap that is counted in texels. Every
-//! vertex is rounded to a multiple of 2⁻²³, which `f32` holds exactly. Rounding may take the area of
-//! a triangle that was positive in `f64`: such places are repaired, vertices moving no farther than
-//! they must, and what leaves this module is positive in exact integer arithmetic.
+//! Chart maps are in mesh units, all at one density. Packing has four steps:
 //!
-//! Rounding is done once per chart, before it is turned by quarters and shifted by whole grid units,
-//! so its signs hold wherever the chart lies. A vertex that had to move farther than the gap allows
-//! for makes the charts be laid out again with that much more room.
+//! 1. Simulated annealing searches for an order of the charts and an angle of each. Each arrangement is placed greedily on a coarse
+//!    raster ([`CoarseLayout`]).
+//! 2. All charts of a page move and turn at once until the page cannot shrink any more (`squeeze`).
+//! 3. The distances between charts are measured, and corrected to exactly the padding (`gap`). If this fails, or if there are many
+//!    charts, they are placed on a raster that keeps the padding by construction (`layout`). Charts around islands that stay are
+//!    placed on such a raster as well (`around`).
+//! 4. Vertices are rounded to multiples of 2⁻²³, which `f32` represents exactly (`grid`). Rounding may flip a thin triangle. Its
+//!    vertices are then moved, as little as possible, until all triangles are positive in exact integer arithmetic.
 //!
-//! Everything is laid out in square cells of one size, whatever the shape of the pages: the grid on which charts are rounded has steps
-//! that are equally long along u and v on the surface, each a multiple of 2⁻²³ in its coordinate. Pages farther to the right have
-//! coarser floating point, so the steps of several pages are those that `f32` has on the last.
+//! A chart is rounded once, before it is turned by quarters and shifted by whole grid units, so its signs hold at any place. If a
+//! vertex had to move farther than the padding allows, the charts are laid out again with more room.
 //!
-//! Charts are never mirrored. None is scaled against the others, except those so small (below a
-//! texel) that the grid has fewer than a handful of cells for each of their triangles.
+//! Layouts have square cells of one size, whatever the shape of the pages: the steps of the grid are equally long along u and v on
+//! the surface, and multiples of 2⁻²³ in u and v. Pages farther to the right have coarser floating-point numbers, so all pages use
+//! the steps of the last one.
+//!
+//! Charts are never mirrored. All have the same scale, except those below a texel in size for which the grid would be too coarse.
 mod around;
 mod coarse;
 mod copies;
@@ -47,15 +48,15 @@ pub use pack::{expected_words, fits, pack, pack_coarse};
 pub use page::Texture;
 pub use relax::cleared;
 
-/// Atlas coordinates are integers, the side of a page is 2^GRID_BITS: in the unit square those are the steps `f32` represents.
+/// Bits of the side of a page. Atlas coordinates are integers up to 2^GRID_BITS, the steps of `f32` in the unit square.
 pub const GRID_BITS: u32 = 23;
-/// The side of a page in grid units.
+/// Side of a page in grid units.
 const GRID_SIDE: f64 = (1 << GRID_BITS) as f64;
 
-/// One chart's map: triangles over vertices in mesh units, counter-clockwise but for those of maps that are faulty as given.
+/// Map of a chart: triangles over vertices in mesh units, counter-clockwise unless the given map is faulty.
 #[derive(Clone, Copy, Debug)]
 pub struct ChartMap<'a> {
-    /// The position of each vertex in the plane.
+    /// Position of each vertex in the plane.
     pub uv: &'a [[f64; 2]],
     /// Vertex indices.
     pub triangles: &'a [[u32; 3]],
@@ -75,45 +76,45 @@ pub enum Rotation {
     None,
 }
 
-/// Where charts may end.
+/// Positions of the bounding rectangles of charts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Borders {
     /// Anywhere.
     #[default]
     Free,
-    /// The bounding rectangle of each chart on borders of texels; charts are widened for it by less than a texel to each side. The
-    /// sides of the texture are powers of two.
+    /// On borders of texels. Charts are widened by less than a texel to each side. The sides of the texture are powers of two.
     OnTexels,
 }
 
-/// How large charts become.
+/// Scale of the charts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Scale {
     /// As large as the texture allows.
     #[default]
     Largest,
-    /// So many texels to the mesh unit.
+    /// Texels per mesh unit.
     TexelsPerUnit(f64),
 }
 
-/// How the atlas is laid out.
+/// Options of an atlas.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtlasOptions {
-    /// The texture, in whose texels the padding is counted.
+    /// Texture, in whose texels the padding is counted.
     pub texture: Texture,
-    /// How large charts become.
+    /// Scale of the charts.
     pub scale: Scale,
-    /// Smallest distance between two charts, in texels; half of it is kept to the borders of pages.
+    /// Smallest distance between two charts, in texels. Half of it is kept to the borders of pages.
     pub padding_texels: u32,
     /// Permitted rotations of charts.
     pub rotation: Rotation,
-    /// Where charts may end.
+    /// Positions of the bounding rectangles of charts.
     pub borders: Borders,
-    /// Multiple of the usual effort of the search for the best order and angles, which depends on the number of charts.
+    /// Multiple of the usual number of searches for the best order and angles, which depends on the charts.
     pub patience: u64,
-    /// Words that the search may read at most, about 3·10⁸ a second; a layout is found in any case.
+    /// Maximum number of words that the search reads, about 3·10⁸ per second. A layout is found in any case.
     pub budget_words: u64,
-    /// Cells along the side of the raster on which a few charts are placed, at most: on fewer they are placed sooner and less full.
+    /// Maximum number of cells along the side of the raster for a few charts. With fewer cells, charts are placed sooner and less
+    /// densely.
     pub most_cells: u32,
 }
 
@@ -133,7 +134,7 @@ impl Default for AtlasOptions {
 }
 
 impl AtlasOptions {
-    /// The padding that charts are packed with, in texels.
+    /// Returns the padding that charts are packed with, in texels.
     fn packed_texels(&self) -> u32 {
         match self.borders {
             Borders::Free => self.padding_texels,
@@ -142,61 +143,60 @@ impl AtlasOptions {
     }
 }
 
-/// One chart in the atlas.
+/// Chart in the atlas.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placed {
-    /// The position of each vertex in units of 2^-[`GRID_BITS`], v up; exact in `f32`.
+    /// Position of each vertex in units of 2^-[`GRID_BITS`], v up; exact in `f32`.
     pub grid: Vec<[i32; 2]>,
 }
 
 /// All charts on their pages.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Atlas {
-    /// The charts, in the order they were given.
+    /// Charts in the given order.
     pub placed: Vec<Placed>,
     /// UV units per mesh unit along the longer side of the texture.
     pub scale: f64,
     /// Share of all pages that triangles cover.
     pub utilization: f64,
-    /// The distance that is kept between charts, in texels: what was asked for, or less where so
-    /// many charts leave no room for it.
+    /// Distance kept between charts, in texels: the requested one, or less if many charts leave no room for it.
     pub padding_texels: f64,
-    /// Charts too small for the grid that were enlarged.
+    /// Number of charts that were enlarged because they are too small for the grid.
     pub enlarged_charts: usize,
-    /// Vertices that do not lie on the grid point next to their exact position, because a triangle
-    /// would have lost its area there.
+    /// Number of vertices that are not at the grid point nearest to their exact position, because a triangle would have lost its area
+    /// or overlapped another one.
     pub moved_vertices: usize,
-    /// The largest distance between a vertex and its exact position, in steps of the grid.
+    /// Largest distance between a vertex and its exact position, in steps of the grid.
     pub largest_move: f64,
 }
 
-/// Charts that cannot be placed.
+/// Error of charts that cannot be packed.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum AtlasError {
     /// A coordinate, or the area, is not a finite number.
     #[error("chart {chart} has coordinates that are not finite")]
     NonFinite {
-        /// Its index.
+        /// Index of the chart.
         chart: usize,
     },
     /// A triangle names a vertex that does not exist.
     #[error("chart {chart} has a triangle with a vertex that does not exist")]
     IndexOutOfRange {
-        /// Its index.
+        /// Index of the chart.
         chart: usize,
     },
-    /// There are more charts than the finest raster can keep apart.
+    /// The finest raster cannot keep this many charts apart.
     #[error("one atlas cannot hold {charts} charts")]
     TooManyCharts {
-        /// Their number.
+        /// Number of charts.
         charts: usize,
     },
-    /// At the scale asked for the charts do not fit.
+    /// The charts do not fit at the prescribed scale.
     #[error("the charts do not fit at this scale")]
     TextureTooSmall,
 }
 
-/// Twice the signed area of a grid triangle, exact.
+/// Returns twice the signed area of a grid triangle, exact.
 fn doubled_area([a, b, c]: [[i32; 2]; 3]) -> i64 {
     let [ax, ay] = a.map(i64::from);
     let [bx, by] = b.map(i64::from);

@@ -1,4 +1,4 @@
-//! From chart maps to their places on the grid.
+//! Packing: from chart maps to places on the grid.
 use rayon::prelude::*;
 
 use super::coarse::CoarseLayout;
@@ -13,7 +13,7 @@ use super::{
     doubled_area,
 };
 
-/// Layouts tried until no vertex moves farther than its chart's room.
+/// Maximum number of layouts, each with more room for vertices that had to move farther than the last one allowed.
 const ROUNDS: usize = 6;
 /// Maximum number of searches per unit of patience. Each doubling of their number gains less.
 const SEARCHES: u64 = 4;
@@ -24,11 +24,10 @@ const WORDS_PER_TRIANGLE: u64 = 20_000;
 /// Fill that straight charts may lose by lying along the axes.
 const STRAIGHT: f64 = 0.02;
 
-/// Places every chart on a page, any two charts at least the padding apart.
+/// Places all charts on pages, at least the padding apart.
 ///
-/// Every triangle of a chart whose triangles are all positive as given is positive on the grid, unless the grid is too coarse for
-/// it. Such a chart, and one that has flipped or degenerate triangles as given, is rounded without repair. The same input gives
-/// the same atlas for any number of threads.
+/// If all triangles of a chart are positive, they are positive on the grid, unless the grid is too coarse. Then, and if a chart has
+/// flipped or degenerate triangles, it is rounded without repair. The atlas does not depend on the number of threads.
 pub fn pack(charts: &[ChartMap], options: &AtlasOptions) -> Result<Atlas, AtlasError> {
     let coarse = CoarseLayout::new(charts, options)?;
     pack_coarse(charts, coarse.as_ref(), options, UNHEARD)
@@ -113,7 +112,7 @@ pub(super) fn is_cramped(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]
     is_cramped
 }
 
-/// Whether charts fit at the scale that is given, each placed once, the largest first.
+/// Returns whether charts fit at the prescribed scale if each is placed once, the largest first.
 pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasError> {
     let plan = Plan::largest_first(&outlines(charts)?, options);
     let slack = vec![SLACK; charts.len()];
@@ -194,7 +193,7 @@ fn fullest(
     (coarse, fullest)
 }
 
-/// The plan whose layout has the largest scale: the one given, or what a search made of it.
+/// Returns the plan with the largest scale, and its layout: `first`, or the arrangement of a coarse layout.
 pub(super) fn best(
     first: &Plan,
     coarse: Option<&CoarseLayout>,
@@ -224,7 +223,7 @@ pub(super) fn best(
         })
 }
 
-/// Every chart on its own grid.
+/// Rounds each chart to the grid, at the origin.
 pub(super) fn on_grid(
     charts: &[ChartMap],
     outlines: &[Outline],
@@ -239,7 +238,7 @@ pub(super) fn on_grid(
         .collect()
 }
 
-/// Turns and shifts every chart to its place on its page.
+/// Turns and shifts each chart to its place on its page.
 pub(super) fn atlas(
     charts: &[ChartMap],
     layout: &Layout,
@@ -293,7 +292,7 @@ pub(super) fn atlas(
     }
 }
 
-/// A chart turned by quarters and shifted to its spot; `around` cells of its mask surround it.
+/// Turns a chart by quarters and shifts it to its spot. `around` cells of its mask surround it.
 fn moved(mut grid: Vec<[i32; 2]>, spot: Spot, layout: &Layout, around: f64) -> Vec<[i32; 2]> {
     let near =
         |corner: u32| ((layout.border + f64::from(corner) + around) * layout.cell).round() as i32;
