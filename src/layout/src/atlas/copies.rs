@@ -31,7 +31,7 @@ const POINTS: [[f64; 2]; 4] = [
 
 /// Moments of an outline, and its angle.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Shape {
+pub(super) struct Moments {
     length: f64,
     /// Root mean square distance of the outline from its centroid.
     radius: f64,
@@ -41,7 +41,7 @@ pub(super) struct Shape {
     pub angle: f64,
 }
 
-impl Shape {
+impl Moments {
     /// Computes the moments of an outline that consists of these edges; O(n).
     pub(super) fn new(edges: &[Segment]) -> Self {
         let length: f64 = edges
@@ -132,7 +132,7 @@ fn product([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
 }
 
 /// Returns for each shape the first shape that it is a copy of, possibly itself, and its angle relative to that shape, in radians.
-pub(super) fn copies(shapes: &[Shape]) -> Vec<(usize, f64)> {
+pub(super) fn copies(shapes: &[Moments]) -> Vec<(usize, f64)> {
     // First shapes of their kinds, by the logarithm of the length in steps of the tolerance.
     let mut firsts: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
     let step = |length: f64| (length.ln() / EQUAL).floor() as i64;

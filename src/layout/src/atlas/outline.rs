@@ -2,7 +2,7 @@
 use rayon::prelude::*;
 use std::sync::Arc;
 
-use super::copies::Shape;
+use super::copies::Moments;
 use super::page::page_side;
 use super::{AtlasError, ChartMap, Rotation};
 use unwrapd_maps::plane::Straightness;
@@ -20,7 +20,7 @@ pub(super) struct Outline {
     /// Axes of the outline in the plane of the map.
     pub straightness: Straightness,
     /// Moments in the plane of the map.
-    pub shape: Shape,
+    pub moments: Moments,
     /// Rotations that the options permit.
     permitted: Rotation,
     /// `true` if enough copies of the chart lie at the same angle. They are then turned alike.
@@ -38,7 +38,7 @@ impl Outline {
         let boundary: Arc<[_]> = boundary(map).into_iter().map(|e| e.map(at)).collect();
         let outline = Self {
             straightness: Straightness::of(&boundary),
-            shape: Shape::new(&boundary),
+            moments: Moments::new(&boundary),
             permitted: Rotation::Any,
             has_copies: false,
             boundary,
@@ -140,7 +140,7 @@ impl Outline {
 
     /// Returns the angle of the outline on the page, in radians. Copies that lie alike have the same one.
     pub(super) fn lean(&self) -> f64 {
-        self.shape.angle - self.axis[1].atan2(self.axis[0])
+        self.moments.angle - self.axis[1].atan2(self.axis[0])
     }
 
     /// Returns the outline with `straightness` in place of its own.

@@ -52,8 +52,8 @@ impl Texture {
     }
 
     /// Returns the shape of the part of a page that charts may use, with half of `padding` kept to its borders.
-    pub(super) fn shape(self, padding: f64) -> Shape {
-        Shape {
+    pub(super) fn shape(self, padding: f64) -> PageShape {
+        PageShape {
             halvings: self.resolution.halvings(),
             padding,
         }
@@ -72,7 +72,7 @@ impl Texture {
     }
 }
 
-/// Shape of the used part of each page, in cells.
+/// PageShape of the used part of each page, in cells.
 ///
 /// All pages grow together and keep their shape. One number tells how far they are used: the longer side without its borders.
 #[derive(Clone, Copy, Debug)]
@@ -123,16 +123,16 @@ impl Form {
     }
 }
 
-/// Shape of the part of a page that charts may use, in fractions of cells.
+/// PageShape of the part of a page that charts may use, in fractions of cells.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shape {
+pub(super) struct PageShape {
     /// Number of times that the longer side is halved to give the sides along u and v.
     halvings: [u32; 2],
     /// Distance kept between charts, and to two opposite borders together, in cells.
     padding: f64,
 }
 
-impl Shape {
+impl PageShape {
     /// Returns the distances to which charts may extend to the right and up on a page whose longer side, without borders, is
     /// `side`.
     pub(super) fn reach(self, side: f64) -> [f64; 2] {

@@ -1,7 +1,7 @@
 //! Plan of a layout: the order in which charts are placed, and the angle of each.
 use std::f64::consts::TAU;
 
-use super::copies::{Shape, copies};
+use super::copies::{Moments, copies};
 use super::outline::{Enclosure, Outline, direction};
 use super::page::Texture;
 use super::{AtlasOptions, Rotation};
@@ -96,7 +96,7 @@ pub(super) fn alike(
     rotation: Rotation,
     level: impl Fn(&Outline) -> Outline,
 ) -> Vec<Outline> {
-    let shapes: Vec<Shape> = outlines.iter().map(|outline| outline.shape).collect();
+    let shapes: Vec<Moments> = outlines.iter().map(|outline| outline.moments).collect();
     for (i, (first, angle)) in copies(&shapes).into_iter().enumerate().skip(n_level) {
         outlines[i] = if first < i && rotation == Rotation::Any {
             outlines[i].turned_like(&outlines[first], angle)
@@ -123,7 +123,7 @@ pub(super) fn mark_copies(outlines: &mut [Outline]) -> Vec<usize> {
 
 /// Returns for each chart the first chart that it is a copy of, if both lie alike; otherwise, the chart itself.
 fn kinds(outlines: &[Outline]) -> Vec<usize> {
-    let shapes: Vec<Shape> = outlines.iter().map(|outline| outline.shape).collect();
+    let shapes: Vec<Moments> = outlines.iter().map(|outline| outline.moments).collect();
     let lies_like = |(i, (first, _)): (usize, (usize, f64))| {
         let turned = (outlines[i].lean() - outlines[first].lean()).rem_euclid(TAU);
         if turned.min(TAU - turned) < ALIKE {

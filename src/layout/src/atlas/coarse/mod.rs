@@ -54,7 +54,7 @@ pub struct CoarseLayout {
     level: Vec<Outline>,
     /// Poses of each chart, which copies share.
     poses: Vec<Arc<Poses>>,
-    raster: Raster,
+    raster: CoarseRaster,
     /// Arrangement with the largest charts first.
     first: Arrangement,
     /// Best arrangement so far.
@@ -71,9 +71,9 @@ pub struct CoarseLayout {
     kind: Arc<[usize]>,
 }
 
-/// Raster on which charts become cells.
+/// CoarseRaster on which charts become cells.
 #[derive(Clone, Copy)]
-struct Raster {
+struct CoarseRaster {
     /// Cells along the side of the square page that the charts are expected to need.
     side: u32,
     /// Cells per mesh unit.
@@ -107,7 +107,7 @@ impl CoarseLayout {
             RASTER
         };
         let cells = f64::from(texture.raster(side));
-        let raster = Raster {
+        let raster = CoarseRaster {
             side,
             scale: cells * (HOPE * texture.share() * f64::from(texture.pages) / area).sqrt(),
             padding: padding(options, plan.order.len(), cells),
@@ -152,7 +152,7 @@ impl CoarseLayout {
 
     /// Sorts the charts by size without placing them. `known` are poses of the first charts, which are reused where they still
     /// apply.
-    fn largest_first(mut level: Vec<Outline>, known: &[Arc<Poses>], raster: Raster) -> Self {
+    fn largest_first(mut level: Vec<Outline>, known: &[Arc<Poses>], raster: CoarseRaster) -> Self {
         let kind = mark_copies(&mut level);
         let mut poses: Vec<Arc<Poses>> = Vec::with_capacity(level.len());
         for (chart, &first) in kind.iter().enumerate() {
@@ -255,7 +255,7 @@ fn squeezed_side(pages: &[Page]) -> f64 {
     sides.max_by(f64::total_cmp).unwrap_or(f64::INFINITY)
 }
 
-impl Raster {
+impl CoarseRaster {
     fn poses(self, outline: &Outline) -> Arc<Poses> {
         let distances = Distances {
             around: 0.0,

@@ -55,7 +55,7 @@ impl Pose {
 /// Chart in a frame whose origin is the middle of its rectangle, in cells.
 pub(in crate::atlas) struct Body {
     pub(super) field: Field,
-    pub(super) runs: Vec<Run>,
+    pub(super) samples: Vec<Samples>,
     /// Distance that it keeps from other charts, in cells.
     pub(super) kept: f64,
     /// Half the sides of its rectangle.
@@ -73,9 +73,9 @@ impl Body {
         let edges: Vec<[[f64; 2]; 2]> = outline.edges().map(|edge| edge.map(place)).collect();
         let field = Field::new(&edges, kept);
         // Points in a slit touch nothing.
-        let runs = runs(&edges, |p| field.at(p).0 > -1.5 * kept - 0.5);
+        let samples = samples(&edges, |p| field.at(p).0 > -1.5 * kept - 0.5);
         Self {
-            runs,
+            samples,
             field,
             kept,
             half,
@@ -102,33 +102,36 @@ const SPACING: f64 = 1.0;
 /// Smallest turn of the outline that counts as a corner, in radians. Every corner has a sample point.
 const CORNER: f64 = 0.4;
 /// Number of points in a run.
-pub(super) const RUN: usize = 8;
+pub(super) const SAMPLES: usize = 8;
 
 /// Consecutive sample points, and a circle around them.
-pub(super) struct Run {
-    pub points: [[f64; 2]; RUN],
+pub(super) struct Samples {
+    pub points: [[f64; 2]; SAMPLES],
     pub center: [f64; 2],
     pub radius: f64,
 }
 
-/// Returns sample points along closed lines, spaced evenly and at corners, in runs. Includes only points that `is_wanted` accepts.
-pub(super) fn runs(edges: &[[[f64; 2]; 2]], is_wanted: impl Fn([f64; 2]) -> bool) -> Vec<Run> {
-    let mut runs = Vec::new();
+/// Returns sample points along closed lines, spaced evenly and at corners, in groups. Includes only points that `is_wanted` accepts.
+pub(super) fn samples(
+    edges: &[[[f64; 2]; 2]],
+    is_wanted: impl Fn([f64; 2]) -> bool,
+) -> Vec<Samples> {
+    let mut samples = Vec::new();
     for line in lines(edges) {
         let points: Vec<[f64; 2]> = spaced(&line)
             .into_iter()
             .filter(|&p| is_wanted(p))
             .collect();
-        runs.extend(points.chunks(RUN).map(Run::of));
+        samples.extend(points.chunks(SAMPLES).map(Samples::of));
     }
-    runs
+    samples
 }
 
-impl Run {
+impl Samples {
     fn of(some: &[[f64; 2]]) -> Self {
         let points = std::array::from_fn(|k| some[k.min(some.len() - 1)]);
         let center =
-            [0, 1].map(|k| points.iter().map(|p: &[f64; 2]| p[k]).sum::<f64>() / RUN as f64);
+            [0, 1].map(|k| points.iter().map(|p: &[f64; 2]| p[k]).sum::<f64>() / SAMPLES as f64);
         let reach = |p: &[f64; 2]| (p[0] - center[0]).hypot(p[1] - center[1]);
         Self {
             radius: points.iter().map(reach).fold(0.0, f64::max),

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 use super::OnRead;
 use super::effort::ReadLimit;
-use super::page::Shape;
+use super::page::PageShape;
 pub(super) use body::{Body, Pose};
 use overlap::{Equations, Scene};
 
@@ -35,7 +35,7 @@ pub(super) struct Squeezed {
     pub poses: Vec<Pose>,
     /// Longer side of the page, without borders, in cells.
     pub side: f64,
-    pub shape: Shape,
+    pub shape: PageShape,
 }
 
 impl Squeezed {

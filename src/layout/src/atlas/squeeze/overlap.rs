@@ -1,7 +1,7 @@
 //! Overlaps of charts with each other and with the border, and the step that reduces them.
 use std::sync::Arc;
 
-use super::body::{Body, Pose, RUN};
+use super::body::{Body, Pose, SAMPLES};
 use crate::atlas::Rotation;
 use crate::atlas::effort::ReadLimit;
 use unwrapd_method::numerics::bounds::{touch, widened};
@@ -44,14 +44,14 @@ impl Scene<'_> {
         let (body, other) = (&self.bodies[a], &self.bodies[b]);
         let room = self.room;
         let mut lookups = 0;
-        for run in &body.runs {
+        for samples in &body.samples {
             lookups += 1;
-            let center = poses[1].back(poses[0].place(run.center));
-            if other.field.at_least(center) > run.radius + room {
+            let center = poses[1].back(poses[0].place(samples.center));
+            if other.field.at_least(center) > samples.radius + room {
                 continue;
             }
-            lookups += RUN as u64;
-            for &p in &run.points {
+            lookups += SAMPLES as u64;
+            for &p in &samples.points {
                 let point = poses[0].place(p);
                 let (distance, gradient) = other.field.at(poses[1].back(point));
                 if distance < room {
@@ -81,12 +81,12 @@ impl Scene<'_> {
         if bounds.iter().all(|&corner| is_within(corner, 0.0)) {
             return;
         }
-        self.work += WORDS_PER_LOOKUP * body.runs.len() as u64;
-        for run in &body.runs {
-            if is_within(pose.place(run.center), run.radius) {
+        self.work += WORDS_PER_LOOKUP * body.samples.len() as u64;
+        for samples in &body.samples {
+            if is_within(pose.place(samples.center), samples.radius) {
                 continue;
             }
-            for point in run.points.map(|p| pose.place(p)) {
+            for point in samples.points.map(|p| pose.place(p)) {
                 for k in 0..2 {
                     for (depth, sign) in [(-point[k], 1.0), (point[k] - reach[k], -1.0)] {
                         if depth > 0.0 {
