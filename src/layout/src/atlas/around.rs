@@ -4,18 +4,16 @@
 //! scale of the other charts at which each finds a place, and for an order of the charts that allows it.
 use thiserror::Error;
 
-use super::grid::{Repair, Snapped, snapped};
+use super::effort::OnRead;
+use super::grid::{Repair, Snapped, doubled_area, snapped};
 use super::layout::{Attempt, Extent, Layout, Packing, SLACK, padding, raster};
 use super::mask::{Distances, Mask, Rounding, Run};
 use super::occupancy::Occupancy;
 use super::outline::{Outline, outlines};
 use super::pack::{self, is_cramped, on_grid};
-use super::page::Texture;
+use super::page::{GRID_SIDE, Texture};
 use super::plan::{HOPE, Plan, QuarterTurns};
-use super::{
-    Atlas, AtlasError, AtlasOptions, ChartMap, GRID_SIDE, OnRead, Placed, Rotation, Scale,
-    doubled_area,
-};
+use super::problem::{Atlas, AtlasError, AtlasOptions, ChartMap, Placed, Rotation, Scale};
 use unwrapd_maps::plane::{BoxIndex, search_budget, segment_distance};
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of, touch, widened};
 use unwrapd_method::numerics::random::Random;

@@ -36,7 +36,7 @@ pub(super) struct Moments {
     /// Root mean square distance of the outline from its centroid.
     radius: f64,
     /// Moments of the shape rotated back by `angle`, at a radius of 1.
-    moments: [[f64; 2]; MOMENTS],
+    values: [[f64; 2]; MOMENTS],
     /// Angle in radians, counter-clockwise.
     pub angle: f64,
 }
@@ -82,17 +82,17 @@ impl Moments {
         Self {
             length,
             radius,
-            moments: turned_back(&moments, angle),
+            values: turned_back(&moments, angle),
             angle,
         }
     }
 
     fn is_like(&self, other: &Self) -> bool {
         let is_near = |a: f64, b: f64| (a - b).abs() <= EQUAL * a.abs().max(b.abs());
-        let moments = self.moments.iter().zip(&other.moments);
+        let values = self.values.iter().zip(&other.values);
         is_near(self.length, other.length)
             && is_near(self.radius, other.radius)
-            && moments
+            && values
                 .flat_map(|(a, b)| [0, 1].map(|k| (a[k] - b[k]).abs()))
                 .all(|by| by <= EQUAL)
     }

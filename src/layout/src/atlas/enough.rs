@@ -2,12 +2,13 @@
 use std::fmt;
 
 use super::coarse::CoarseLayout;
+use super::effort::UNHEARD;
 use super::layout::{SLACK, layout};
 use super::outline::outlines;
 use super::pack::{best, searched};
 use super::page::Texture;
 use super::plan::Plan;
-use super::{AtlasError, AtlasOptions, Borders, ChartMap, Scale, UNHEARD};
+use super::problem::{AtlasError, AtlasOptions, Borders, ChartMap, Scale};
 use unwrapd_maps::mesh::Resolution;
 
 /// Factor by which a larger texture exceeds the need of the best layout, since searches in two textures differ.

@@ -5,11 +5,12 @@
 use rayon::prelude::*;
 use std::sync::Arc;
 
+use super::effort::OnRead;
 use super::layout::{Layout, stretch};
 use super::occupancy::{Corner, Spot};
 use super::outline::Outline;
+use super::problem::{AtlasOptions, Scale};
 use super::squeeze::{Body, Squeezed};
-use super::{AtlasOptions, OnRead, Scale};
 use unwrapd_maps::plane::{BoxIndex, Visit, search_budget, segment_distance};
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of};
 

@@ -12,8 +12,8 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 use super::outline::{Outline, boundary};
+use super::problem::ChartMap;
 use super::relax::{neighborhood, relax};
-use super::{ChartMap, doubled_area};
 use unwrapd_maps::mesh::{CornerUvs, VertexFaces};
 use unwrapd_maps::plane::{
     BoxIndex, Segment, interiors_intersect, search_budget, segment_distance,
@@ -346,9 +346,6 @@ impl Along {
     }
 }
 
-/// Number of texels by which alignment may bring two charts nearer: each point moves by at most one texel along each axis.
-pub(super) const ROOM_TEXELS: u32 = 3;
-
 /// Widens a chart to the next texel borders on all sides; `texel` is in grid steps. A chart with a triangle that would lose its
 /// area to rounding is only shifted, so that it ends at texel borders on two sides.
 pub(super) fn aligned(map: &ChartMap, grid: Vec<[i32; 2]>, texel: i32) -> Vec<[i32; 2]> {
@@ -403,4 +400,12 @@ impl Axis {
     fn shifted(&self, x: i32) -> i32 {
         x - self.low + self.texels_low
     }
+}
+
+/// Returns twice the signed area of a grid triangle, exact.
+pub(super) fn doubled_area([a, b, c]: [[i32; 2]; 3]) -> i64 {
+    let [ax, ay] = a.map(i64::from);
+    let [bx, by] = b.map(i64::from);
+    let [cx, cy] = c.map(i64::from);
+    (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 }

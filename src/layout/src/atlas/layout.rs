@@ -5,12 +5,13 @@
 use rayon::prelude::*;
 use std::collections::HashMap;
 
+use super::effort::OnRead;
 use super::mask::{Distances, Mask, Rounding, Turned};
 use super::occupancy::{Corner, Occupancy, Spot, Window};
 use super::outline::Outline;
 use super::page::{Form, Texture};
 use super::plan::{HOPE, Near, Plan, QuarterTurns};
-use super::{AtlasOptions, OnRead, Scale};
+use super::problem::{AtlasOptions, Scale};
 use unwrapd_method::solver::Control;
 
 /// Scale and places of all charts.

@@ -9,7 +9,6 @@
 //! separate them.
 //!
 //! Bitmaps hold 64 cells in a machine word. [`Turned`] is a mask after quarter turns, as the search for a free place reads it.
-use super::occupancy::Probe;
 use super::outline::Outline;
 
 /// Cells of a chart at one scale.
@@ -394,4 +393,42 @@ fn scattered(mut runs: Vec<Run>) -> Vec<Run> {
         runs.swap(0, longest);
     }
     runs
+}
+
+/// Number of widths of windows: 1 to 64 cells.
+pub(super) const WIDTHS: usize = 7;
+
+/// Two windows of one width in one row, both of which have to be free.
+///
+/// A run whose length is between 2ᵏ and 2ᵏ⁺¹ is free if its first and its last window of 2ᵏ cells are free. A run longer than two
+/// of the widest windows takes several probes.
+pub(super) struct Probe {
+    /// Row of the mask times [`WIDTHS`], plus k.
+    pub lane: u32,
+    /// Columns of the mask at which the windows begin.
+    pub starts: [u32; 2],
+}
+
+impl Probe {
+    /// Returns the probes that test whether all cells of some runs are free, in the order of the runs.
+    pub(super) fn of(runs: &[Run]) -> Vec<Self> {
+        let mut probes = Vec::with_capacity(runs.len());
+        for run in runs {
+            let k = (run.end - run.start).ilog2().min(WIDTHS as u32 - 1);
+            let width = 1 << k;
+            let (mut first, last) = (run.start, run.end - width);
+            loop {
+                let second = (first + width).min(last);
+                probes.push(Self {
+                    lane: run.row * WIDTHS as u32 + k,
+                    starts: [first, second],
+                });
+                if second == last {
+                    break;
+                }
+                first = (second + width).min(last);
+            }
+        }
+        probes
+    }
 }

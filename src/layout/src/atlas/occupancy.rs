@@ -2,10 +2,10 @@
 //!
 //! The search tests all positions in a row together, 64 in a machine word. For each width 2ᵏ, the occupancy has one bit per window
 //! of 2ᵏ cells, which is set if one of these cells is occupied. A run of cells is free if two windows that cover it are free: a
-//! [`Probe`].
+//! [`Probe`](super::mask::Probe).
 use std::array::from_fn;
 
-use super::mask::{Run, Turned, set_bits};
+use super::mask::{Run, Turned, WIDTHS, set_bits};
 use super::page::Form;
 
 /// Number of words in a row from which on the length of its longest free run is stored, so that full rows are skipped. In shorter
@@ -254,9 +254,6 @@ impl Occupancy {
     }
 }
 
-/// Number of widths of windows: 1 to 64 cells.
-pub(super) const WIDTHS: usize = 7;
-
 /// Updates the wider windows of a row after cells between `start` and `end` were occupied.
 pub(super) fn widen(row: &mut [u64], words: usize, [start, end]: [u32; 2]) {
     let last = (end / 64) as usize;
@@ -310,41 +307,6 @@ pub(super) fn longest_zeros(words: &[u64]) -> u32 {
         open = word.leading_zeros();
     }
     longest.max(open)
-}
-
-/// Two windows of one width in one row, both of which have to be free.
-///
-/// A run whose length is between 2ᵏ and 2ᵏ⁺¹ is free if its first and its last window of 2ᵏ cells are free. A run longer than two
-/// of the widest windows takes several probes.
-pub(super) struct Probe {
-    /// Row of the mask times [`WIDTHS`], plus k.
-    pub lane: u32,
-    /// Columns of the mask at which the windows begin.
-    pub starts: [u32; 2],
-}
-
-impl Probe {
-    /// Returns the probes that test whether all cells of some runs are free, in the order of the runs.
-    pub(super) fn of(runs: &[Run]) -> Vec<Self> {
-        let mut probes = Vec::with_capacity(runs.len());
-        for run in runs {
-            let k = (run.end - run.start).ilog2().min(WIDTHS as u32 - 1);
-            let width = 1 << k;
-            let (mut first, last) = (run.start, run.end - width);
-            loop {
-                let second = (first + width).min(last);
-                probes.push(Self {
-                    lane: run.row * WIDTHS as u32 + k,
-                    starts: [first, second],
-                });
-                if second == last {
-                    break;
-                }
-                first = (second + width).min(last);
-            }
-        }
-        probes
-    }
 }
 
 /// Position of a body's lower left cell.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::copies::Moments;
 use super::page::page_side;
-use super::{AtlasError, ChartMap, Rotation};
+use super::problem::{AtlasError, ChartMap, Rotation};
 use unwrapd_maps::plane::Straightness;
 
 /// Outline of a chart, turned to the angle at which it is packed.

@@ -2,16 +2,14 @@
 use rayon::prelude::*;
 
 use super::coarse::CoarseLayout;
-use super::effort::{Effort, UNHEARD};
-use super::grid::{Repair, Snapped, aligned, snapped};
+use super::effort::{Effort, OnRead, UNHEARD};
+use super::grid::{Repair, Snapped, aligned, doubled_area, snapped};
 use super::layout::{self, Layout, SLACK};
 use super::occupancy::{Corner, Spot};
 use super::outline::{Outline, outlines};
+use super::page::GRID_SIDE;
 use super::plan::Plan;
-use super::{
-    Atlas, AtlasError, AtlasOptions, Borders, ChartMap, GRID_SIDE, OnRead, Placed, Scale,
-    doubled_area,
-};
+use super::problem::{Atlas, AtlasError, AtlasOptions, Borders, ChartMap, Placed, Scale};
 
 /// Maximum number of layouts, each with more room for vertices that had to move farther than the last one allowed.
 const ROUNDS: usize = 6;

@@ -1,6 +1,10 @@
 //! Pages of a texture: their number and shape, in texels, cells and grid units.
-use super::GRID_BITS;
 use unwrapd_maps::mesh::Resolution;
+
+/// Bits of the side of a page. Atlas coordinates are integers up to 2^GRID_BITS, the steps of `f32` in the unit square.
+pub const GRID_BITS: u32 = 23;
+/// Side of a page in grid units.
+pub(super) const GRID_SIDE: f64 = (1 << GRID_BITS) as f64;
 
 /// Texture of an atlas: pages of one size, side by side along u.
 ///

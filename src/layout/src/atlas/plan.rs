@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use super::copies::{Moments, copies};
 use super::outline::{Enclosure, Outline, direction};
 use super::page::Texture;
-use super::{AtlasOptions, Rotation};
+use super::problem::{AtlasOptions, Rotation};
 use unwrapd_method::numerics::hull::convex_hull;
 
 /// Share of a page that charts are expected to fill.

@@ -6,8 +6,8 @@
 //! iterates are all strictly positive and whose energy decreases. Vertices whose ring leaves the patch stay where they are.
 use std::collections::HashSet;
 
-use super::ChartMap;
 use super::outline::boundary;
+use super::problem::ChartMap;
 use unwrapd_maps::mesh::{UsedVertices, VertexFaces};
 use unwrapd_maps::plane::{BoxIndex, search_budget};
 use unwrapd_method::barrier::NoBarrier;

@@ -3,11 +3,11 @@ use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-use crate::atlas::Rotation;
 use crate::atlas::mask::{Distances, Mask, Turned};
 use crate::atlas::occupancy::{Corner, Occupancy, Window};
 use crate::atlas::outline::{Outline, smallest_page};
 use crate::atlas::page::page_side;
+use crate::atlas::problem::Rotation;
 use crate::atlas::squeeze::Body;
 use unwrapd_method::numerics::hull::convex_hull;
 use unwrapd_method::numerics::random::Random;

@@ -4,6 +4,7 @@ mod search;
 
 use std::sync::Arc;
 
+use super::effort::OnRead;
 use super::gap::{self, Page};
 use super::layout::{Layout, SLIVERS, padding};
 use super::mask::{Distances, Rounding};
@@ -11,8 +12,8 @@ use super::occupancy::{Corner, Occupancy};
 use super::outline::{Outline, outlines};
 use super::page::{Form, Texture};
 use super::plan::{HOPE, Near, Plan, QuarterTurns, alike, by_size, level, mark_copies};
+use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation};
 use super::squeeze::{Pose, Squeezed};
-use super::{AtlasError, AtlasOptions, ChartMap, OnRead, Rotation};
 use arrangement::{Arrangement, Poses};
 
 /// Cells along the side of the square page that the charts are expected to need. With 64, worse cuts are chosen. With 256, a trial

@@ -6,8 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::arrangement::{Arrangement, Prefixes};
 use super::{CoarseLayout, squeezed_side};
-use crate::atlas::OnRead;
-use crate::atlas::effort::{Effort, ReadLimit, Schedule};
+use crate::atlas::effort::{Effort, OnRead, ReadLimit, Schedule};
 use crate::atlas::squeeze::Body;
 use unwrapd_method::numerics::random::Random;
 

@@ -2,8 +2,8 @@
 use std::collections::HashMap;
 
 use super::field::Field;
-use crate::atlas::Rotation;
 use crate::atlas::outline::Outline;
+use crate::atlas::problem::Rotation;
 use unwrapd_method::numerics::vec2::{cross, dot, sub};
 
 /// Position and angle of a body.

@@ -14,8 +14,7 @@ mod overlap;
 
 use std::sync::Arc;
 
-use super::OnRead;
-use super::effort::ReadLimit;
+use super::effort::{OnRead, ReadLimit};
 use super::page::PageShape;
 pub(super) use body::{Body, Pose};
 use overlap::{Equations, Scene};

@@ -2,8 +2,8 @@
 use std::sync::Arc;
 
 use super::body::{Body, Pose, SAMPLES};
-use crate::atlas::Rotation;
 use crate::atlas::effort::ReadLimit;
+use crate::atlas::problem::Rotation;
 use unwrapd_method::numerics::bounds::{touch, widened};
 use unwrapd_method::numerics::cholesky::SymmetricPattern;
 use unwrapd_method::numerics::conjugate_gradients::ConjugateGradients;
