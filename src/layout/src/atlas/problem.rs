@@ -100,7 +100,7 @@ impl AtlasOptions {
 /// Chart in the atlas.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placed {
-    /// Position of each vertex in units of 2^-[`GRID_BITS`], v up; exact in `f32`.
+    /// Position of each vertex in units of 2^-[`GRID_BITS`](super::GRID_BITS), v up; exact in `f32`.
     pub grid: Vec<[i32; 2]>,
 }
 
