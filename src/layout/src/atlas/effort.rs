@@ -40,7 +40,7 @@ pub(super) struct Schedule {
 }
 
 impl Schedule {
-    /// Share of the words for annealing; the rest is for squeezing. Shares from .5 to .7 give the same fill on average.
+    /// Share of the words for annealing; the rest is for squeezing.
     pub const ANNEALING: f64 = 0.6;
 }
 

@@ -352,7 +352,7 @@ impl Packing<'_> {
         (f64::from(self.cells) - 2.0 * self.border).floor()
     }
 
-    /// Returns whether there are so many charts that the fill hardly depends on luck.
+    /// Returns whether the charts are a crowd, whose fill hardly depends on luck.
     pub(super) fn is_crowded(&self) -> bool {
         self.plan.order.len() > MANY
     }

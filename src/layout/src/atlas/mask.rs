@@ -398,7 +398,7 @@ fn scattered(mut runs: Vec<Run>) -> Vec<Run> {
 /// Number of widths of windows: 1 to 64 cells.
 pub(super) const WIDTHS: usize = 7;
 
-/// Two windows of one width in one row, both of which have to be free.
+/// Two windows of one width in one row. Both have to be free.
 ///
 /// A run whose length is between 2ᵏ and 2ᵏ⁺¹ is free if its first and its last window of 2ᵏ cells are free. A run longer than two
 /// of the widest windows takes several probes.

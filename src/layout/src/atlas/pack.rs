@@ -123,8 +123,8 @@ pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasEr
 /// Outlines and a layout in which charts keep exactly the padding.
 type Exact = (Vec<Outline>, Layout);
 
-/// Searches for the fullest layout. Straight charts lie along the axes unless the page gains more than [`STRAIGHT`] of its area by
-/// other angles; at a given scale, a little less fill may be too little.
+/// Searches for the fullest layout. Straight charts lie along the axes unless other angles fill more than [`STRAIGHT`] more of the
+/// squeezed page. At a prescribed scale they may lie at any angle, since a little less fill may be too little.
 pub(super) fn searched(
     coarse: &CoarseLayout,
     options: &AtlasOptions,

@@ -66,13 +66,13 @@ pub struct CoarseLayout {
     n_searches: u64,
     /// `true` once a search has nothing left to try.
     is_exhausted: bool,
-    /// Number of large charts among them.
+    /// Number of large charts, the first ones by size.
     n_large: usize,
     /// Index, for each chart, of the first chart that it is a copy of, possibly itself.
     kind: Arc<[usize]>,
 }
 
-/// CoarseRaster on which charts become cells.
+/// Raster on which charts become cells.
 #[derive(Clone, Copy)]
 struct CoarseRaster {
     /// Cells along the side of the square page that the charts are expected to need.
