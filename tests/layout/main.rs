@@ -1,6 +1,7 @@
 //! Tests of the layout.
 mod atlas;
 mod charts;
+mod constraints;
 mod creases;
 #[path = "../support/disks.rs"]
 #[allow(dead_code)]
@@ -11,6 +12,7 @@ mod given_back;
 #[path = "../support/layouts.rs"]
 #[allow(dead_code)]
 mod layouts;
+mod live;
 mod not_given_back;
 mod optima;
 mod own_axes;

@@ -1,21 +1,27 @@
-//! Charts packed around islands that stay in place.
+//! Charts packed within constraints: in regions, in groups, and around islands that stay in place.
 //!
-//! The cells of the islands are occupied before the first chart is placed. Pages keep their size, so the search is for the largest
-//! scale of the other charts at which each finds a place, and for an order of the charts that allows it.
-use thiserror::Error;
+//! Pages keep their size, so the search is for the largest scale of the charts. They are first placed on a raster on which the cells of
+//! the islands are occupied, each where its region allows. Then all charts move at once while the pages shrink together with the
+//! islands and the regions ([`squeeze`](super::squeeze)), which is the same as growing the charts.
+use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 
+use super::coarse::{FINE, MOST_CHARTS, raster_side};
 use super::effort::OnRead;
-use super::grid::{Repair, Snapped, doubled_area, snapped};
+use super::gap::{self, Border, Page};
+use super::grid::{Repair, doubled_area};
 use super::layout::{Attempt, Extent, Layout, Packing, SLACK, padding, raster};
-use super::mask::{Distances, Mask, Rounding, Run};
 use super::occupancy::Occupancy;
 use super::outline::{Outline, outlines};
 use super::pack::{self, is_cramped, on_grid};
-use super::page::{GRID_SIDE, Texture};
+use super::page::{Frame, GRID_SIDE, Region};
 use super::plan::{HOPE, Plan, QuarterTurns};
-use super::problem::{Atlas, AtlasError, AtlasOptions, ChartMap, Placed, Rotation, Scale};
-use unwrapd_maps::plane::{BoxIndex, search_budget, segment_distance};
-use unwrapd_method::numerics::bounds::{Bounds, bounds_of, touch, widened};
+use super::problem::{
+    AroundError, Atlas, AtlasOptions, ChartMap, Constraints, Placed, Rotation, Scale,
+};
+use super::squeeze::{Body, Pose, Squeezed, Stays};
+use super::stay::{Obstacle, Staying, too_near};
 use unwrapd_method::numerics::random::Random;
 use unwrapd_method::solver::Control;
 
@@ -23,16 +29,19 @@ use unwrapd_method::solver::Control;
 const FRAME: u32 = 4;
 /// Maximum number of layouts, each with more room for vertices that had to move farther than the last one allowed.
 const ROUNDS: usize = 6;
+/// Maximum number of cells along the side of the raster for a few charts that are then squeezed. On a raster that is four times as fine,
+/// the search takes four times as long, and the squeezed layouts are no fuller.
+const SQUEEZED_CELLS: u32 = 256;
 
-/// Packs charts around others that stay, with quarter turns at most. The atlas contains the packed charts, then those that stay.
+/// Packs charts within constraints. The atlas contains the packed charts, then those that stay.
 pub fn pack_around(
     charts: &[ChartMap],
-    stays: &[Stay],
+    constraints: &Constraints,
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Result<Atlas, AroundError> {
     let texture = options.texture;
-    let staying = Staying::all(stays, texture)?;
+    let staying = Staying::all(constraints.stays, texture)?;
     let longer = f64::from(texture.resolution.longer());
     let gap = f64::from(options.padding_texels) / longer;
     if let Some((islands, distance)) = too_near(&staying, gap) {
@@ -41,8 +50,24 @@ pub fn pack_around(
             texels: distance * longer,
         });
     }
-    let mut atlas = around(charts, &staying, options, on_read)?;
-    for (stay, staying) in stays.iter().zip(staying) {
+    let outside = |region: &Option<Region>| {
+        region.is_some_and(|region| region.on_page(texture.pages).is_none())
+    };
+    if let Some(chart) = constraints.regions.iter().position(outside) {
+        return Err(AroundError::Region { chart });
+    }
+    let groups = Group::all(charts, constraints)?;
+    let maps: Vec<ChartMap> = groups.iter().map(Group::map).collect();
+    let regions: Vec<Option<Region>> = groups.iter().map(|group| group.region).collect();
+    let obstacles: Vec<&Obstacle> = staying.iter().map(|it| &it.obstacle).collect();
+    let problem = Problem {
+        charts: &maps,
+        regions: &regions,
+        obstacles: &obstacles,
+    };
+    let mut atlas = problem.packed(options, on_read)?;
+    atlas.placed = Group::split(&groups, atlas.placed, charts);
+    for (stay, staying) in constraints.stays.iter().zip(staying) {
         let placed = staying.placed(texture);
         let doubled = |t: &[u32; 3]| doubled_area(t.map(|v| placed.grid[v as usize])) as f64;
         let covered: f64 = stay.map.triangles.iter().map(doubled).sum();
@@ -52,30 +77,117 @@ pub fn pack_around(
     Ok(atlas)
 }
 
-fn around(
-    charts: &[ChartMap],
-    staying: &[Staying],
-    options: &AtlasOptions,
-    on_read: &OnRead,
-) -> Result<Atlas, AroundError> {
-    let texture = options.texture;
-    // Other islands keep their angles, up to quarter turns, while one is arranged by hand.
-    let options = &AtlasOptions {
-        rotation: match options.rotation {
-            Rotation::Any => Rotation::Quarter,
-            rotation => rotation,
-        },
-        ..options.clone()
-    };
-    let plan = Plan::largest_first(&outlines(charts)?, options);
-    let on_page = plan.order.len() / texture.pages.max(1) as usize;
-    let cells = texture.raster(raster(on_page, options.most_cells));
-    let padding = padding(options, plan.order.len().max(1), f64::from(cells));
-    let mut slack = vec![SLACK; charts.len()];
-    for round in 0..=ROUNDS {
+/// Charts that keep their positions relative to each other, as one map.
+struct Group {
+    /// Indices of the charts.
+    members: Vec<usize>,
+    uv: Vec<[f64; 2]>,
+    triangles: Vec<[u32; 3]>,
+    region: Option<Region>,
+}
+
+impl Group {
+    /// Joins the charts of each group, in the order of their first charts.
+    fn all(charts: &[ChartMap], constraints: &Constraints) -> Result<Vec<Self>, AroundError> {
+        // In a joined map, an index that is out of range could name a vertex of another chart.
+        outlines(charts)?;
+        let mut groups: Vec<Self> = Vec::new();
+        let mut index_of: BTreeMap<usize, usize> = BTreeMap::new();
+        for (chart, map) in charts.iter().enumerate() {
+            let new = Self {
+                members: Vec::new(),
+                uv: Vec::new(),
+                triangles: Vec::new(),
+                region: constraints.regions.get(chart).copied().flatten(),
+            };
+            let index = match constraints.groups.get(chart) {
+                Some(&group) => *index_of.entry(group).or_insert(groups.len()),
+                None => groups.len(),
+            };
+            if index == groups.len() {
+                groups.push(new);
+            }
+            let group = &mut groups[index];
+            let first = group.uv.len() as u32;
+            group.members.push(chart);
+            group.uv.extend(map.uv);
+            (group.triangles).extend(map.triangles.iter().map(|t| t.map(|v| first + v)));
+        }
+        Ok(groups)
+    }
+
+    fn map(&self) -> ChartMap<'_> {
+        ChartMap {
+            uv: &self.uv,
+            triangles: &self.triangles,
+        }
+    }
+
+    /// Returns the places of the charts from those of their groups.
+    fn split(groups: &[Self], placed: Vec<Placed>, charts: &[ChartMap]) -> Vec<Placed> {
+        let mut of_charts = vec![Placed { grid: Vec::new() }; charts.len()];
+        for (group, placed) in groups.iter().zip(placed) {
+            let mut grid = placed.grid.into_iter();
+            for &chart in &group.members {
+                of_charts[chart].grid = grid.by_ref().take(charts[chart].uv.len()).collect();
+            }
+        }
+        of_charts
+    }
+}
+
+/// Charts to be packed, with the region of each, and the charts that stay.
+pub(super) struct Problem<'a> {
+    pub charts: &'a [ChartMap<'a>],
+    /// Region of each chart; empty if no chart has one.
+    pub regions: &'a [Option<Region>],
+    pub obstacles: &'a [&'a Obstacle],
+}
+
+impl Problem<'_> {
+    /// Packs the charts: on a coarse raster, squeezed, if that is possible; otherwise on a fine raster.
+    fn packed(&self, options: &AtlasOptions, on_read: &OnRead) -> Result<Atlas, AroundError> {
+        let charts = self.charts;
+        let plan = Plan::largest_first(&outlines(charts)?, options);
+        let n = plan.order.len();
+        let mut slack = vec![SLACK; charts.len()];
+        if options.scale == Scale::Largest && (1..=MOST_CHARTS).contains(&n) {
+            let cells = options.most_cells.min(SQUEEZED_CELLS);
+            let on_raster = self.on_raster((&plan, &slack), cells, (options, on_read));
+            let layout = on_raster.and_then(|found| self.squeezed(&plan, &found, options, on_read));
+            if let Some((outlines, layout)) = layout {
+                let snapped = on_grid(charts, &outlines, &layout, Repair::Open);
+                if !is_cramped(&snapped, &layout, &mut slack.clone()) {
+                    return Ok(pack::atlas(charts, &layout, &slack, snapped, options));
+                }
+            }
+        }
+        for repair in [[Repair::Open; ROUNDS].as_slice(), &[Repair::Nothing]].concat() {
+            let layout = self
+                .on_raster((&plan, &slack), options.most_cells, (options, on_read))
+                .ok_or(AroundError::NoRoom)?;
+            let snapped = on_grid(charts, &plan.outlines, &layout, repair);
+            if repair == Repair::Nothing || !is_cramped(&snapped, &layout, &mut slack) {
+                return Ok(pack::atlas(charts, &layout, &slack, snapped, options));
+            }
+        }
+        Err(AroundError::NoRoom)
+    }
+
+    /// Returns a layout on a raster that keeps the padding by construction; `None` if the charts do not fit.
+    pub(super) fn on_raster(
+        &self,
+        (plan, slack): (&Plan, &[f64]),
+        most_cells: u32,
+        (options, on_read): (&AtlasOptions, &OnRead),
+    ) -> Option<Layout> {
+        let texture = options.texture;
+        let on_page = plan.order.len() / texture.pages.max(1) as usize;
+        let cells = texture.raster(raster(on_page, most_cells));
+        let padding = padding(options, plan.order.len().max(1), f64::from(cells));
         let mut packing = Packing {
-            plan: &plan,
-            slack: &slack,
+            plan,
+            slack,
             texture,
             cells,
             padding,
@@ -83,14 +195,15 @@ fn around(
             on_read,
             is_alike: false,
             extent: Extent::Full,
+            regions: self.regions,
             taken: None,
         };
-        let taken = taken(&packing, staying);
+        let taken = self.taken(&packing);
         packing.taken = Some(&taken);
-        let (scale, attempt) = placed(&packing, staying, options).ok_or(AroundError::NoRoom)?;
+        let (scale, attempt) = self.placed(&packing, options)?;
         let cell = texture.grid_side() / f64::from(cells);
         let longer = f64::from(texture.resolution.longer());
-        let layout = Layout {
+        Some(Layout {
             scale: scale * cell,
             cell,
             border: packing.border,
@@ -98,65 +211,166 @@ fn around(
             padding_texels: (padding * longer / f64::from(cells))
                 .min(f64::from(options.padding_texels)),
             charts: attempt.spots,
+        })
+    }
+
+    /// Returns pages on which the charts that stay occupy cells.
+    fn taken(&self, packing: &Packing) -> Occupancy {
+        let whole = packing.whole();
+        // Charts that stay may reach into the borders, which are free of others.
+        let frame = (packing.reach() + packing.border).ceil() as u32 + FRAME;
+        let mut occupancy = Occupancy::new(packing.form(), whole, frame, whole);
+        for obstacle in self.obstacles {
+            let (body, corner) = obstacle.body(packing.texture, packing.cells, packing.border);
+            occupancy.cover(&body, obstacle.page, corner);
+        }
+        occupancy
+    }
+
+    /// Squeezes a layout, and brings charts exactly as near as permitted. Returns `None` if that fails, or if the layout has no room for
+    /// the padding.
+    fn squeezed(
+        &self,
+        plan: &Plan,
+        found: &Layout,
+        options: &AtlasOptions,
+        on_read: &OnRead,
+    ) -> Option<(Vec<Outline>, Layout)> {
+        let texture = options.texture;
+        if found.padding_texels < f64::from(options.padding_texels) {
+            return None;
+        }
+        let page = FINE * f64::from(texture.raster(raster_side(plan.order.len(), texture)));
+        let padding = options.padding_share() * page;
+        let scale = found.scale * page / texture.grid_side();
+        let obstacles = self.obstacles.iter();
+        let stays = obstacles.map(|it| Stays::new(&it.outline, page, padding));
+        let mut squeezed = self.poses((plan, found), page, stays.collect(), options);
+        let body = |&chart: &usize| Arc::new(Body::new(&plan.outlines[chart], scale, padding));
+        let bodies: Vec<Arc<Body>> = plan.order.iter().map(body).collect();
+        if !squeezed.settle(&bodies, options.budget_words / 2, on_read) {
+            return None;
+        }
+        let page = Page {
+            number: 0,
+            charts: plan.order.clone(),
+            squeezed,
+            border: Border::Fixed,
+            stays: self.obstacles.iter().map(|it| it.outline.clone()).collect(),
         };
-        let repair = if round < ROUNDS {
-            Repair::Open
-        } else {
-            Repair::Nothing
+        let level: Vec<&Outline> = plan.outlines.iter().collect();
+        gap::layout(&level, &[page], scale, (options, on_read))
+    }
+
+    /// Returns the poses of a layout on pages with `page` cells along the longer side, in the order of the plan.
+    pub(super) fn poses(
+        &self,
+        (plan, found): (&Plan, &Layout),
+        page: f64,
+        stays: Arc<[Stays]>,
+        options: &AtlasOptions,
+    ) -> Squeezed {
+        let texture = options.texture;
+        let padding = options.padding_share() * page;
+        let cell = found.cell * page / texture.grid_side();
+        let frame = |&chart: &usize| {
+            let on = Region::page(found.charts[chart].0.corner.page);
+            let region = self.regions.get(chart).copied().flatten();
+            texture.frame(region.unwrap_or(on))
         };
-        let snapped = on_grid(charts, &plan.outlines, &layout, repair);
-        if repair == Repair::Nothing || !is_cramped(&snapped, &layout, &mut slack) {
-            return Ok(pack::atlas(charts, &layout, &slack, snapped, options));
+        let frames: Arc<[_]> = plan.order.iter().map(frame).collect();
+        let pose = |(&chart, frame): (&usize, &Frame)| {
+            let (spot, _) = found.charts[chart];
+            let extent = plan.outlines[chart].extent;
+            let middle = spot.middle(extent.map(|x| x * found.scale / found.cell));
+            let middle = middle.map(|x| (x + found.border) * cell - padding / 2.0);
+            let angle = FRAC_PI_2 * f64::from(spot.turns);
+            Pose::new([middle[0] + frame.left * page, middle[1]], angle)
+        };
+        Squeezed {
+            poses: plan.order.iter().zip(frames.iter()).map(pose).collect(),
+            side: page - padding,
+            padding,
+            stays,
+            frames,
         }
     }
-    Err(AroundError::NoRoom)
-}
 
-/// Returns pages on which the charts that stay occupy cells.
-fn taken(packing: &Packing, staying: &[Staying]) -> Occupancy {
-    let whole = packing.whole();
-    // Charts that stay may reach into the borders, which are free of others.
-    let frame = (packing.reach() + packing.border).ceil() as u32 + FRAME;
-    let mut occupancy = Occupancy::new(packing.form(), whole, frame, whole);
-    for chart in staying {
-        let (body, corner) = chart.body(packing.texture, packing.cells, packing.border);
-        occupancy.cover(&body, chart.page, corner);
+    /// Returns the scale, in cells per mesh unit, and a place for each chart; `None` if a chart finds no place.
+    fn placed(&self, packing: &Packing, options: &AtlasOptions) -> Option<(f64, Attempt)> {
+        let cells = f64::from(packing.cells);
+        if packing.plan.order.is_empty() {
+            // The unit of what stays is that of a page.
+            return Some((cells, packing.attempt(cells, &mut 0).ok()?));
+        }
+        match options.scale {
+            Scale::Largest => {
+                let found = self.largest(packing, options.budget_words)?;
+                Some(grown(packing, found, options))
+            }
+            Scale::TexelsPerUnit(texels) => {
+                let scale = texels * cells / f64::from(options.texture.resolution.longer());
+                Some((scale, packing.attempt(scale, &mut 0).ok()?))
+            }
+        }
     }
-    occupancy
-}
 
-/// A chart that stays where it is.
-#[derive(Clone, Copy, Debug)]
-pub struct Stay<'a> {
-    /// Map of the chart. Its unit is the longer side of a page, its origin the lower left corner of the first page.
-    pub map: ChartMap<'a>,
-    /// Island that the chart belongs to. Charts of one island keep no distance from each other.
-    pub island: usize,
-}
+    /// Returns the largest scale found at which the charts fit in the order of the plan, and their places.
+    fn largest(&self, packing: &Packing, budget_words: u64) -> Option<(f64, Attempt)> {
+        let texture = packing.texture;
+        let pages = f64::from(texture.pages) * texture.share();
+        let sizes = self.obstacles.iter().map(|it| it.outline.size);
+        let taken: f64 = sizes.map(|size| size * size).sum();
+        let free = (pages - taken).max(LEAST_FREE * pages) * f64::from(packing.cells).powi(2);
+        let most = (free / packing.plan.area())
+            .sqrt()
+            .min(self.most_in_regions(packing));
+        // Charts without area: at this scale the longest is as long as a page.
+        let most = if most.is_finite() {
+            most
+        } else {
+            f64::from(packing.cells) / packing.plan.longest().max(1.0 / f64::from(packing.cells))
+        };
+        let mut scale = HOPE.sqrt() * most;
+        let mut best: Option<(f64, Attempt)> = None;
+        let (mut failed, mut work, mut tried) = (f64::INFINITY, 0, 0);
+        while scale >= LEAST * most {
+            match packing.attempt(scale, &mut work) {
+                Ok(attempt) => best = Some((scale, attempt)),
+                Err(share) => {
+                    failed = scale;
+                    scale *= share.sqrt().clamp(SMALLER[0], SMALLER[1]);
+                }
+            }
+            if let Some((good, _)) = best {
+                let is_ended = (packing.on_read)(0) == Control::Finish || work > budget_words;
+                if is_ended || tried == ATTEMPTS || failed < good * NEAR {
+                    break;
+                }
+                tried += 1;
+                scale = if failed.is_finite() {
+                    (good * failed).sqrt()
+                } else {
+                    LARGER * good
+                };
+            }
+        }
+        best
+    }
 
-/// Error of packing charts around others.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum AroundError {
-    /// A chart that stays extends beyond the page that holds its middle, or lies on no page.
-    #[error("island {island} leaves its page")]
-    OffPage {
-        /// Island of the chart.
-        island: usize,
-    },
-    /// Two charts that stay are nearer than the padding, or overlap.
-    #[error("islands {} and {} are {texels} texels apart", islands[0], islands[1])]
-    TooNear {
-        /// Islands of the charts.
-        islands: [usize; 2],
-        /// Their distance; 0 if they overlap.
-        texels: f64,
-    },
-    /// The other charts do not fit.
-    #[error("the other charts do not fit")]
-    NoRoom,
-    /// The charts cannot be placed on any page.
-    #[error(transparent)]
-    Atlas(#[from] AtlasError),
+    /// Returns the scale at which the charts of a region would cover it, the least of all regions.
+    fn most_in_regions(&self, packing: &Packing) -> f64 {
+        let mut least = f64::INFINITY;
+        for region in self.regions.iter().flatten() {
+            let is_there = |&chart: &usize| self.regions[chart].as_ref() == Some(region);
+            let area: f64 = (0..self.charts.len())
+                .filter(is_there)
+                .map(|chart| packing.plan.outlines[chart].size.powi(2))
+                .sum();
+            least = least.min((packing.texture.frame(*region).area() / area).sqrt());
+        }
+        least * f64::from(packing.cells)
+    }
 }
 
 /// Maximum number of scales tried after the first one at which the charts fit.
@@ -175,69 +389,6 @@ const LEAST_FREE: f64 = 1e-3;
 const GROWTH: f64 = 1.004;
 const MOST_IDLE: u64 = 100;
 const SEED: u64 = 1;
-
-/// Returns the scale, in cells per mesh unit, and a place for each chart; `None` if a chart finds no place.
-pub(super) fn placed(
-    packing: &Packing,
-    staying: &[Staying],
-    options: &AtlasOptions,
-) -> Option<(f64, Attempt)> {
-    let cells = f64::from(packing.cells);
-    if packing.plan.order.is_empty() {
-        // The unit of what stays is that of a page.
-        return Some((cells, packing.attempt(cells, &mut 0).ok()?));
-    }
-    match options.scale {
-        Scale::Largest => {
-            let found = largest(packing, staying, options.budget_words)?;
-            Some(grown(packing, found, options))
-        }
-        Scale::TexelsPerUnit(texels) => {
-            let scale = texels * cells / f64::from(options.texture.resolution.longer());
-            Some((scale, packing.attempt(scale, &mut 0).ok()?))
-        }
-    }
-}
-
-/// Returns the largest scale found at which the charts fit in the order of the plan, and their places.
-fn largest(packing: &Packing, staying: &[Staying], budget_words: u64) -> Option<(f64, Attempt)> {
-    let texture = packing.texture;
-    let pages = f64::from(texture.pages) * texture.share();
-    let taken: f64 = staying.iter().map(|chart| chart.outline.size.powi(2)).sum();
-    let free = (pages - taken).max(LEAST_FREE * pages) * f64::from(packing.cells).powi(2);
-    let most = (free / packing.plan.area()).sqrt();
-    // Charts without area: at this scale the longest is as long as a page.
-    let most = if most.is_finite() {
-        most
-    } else {
-        f64::from(packing.cells) / packing.plan.longest().max(1.0 / f64::from(packing.cells))
-    };
-    let mut scale = HOPE.sqrt() * most;
-    let mut best: Option<(f64, Attempt)> = None;
-    let (mut failed, mut work, mut tried) = (f64::INFINITY, 0, 0);
-    while scale >= LEAST * most {
-        match packing.attempt(scale, &mut work) {
-            Ok(attempt) => best = Some((scale, attempt)),
-            Err(share) => {
-                failed = scale;
-                scale *= share.sqrt().clamp(SMALLER[0], SMALLER[1]);
-            }
-        }
-        if let Some((good, _)) = best {
-            let is_ended = (packing.on_read)(0) == Control::Finish || work > budget_words;
-            if is_ended || tried == ATTEMPTS || failed < good * NEAR {
-                break;
-            }
-            tried += 1;
-            scale = if failed.is_finite() {
-                (good * failed).sqrt()
-            } else {
-                LARGER * good
-            };
-        }
-    }
-    best
-}
 
 /// Tries random changes of the order and of quarter turns, and keeps those that allow a larger scale. Does nothing for a crowd, which
 /// hardly gains.
@@ -283,150 +434,4 @@ fn grown(
         }
     }
     (scale, best)
-}
-
-/// Distance to which a chart may extend beyond its page, in units of u and v: less than half a step of the grid, so that rounding
-/// brings it back.
-const BEYOND: f64 = 1.0 / 33_554_432.0;
-/// Tolerance of distances for rounding, in longer sides of a page.
-const ROUNDED: f64 = 1e-9;
-
-/// A chart that stays on its page.
-pub(super) struct Staying {
-    pub page: u32,
-    /// Outline in longer sides of a page, from the lower left corner of the first one.
-    pub outline: Outline,
-    island: usize,
-    bounds: Bounds,
-    snapped: Snapped,
-}
-
-impl Staying {
-    /// Checks that each chart lies within a page, and rounds it to the grid.
-    pub(super) fn all(stays: &[Stay], texture: Texture) -> Result<Vec<Self>, AroundError> {
-        let maps: Vec<ChartMap> = stays.iter().map(|stay| stay.map).collect();
-        let outlined = outlines(&maps)?.into_iter().zip(stays);
-        let staying = outlined.map(|(outline, stay)| {
-            let corners: Vec<[f64; 2]> = outline.corners().collect();
-            let bounds = bounds_of(&corners);
-            let outline = outline.with_corner([0.0; 2]);
-            let island = stay.island;
-            let page = page(bounds, texture).ok_or(AroundError::OffPage { island })?;
-            let snapped = snapped(&stay.map, &outline, texture.grid_side(), Repair::Open);
-            Ok(Self {
-                page,
-                outline,
-                island,
-                bounds,
-                snapped,
-            })
-        });
-        staying.collect()
-    }
-
-    /// Returns the cells that the chart touches on its page, and the position of the lower left one, counted from the inner corner of
-    /// borders that are `border` cells wide.
-    pub(super) fn body(&self, texture: Texture, cells: u32, border: f64) -> (Vec<Run>, [i64; 2]) {
-        let cells = f64::from(cells);
-        let around = (self.snapped.largest_move + 1.0) * cells / texture.grid_side();
-        let left = [f64::from(self.page) * texture.resolution.sides()[0], 0.0];
-        let first = |k: usize| ((self.bounds[0][k] - left[k]) * cells - border - around).floor();
-        let first = [0, 1].map(first);
-        let corner = |k: usize| left[k] + (first[k] + border + around) / cells;
-        let outline = self.outline.with_corner([0, 1].map(corner));
-        let distances = Distances {
-            around,
-            padding: 0.0,
-            rounding: Rounding::Outward,
-        };
-        let mask = Mask::new(&outline, cells, distances);
-        (mask.body.runs(), first.map(|x| x as i64))
-    }
-
-    /// Returns the chart on the grid.
-    pub(super) fn placed(self, texture: Texture) -> Placed {
-        let on_page = |point| texture.on_page(0, point);
-        Placed {
-            grid: self.snapped.grid.into_iter().map(on_page).collect(),
-        }
-    }
-
-    /// Returns whether the first corner of another chart lies inside.
-    fn covers(&self, other: &Self) -> bool {
-        let Some([x, y]) = other.outline.corners().next() else {
-            return false;
-        };
-        let is_near = touch(&self.bounds, &[[x, y], [x, y]]);
-        let crossings = self.outline.edges().map(|[p, q]| {
-            // To the right of the point, upward and downward.
-            let is_left =
-                |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]) * (y - p[1]) > (q[1] - p[1]) * (x - p[0]);
-            match (p[1] <= y, q[1] <= y) {
-                (true, false) => i32::from(is_left(p, q)),
-                (false, true) => -i32::from(!is_left(p, q)),
-                _ => 0,
-            }
-        });
-        is_near && crossings.sum::<i32>() != 0
-    }
-}
-
-/// Returns the page that contains a box; `None` if it lies on no page or extends beyond one.
-fn page([low, high]: Bounds, texture: Texture) -> Option<u32> {
-    let sides = texture.resolution.sides();
-    let page = (f64::midpoint(low[0], high[0]) / sides[0]).floor();
-    let left = [page * sides[0], 0.0];
-    let is_inside = |k: usize| {
-        let beyond = BEYOND * sides[k];
-        low[k] >= left[k] - beyond && high[k] <= left[k] + sides[k] + beyond
-    };
-    let is_page = page >= 0.0 && page < f64::from(texture.pages);
-    (is_page && is_inside(0) && is_inside(1)).then_some(page as u32)
-}
-
-/// Returns the nearest two islands and their distance if it is less than `gap`; 0 if they overlap.
-pub(super) fn too_near(charts: &[Staying], gap: f64) -> Option<([usize; 2], f64)> {
-    let mut edges = Vec::new();
-    let mut owners = Vec::new();
-    for (owner, chart) in charts.iter().enumerate() {
-        edges.extend(chart.outline.edges());
-        owners.resize(edges.len(), owner);
-    }
-    let boxes: Vec<Bounds> = (edges.iter())
-        .map(|edge| widened(bounds_of(edge), gap / 2.0))
-        .collect();
-    let mut nearest: Option<(f64, [usize; 2])> = None;
-    let mut found = |distance: f64, a: usize, b: usize| {
-        let [a, b] = [a, b].map(|owner| charts[owner].island);
-        let new = (distance, [a.min(b), a.max(b)]);
-        if a != b && nearest.is_none_or(|known| new < known) {
-            nearest = Some(new);
-        }
-    };
-    // Should the search end early, for charts that lie in heaps, the certificate tells.
-    BoxIndex::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
-        let [a, b] = [i, j].map(|edge| owners[edge as usize]);
-        if charts[a].island != charts[b].island {
-            let distance = segment_distance(edges[i as usize], edges[j as usize]);
-            if distance < gap - ROUNDED || distance <= 0.0 {
-                found(distance, a, b);
-            }
-        }
-    });
-    for (a, b) in pairs(charts) {
-        if charts[a].covers(&charts[b]) || charts[b].covers(&charts[a]) {
-            found(0.0, a, b);
-        }
-    }
-    nearest.map(|(distance, islands)| (islands, distance))
-}
-
-/// Returns the pairs of charts whose boxes meet.
-fn pairs(charts: &[Staying]) -> Vec<(usize, usize)> {
-    let boxes: Vec<Bounds> = charts.iter().map(|chart| chart.bounds).collect();
-    let mut pairs = Vec::new();
-    BoxIndex::new(&boxes).pairs(search_budget(boxes.len()), |a, b| {
-        pairs.push((a as usize, b as usize));
-    });
-    pairs
 }

@@ -9,9 +9,10 @@ use super::effort::OnRead;
 use super::layout::{Layout, stretch};
 use super::occupancy::{Corner, Spot};
 use super::outline::Outline;
+use super::page::Region;
 use super::problem::{AtlasOptions, Scale};
 use super::squeeze::{Body, Squeezed};
-use unwrapd_maps::plane::{BoxIndex, Visit, search_budget, segment_distance};
+use unwrapd_maps::plane::{BoxIndex, Segment, Visit, search_budget, segment_distance};
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of};
 
 /// Maximum number of rounds that correct the room between charts.
@@ -37,6 +38,18 @@ pub(super) struct Page {
     /// Indices of the charts, in the order of the poses.
     pub charts: Vec<usize>,
     pub squeezed: Squeezed,
+    pub border: Border,
+    /// Outlines of the islands that stay, in longer sides of a page from the lower left corner of the first one.
+    pub stays: Arc<[Outline]>,
+}
+
+/// Relation of a page to the charts on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Border {
+    /// The page ends where its charts end.
+    Cropped,
+    /// Charts have frames, or keep clear of islands, which are given relative to the page.
+    Fixed,
 }
 
 /// Returns the turned outlines and a layout near squeezed pages in which charts keep the padding. Returns `None` if charts could
@@ -78,6 +91,7 @@ impl Tight<'_> {
     fn places(&self, page: &Page, least: f64) -> Option<Places> {
         let mut squeezed = page.squeezed.clone();
         let kept = self.padding(squeezed.side);
+        squeezed.padding = kept + 2.0 * ROUNDED;
         let level: Vec<&Outline> = page.charts.iter().map(|&chart| self.level[chart]).collect();
         let bodies: Vec<Arc<Body>> = (level.par_iter())
             .map(|outline| Arc::new(Body::new(outline, self.scale, kept)))
@@ -88,7 +102,7 @@ impl Tight<'_> {
             if !squeezed.loosen(&bodies, room, (words, self.on_read)) {
                 break;
             }
-            let (places, missing) = self.measured(&level, &squeezed, least);
+            let (places, missing) = self.measured(&level, page, &squeezed, least);
             if missing <= 0.0 && self.fits(&places) {
                 best = Some(places);
             }
@@ -102,35 +116,50 @@ impl Tight<'_> {
             let mut shares = (0..SPREADS).map(|power| LEAST_SPREAD * f64::from(1 << power));
             shares.find_map(|share| {
                 let spread = squeezed.spread(1.0 + share);
-                let (places, missing) = self.measured(&level, &spread, least);
+                let (places, missing) = self.measured(&level, page, &spread, least);
                 (missing <= 0.0 && self.fits(&places)).then_some(places)
             })
         })
     }
 
-    /// Returns whether the page has room for the places, which matters at a prescribed scale.
+    /// Returns whether the page has room for the places, which matters at a prescribed scale, and each frame for its chart.
     fn fits(&self, places: &Places) -> bool {
-        self.around(places.side) <= self.page(places.side)
+        self.around(places.side) <= self.page(places.side) && places.overhang <= 0.0
     }
 
     /// Places charts as squeezed, and measures the distance that is missing between two of them, in cells; negative if they are farther
     /// apart than they have to be.
-    fn measured(&self, level: &[&Outline], squeezed: &Squeezed, least: f64) -> (Places, f64) {
-        let mut places = Places::new(level, squeezed, self.scale);
-        places.side = self.side(places.reach);
+    fn measured(
+        &self,
+        level: &[&Outline],
+        page: &Page,
+        squeezed: &Squeezed,
+        least: f64,
+    ) -> (Places, f64) {
+        let page = Page {
+            squeezed: Squeezed {
+                padding: self.padding(squeezed.side) + 2.0 * ROUNDED,
+                ..squeezed.clone()
+            },
+            ..page.clone()
+        };
+        let mut places = Places::new(level, &page, self.scale);
+        places.side = match page.border {
+            Border::Cropped => self.side(places.reach),
+            Border::Fixed => squeezed.side,
+        };
         let missing = self.padding(places.side.max(least)) + 2.0 * ROUNDED - places.gap;
         (places, missing)
     }
 
     /// Returns the longer side, without borders, of the smallest page on which charts may extend to `reach`, to the right and up.
     fn side(&self, reach: [f64; 2]) -> f64 {
-        let shape = |side: f64| {
-            let padding = self.padding(side) + 2.0 * ROUNDED;
-            self.options.texture.shape(padding)
-        };
+        let frame = self.options.texture.frame(Region::page(0));
         // The padding grows with the side, but much less.
         let first = reach[0].max(reach[1]);
-        (0..SIDES).fold(first, |side, _| shape(side).side(reach))
+        (0..SIDES).fold(first, |side, _| {
+            frame.side(reach, self.padding(side) + 2.0 * ROUNDED)
+        })
     }
 
     /// Returns the cells per texel if the longer side of the largest page, without borders, is `side`.
@@ -176,12 +205,11 @@ impl Tight<'_> {
                 return None;
             }
             let placed = places.outlines.into_iter().zip(places.corners);
-            for (&chart, (outline, [x, y])) in page.charts.iter().zip(placed) {
+            for (&chart, (outline, corner)) in page.charts.iter().zip(placed) {
                 outlines[chart] = outline;
                 charts[chart].0.corner = Corner {
-                    page: page.number,
-                    x,
-                    y,
+                    page: page.number + corner.page,
+                    ..corner
                 };
             }
         }
@@ -201,61 +229,87 @@ impl Tight<'_> {
 struct Places {
     outlines: Vec<Outline>,
     /// Lower left corners, in units of 1/[`PLACES`] of a cell.
-    corners: Vec<[u32; 2]>,
+    corners: Vec<Corner>,
     /// Largest extents of the charts to the right and up, in cells.
     reach: [f64; 2],
     /// Longer side, without borders, of the page that the charts need, in cells.
     side: f64,
     /// Smallest distance between two charts, in cells.
     gap: f64,
+    /// Largest distance by which a chart leaves its frame, in cells; 0 if all are inside, or if the page is cropped.
+    overhang: f64,
 }
 
 impl Places {
-    fn new(level: &[&Outline], squeezed: &Squeezed, scale: f64) -> Self {
-        let posed = level.iter().zip(&squeezed.poses);
-        let (outlines, corners) = posed
-            .map(|(level, pose)| {
-                let outline = level.rotated(pose.angle);
-                let middle = outline.place(level.middle());
-                let corner = [0, 1].map(|k| pose.middle[k] - middle[k] * scale);
-                (
-                    outline,
-                    corner.map(|x| (x * PLACES).round().max(0.0) as u32),
-                )
-            })
-            .unzip();
+    /// Rounds the positions of squeezed charts. Keeps them in their frames if the border is fixed.
+    fn new(level: &[&Outline], page: &Page, scale: f64) -> Self {
+        let Page {
+            squeezed, border, ..
+        } = page;
+        let cells = squeezed.side + squeezed.padding;
         let mut places = Self {
-            outlines,
-            corners,
+            outlines: Vec::with_capacity(level.len()),
+            corners: Vec::with_capacity(level.len()),
             reach: [0.0; 2],
             side: 0.0,
             gap: 0.0,
+            overhang: 0.0,
         };
-        for (outline, corner) in places.outlines.iter().zip(&places.corners) {
-            for k in 0..2 {
-                let far = f64::from(corner[k]) / PLACES + outline.extent[k] * scale;
+        let mut edges: Vec<Segment> = Vec::new();
+        let mut charts = Vec::new();
+        let posed = level
+            .iter()
+            .zip(&squeezed.poses)
+            .zip(squeezed.frames.iter());
+        for ((level, pose), frame) in posed {
+            let outline = level.rotated(pose.angle);
+            let middle = outline.place(level.middle());
+            let left = [frame.left * cells, 0.0];
+            let [low, high] = frame.bounds(squeezed.side, squeezed.padding);
+            let rounded = [0, 1].map(|k| {
+                let extent = outline.extent[k] * scale;
+                let corner = pose.middle[k] - middle[k] * scale - left[k];
+                let corner = (corner * PLACES).round().max(0.0);
+                let corner = match border {
+                    Border::Cropped => corner,
+                    Border::Fixed => corner
+                        .min(((high[k] - left[k] - extent) * PLACES).floor())
+                        .max(((low[k] - left[k]) * PLACES).ceil()),
+                };
+                let far = corner / PLACES + extent;
                 places.reach[k] = places.reach[k].max(far);
-            }
+                if *border == Border::Fixed {
+                    places.overhang = places.overhang.max(far + left[k] - high[k]);
+                }
+                corner
+            });
+            let place = |p: [f64; 2]| [0, 1].map(|k| left[k] + rounded[k] / PLACES + p[k] * scale);
+            edges.extend(outline.edges().map(|edge| edge.map(place)));
+            charts.resize(edges.len(), places.outlines.len() as u32);
+            places.outlines.push(outline);
+            places.corners.push(Corner {
+                page: frame.page,
+                x: rounded[0] as u32,
+                y: rounded[1] as u32,
+            });
         }
-        places.gap = places.smallest_gap(scale);
+        for outline in page.stays.iter() {
+            let place = |p: [f64; 2]| p.map(|x| x * cells - squeezed.padding / 2.0);
+            edges.extend(outline.edges().map(|edge| edge.map(place)));
+        }
+        // Islands keep no distance from each other.
+        charts.resize(edges.len(), level.len() as u32);
+        places.gap = smallest_gap(&edges, &charts);
         places
     }
+}
 
-    /// Returns the smallest distance between two charts, in cells; infinite for a single chart, and 0 if the search was truncated.
-    fn smallest_gap(&self, scale: f64) -> f64 {
-        let mut edges = Vec::new();
-        let mut charts = Vec::new();
-        for ((chart, outline), corner) in (0..).zip(&self.outlines).zip(&self.corners) {
-            let corner = corner.map(|x| f64::from(x) / PLACES);
-            let place = |p: [f64; 2]| [0, 1].map(|k| corner[k] + p[k] * scale);
-            edges.extend(outline.edges().map(|edge| edge.map(place)));
-            charts.resize(edges.len(), chart);
-        }
-        let boxes: Vec<Bounds> = edges.iter().map(|edge| bounds_of(edge)).collect();
-        let distance = |i: u32, j: u32| segment_distance(edges[i as usize], edges[j as usize]);
-        match BoxIndex::new(&boxes).closest(&charts, search_budget(edges.len()), distance) {
-            (gap, Visit::Complete) => gap,
-            (_, Visit::Truncated) => 0.0,
-        }
+/// Returns the smallest distance between edges of two charts; infinite for a single chart, and 0 if the search was truncated.
+fn smallest_gap(edges: &[Segment], charts: &[u32]) -> f64 {
+    let boxes: Vec<Bounds> = edges.iter().map(|edge| bounds_of(edge)).collect();
+    let distance = |i: u32, j: u32| segment_distance(edges[i as usize], edges[j as usize]);
+    match BoxIndex::new(&boxes).closest(charts, search_budget(edges.len()), distance) {
+        (gap, Visit::Complete) => gap,
+        (_, Visit::Truncated) => 0.0,
     }
 }

@@ -9,7 +9,7 @@ use super::effort::OnRead;
 use super::mask::{Distances, Mask, Rounding, Turned};
 use super::occupancy::{Corner, Occupancy, Spot, Window};
 use super::outline::Outline;
-use super::page::{Form, Texture};
+use super::page::{Form, Region, Texture};
 use super::plan::{HOPE, Near, Plan, QuarterTurns};
 use super::problem::{AtlasOptions, Scale};
 use unwrapd_method::solver::Control;
@@ -96,6 +96,7 @@ pub(super) fn layout(
         border,
         on_read,
         taken: None,
+        regions: &[],
         is_alike: false,
         extent: match options.scale {
             Scale::Largest => Extent::Growing,
@@ -323,6 +324,8 @@ pub(super) struct Packing<'a> {
     pub is_alike: bool,
     /// Extent of the used part of pages at the start.
     pub extent: Extent,
+    /// Region of each chart; empty if no chart has one.
+    pub regions: &'a [Option<Region>],
     /// Pages on which cells are occupied before the first chart is placed.
     pub taken: Option<&'a Occupancy>,
     pub on_read: &'a OnRead<'a>,
@@ -400,15 +403,17 @@ impl Packing<'_> {
                 let [w, h] = turned[0].size;
                 let row = lowest.entry([w.min(h), w.max(h)].map(rough)).or_default();
                 let before = occupancy.work;
-                let spot = match &self.plan.near {
-                    Some(near) => find_near(near, i, &mut occupancy, &turned, target),
-                    None => occupancy.find(&turned, Window::from(Corner { x: 0, ..*row })),
+                let region = self.regions.get(i).copied().flatten();
+                let spot = match (&self.plan.near, region) {
+                    (_, Some(region)) => occupancy.find(&turned, self.window(region)),
+                    (Some(near), None) => find_near(near, i, &mut occupancy, &turned, target),
+                    (None, None) => occupancy.find(&turned, Window::from(Corner { x: 0, ..*row })),
                 };
                 read += occupancy.work - before;
                 *work += read;
                 (self.on_read)(read);
                 let (mask, spot) = spot.ok_or(placed / area)?;
-                if is_full {
+                if is_full && region.is_none() {
                     *row = spot.corner;
                 }
                 occupancy.take(&turned[mask], spot.corner);
@@ -421,6 +426,24 @@ impl Packing<'_> {
             side: occupancy.side,
             rows: occupancy.tops.iter().sum(),
         })
+    }
+
+    /// Returns the cells of a region, with the border kept to its sides.
+    fn window(&self, region: Region) -> Window {
+        let frame = self.texture.frame(region);
+        let cells = f64::from(self.cells);
+        let left = [frame.left * cells, 0.0];
+        let [low, high] = frame.bounds(cells - 2.0 * self.border, 2.0 * self.border);
+        let [x, y] = [0, 1].map(|k| (low[k] - left[k]).ceil() as u32);
+        let page = frame.page;
+        Window {
+            far: [0, 1].map(|k| (high[k] - left[k]).max(0.0) as u32),
+            highest: Corner {
+                page,
+                ..Window::ALL.highest
+            },
+            ..Window::from(Corner { page, x, y })
+        }
     }
 
     /// Returns the turned masks of a chart and its stretch; `None` if it is longer than a page.
@@ -498,8 +521,8 @@ fn find_near(
     let (page, lowest) = near.corners[chart];
     let corner = |[x, y]: [u32; 2]| Corner { page, x, y };
     let window = Window {
-        lowest: corner(lowest.map(cells)),
         highest: corner(lowest.map(|share| cells(share + near.window))),
+        ..Window::from(corner(lowest.map(cells)))
     };
     let found = occupancy.find(turned, window);
     found.or_else(|| occupancy.find(turned, Window::from(window.lowest)))

@@ -27,6 +27,7 @@ mod enough;
 mod gap;
 mod grid;
 mod layout;
+mod live;
 mod mask;
 mod occupancy;
 mod outline;
@@ -36,12 +37,17 @@ mod plan;
 mod problem;
 mod relax;
 mod squeeze;
+mod stay;
 
-pub use around::{AroundError, Stay, pack_around};
+pub use around::pack_around;
 pub use coarse::CoarseLayout;
 pub use effort::{Effort, OnRead};
 pub use enough::{Enough, enough};
+pub use live::{Followers, LiveLayout};
 pub use pack::{expected_words, fits, pack, pack_coarse};
-pub use page::{GRID_BITS, Texture};
-pub use problem::{Atlas, AtlasError, AtlasOptions, Borders, ChartMap, Placed, Rotation, Scale};
+pub use page::{GRID_BITS, Region, Texture};
+pub use problem::{
+    AroundError, Atlas, AtlasError, AtlasOptions, Borders, ChartMap, Constraints, Placed, Rotation,
+    Scale, Stay,
+};
 pub use relax::cleared;

@@ -101,12 +101,17 @@ impl Occupancy {
         &mut self,
         page: u32,
         turned: &[Turned],
-        Window { lowest, highest }: Window,
+        Window {
+            lowest,
+            highest,
+            far,
+        }: Window,
         best: &mut Option<(u32, (usize, Spot))>,
     ) {
         let lowest_height = turned.iter().map(|mask| mask.size[1]).min().unwrap_or(0);
+        let within = |reach: [u32; 2]| [0, 1].map(|k| reach[k].min(far[k]));
         let limit = best.map_or(self.capacity, |(side, _)| side - 1);
-        let [mut right, mut top] = self.form.reach(limit);
+        let [mut right, mut top] = within(self.form.reach(limit));
         let mut y = lowest.y;
         while y <= highest.y && y + lowest_height <= top {
             for (index, mask) in turned.iter().enumerate() {
@@ -123,7 +128,7 @@ impl Occupancy {
                     if side == self.side {
                         return;
                     }
-                    [right, top] = self.form.reach(side - 1);
+                    [right, top] = within(self.form.reach(side - 1));
                 }
             }
             y += 1;
@@ -330,6 +335,21 @@ pub(super) struct Spot {
 }
 
 impl Spot {
+    /// Returns the center of a chart whose rectangle, before it is turned, begins at the lower left corner of the body and has this
+    /// extent, in cells.
+    pub(super) fn middle(&self, extent: [f64; 2]) -> [f64; 2] {
+        let Corner { x, y, .. } = self.corner;
+        let [i, j] = extent.map(|x| x / 2.0);
+        let [width, height] = [self.width, self.height].map(f64::from);
+        let [i, j] = match self.turns {
+            0 => [i, j],
+            1 => [height - j, i],
+            2 => [width - i, height - j],
+            _ => [j, width - i],
+        };
+        [f64::from(x) + i, f64::from(y) + j]
+    }
+
     pub(super) fn new(mask: &Turned, corner: Corner) -> Self {
         let [width, height] = mask.size;
         let is_upright = mask.turns.is_multiple_of(2);
@@ -353,6 +373,8 @@ impl Spot {
 pub(super) struct Window {
     pub lowest: Corner,
     pub highest: Corner,
+    /// Columns and rows that masks must not reach.
+    pub far: [u32; 2],
 }
 
 impl Window {
@@ -372,6 +394,7 @@ impl Window {
                 x: u32::MAX - 1,
                 y: u32::MAX - 1,
             },
+            far: [u32::MAX; 2],
         }
     }
 }

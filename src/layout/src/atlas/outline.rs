@@ -85,6 +85,11 @@ impl Outline {
         }
     }
 
+    /// Returns the outline with its origin moved, in placed coordinates.
+    pub(super) fn with_origin(&self, origin: [f64; 2]) -> Self {
+        self.with_corner([0, 1].map(|k| self.low[k] + origin[k]))
+    }
+
     /// Limits the rotations, which are relative to the map.
     pub(super) fn limited_to(self, permitted: Rotation) -> Self {
         Self { permitted, ..self }

@@ -1,5 +1,6 @@
 //! Pages of a texture: their number and shape, in texels, cells and grid units.
 use unwrapd_maps::mesh::Resolution;
+use unwrapd_method::numerics::bounds::Bounds;
 
 /// Bits of the side of a page. Atlas coordinates are integers up to 2^GRID_BITS, the steps of `f32` in the unit square.
 pub const GRID_BITS: u32 = 23;
@@ -55,11 +56,16 @@ impl Texture {
         [u + finer, v + finer]
     }
 
-    /// Returns the shape of the part of a page that charts may use, with half of `padding` kept to its borders.
-    pub(super) fn shape(self, padding: f64) -> PageShape {
-        PageShape {
-            halvings: self.resolution.halvings(),
-            padding,
+    /// Returns the frame of a region.
+    pub(super) fn frame(self, region: Region) -> Frame {
+        let sides = self.resolution.sides();
+        let scaled = |end: [f64; 2]| [end[0] * sides[0], end[1] * sides[1]];
+        let page = region.low[0].floor();
+        Frame {
+            page: page as u32,
+            left: page * sides[0],
+            low: scaled(region.low),
+            high: scaled(region.high),
         }
     }
 
@@ -76,7 +82,7 @@ impl Texture {
     }
 }
 
-/// PageShape of the used part of each page, in cells.
+/// Shape of the used part of each page, in cells.
 ///
 /// All pages grow together and keep their shape. One number tells how far they are used: the longer side without its borders.
 #[derive(Clone, Copy, Debug)]
@@ -127,37 +133,67 @@ impl Form {
     }
 }
 
-/// PageShape of the part of a page that charts may use, in fractions of cells.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct PageShape {
-    /// Number of times that the longer side is halved to give the sides along u and v.
-    halvings: [u32; 2],
-    /// Distance kept between charts, and to two opposite borders together, in cells.
-    padding: f64,
+/// Rectangle of the atlas that a chart must not leave, in units of u and v: page k covers u from k to k + 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Region {
+    /// Lower left corner.
+    pub low: [f64; 2],
+    /// Upper right corner.
+    pub high: [f64; 2],
 }
 
-impl PageShape {
-    /// Returns the distances to which charts may extend to the right and up on a page whose longer side, without borders, is
-    /// `side`.
-    pub(super) fn reach(self, side: f64) -> [f64; 2] {
-        self.halvings
-            .map(|times| (side + self.padding) / f64::from(1_u32 << times) - self.padding)
-    }
-
-    /// Returns the longer side, without borders, of the smallest page on which charts may extend to `reach`, to the right and up.
-    pub(super) fn side(self, reach: [f64; 2]) -> f64 {
-        let of = |axis: usize| {
-            (reach[axis] + self.padding) * f64::from(1_u32 << self.halvings[axis]) - self.padding
-        };
-        of(0).max(of(1))
-    }
-
-    /// Returns the shape on a raster that is `by` times as fine.
-    pub(super) fn scaled(self, by: f64) -> Self {
+impl Region {
+    /// Returns the region that covers a page.
+    pub fn page(page: u32) -> Self {
+        let left = f64::from(page);
         Self {
-            padding: by * self.padding,
-            ..self
+            low: [left, 0.0],
+            high: [left + 1.0, 1.0],
         }
+    }
+
+    /// Returns the page that contains the region; `None` if it leaves its page or is empty.
+    pub(super) fn on_page(self, pages: u32) -> Option<u32> {
+        let page = self.low[0].floor();
+        let is_inside = page >= 0.0
+            && page < f64::from(pages)
+            && self.high[0] <= page + 1.0
+            && self.low[1] >= 0.0
+            && self.high[1] <= 1.0
+            && (0..2).all(|k| self.low[k] < self.high[k]);
+        is_inside.then_some(page as u32)
+    }
+}
+
+/// Region that a chart must not leave, in longer sides of a page.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    /// Page that contains the region.
+    pub page: u32,
+    /// Longer sides of a page from the first page to this one.
+    pub left: f64,
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+impl Frame {
+    /// Returns the bounds of a chart in cells, on pages whose longer side is `side` without borders. Half of `padding` is kept to each
+    /// side of the region. The origin is the lower left corner of the first page without borders.
+    pub(super) fn bounds(self, side: f64, padding: f64) -> Bounds {
+        let cells = side + padding;
+        let end = |end: [f64; 2], inset: f64| end.map(|x| x * cells - inset);
+        [end(self.low, 0.0), end(self.high, padding)]
+    }
+
+    /// Returns the area, in squares on the longer side of a page.
+    pub(super) fn area(self) -> f64 {
+        (self.high[0] - self.low[0]) * (self.high[1] - self.low[1])
+    }
+
+    /// Returns the smallest longer side without borders of pages on which charts may extend to `reach`, to the right and up.
+    pub(super) fn side(self, reach: [f64; 2], padding: f64) -> f64 {
+        let of = |axis: usize| (reach[axis] + padding) / self.high[axis] - padding;
+        of(0).max(of(1))
     }
 }
 

@@ -2,7 +2,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::page::Texture;
+use super::page::{Region, Texture};
 
 /// Number of texels by which alignment may bring two charts nearer: each point moves by at most one texel along each axis.
 const ROOM_TEXELS: u32 = 3;
@@ -88,6 +88,11 @@ impl Default for AtlasOptions {
 }
 
 impl AtlasOptions {
+    /// Returns the padding that charts are packed with, in longer sides of a page.
+    pub(super) fn padding_share(&self) -> f64 {
+        f64::from(self.packed_texels()) / f64::from(self.texture.resolution.longer())
+    }
+
     /// Returns the padding that charts are packed with, in texels.
     pub(super) fn packed_texels(&self) -> u32 {
         match self.borders {
@@ -95,6 +100,28 @@ impl AtlasOptions {
             Borders::OnTexels => self.padding_texels + ROOM_TEXELS,
         }
     }
+}
+
+/// Constraints on the positions of charts.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Constraints<'a> {
+    /// Group of each chart, any number. Charts of one group keep their positions relative to each other: the group is turned and shifted
+    /// as one. Empty if each chart is on its own.
+    pub groups: &'a [usize],
+    /// Region that each chart must not leave, or `None` for any page; empty if no chart has a region. A group has the region of its
+    /// first chart. Half of the padding is kept to the sides of a region.
+    pub regions: &'a [Option<Region>],
+    /// Charts that stay where they are.
+    pub stays: &'a [Stay<'a>],
+}
+
+/// Chart that stays where it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Stay<'a> {
+    /// Map of the chart. Its unit is the longer side of a page, its origin the lower left corner of the first page.
+    pub map: ChartMap<'a>,
+    /// Island that the chart belongs to. Charts of one island keep no distance from each other.
+    pub island: usize,
 }
 
 /// Chart in the atlas.
@@ -148,4 +175,35 @@ pub enum AtlasError {
     /// The charts do not fit at the prescribed scale.
     #[error("the charts do not fit at this scale")]
     TextureTooSmall,
+}
+
+/// Error of charts that cannot be packed within constraints.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum AroundError {
+    /// A chart that stays extends beyond the page that holds its middle, or lies on no page.
+    #[error("island {island} leaves its page")]
+    OffPage {
+        /// Island of the chart.
+        island: usize,
+    },
+    /// Two charts that stay are nearer than the padding, or overlap.
+    #[error("islands {} and {} are {texels} texels apart", islands[0], islands[1])]
+    TooNear {
+        /// Islands of the charts.
+        islands: [usize; 2],
+        /// Their distance; 0 if they overlap.
+        texels: f64,
+    },
+    /// A region is empty or does not lie on one page.
+    #[error("the region of chart {chart} does not lie on one page")]
+    Region {
+        /// Index of the chart.
+        chart: usize,
+    },
+    /// The other charts do not fit.
+    #[error("the other charts do not fit")]
+    NoRoom,
+    /// The charts cannot be placed on any page.
+    #[error(transparent)]
+    Atlas(#[from] AtlasError),
 }

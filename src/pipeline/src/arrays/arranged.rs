@@ -9,7 +9,9 @@ use super::settings::Settings;
 use super::soup::Soup;
 use crate::PipelineError;
 use crate::island_error::IslandError;
-use unwrapd_layout::atlas::{AroundError, Atlas, OnRead, Stay, pack_around};
+use unwrapd_layout::atlas::{
+    AroundError, Atlas, AtlasOptions, Constraints, OnRead, Rotation, Stay, pack_around,
+};
 use unwrapd_layout::charts::MappedChart;
 use unwrapd_maps::mesh::{CornerUvs, Resolution};
 use unwrapd_method::numerics::bounds::bounds_of;
@@ -48,7 +50,19 @@ pub fn arranged(
     let stays = chart_maps(staying).into_iter().zip(owners);
     let stays: Vec<Stay> = (stays.map(|(map, island)| Stay { map, island })).collect();
     let options = atlas_options((settings, plan), n_atlases, free);
-    let atlas = pack_around(&chart_maps(free), &stays, &options, on_read);
+    // Other islands keep their angles, up to quarter turns, while one is arranged by hand.
+    let options = AtlasOptions {
+        rotation: match options.rotation {
+            Rotation::Any => Rotation::Quarter,
+            rotation => rotation,
+        },
+        ..options
+    };
+    let constraints = Constraints {
+        stays: &stays,
+        ..Constraints::default()
+    };
+    let atlas = pack_around(&chart_maps(free), &constraints, &options, on_read);
     let number = |island: usize| placements[island].number;
     let atlas = atlas.map_err(|error| match error {
         AroundError::OffPage { island } => IslandError::OffPage(number(island)).into(),
@@ -58,7 +72,7 @@ pub fn arranged(
             padding: options.padding_texels,
         }
         .into(),
-        AroundError::NoRoom => IslandError::NoRoom.into(),
+        AroundError::NoRoom | AroundError::Region { .. } => IslandError::NoRoom.into(),
         AroundError::Atlas(error) => PipelineError::Atlas(error),
     })?;
     Ok((charts, atlas))

@@ -5,12 +5,12 @@ mod search;
 use std::sync::Arc;
 
 use super::effort::OnRead;
-use super::gap::{self, Page};
+use super::gap::{self, Border, Page};
 use super::layout::{Layout, SLIVERS, padding};
 use super::mask::{Distances, Rounding};
 use super::occupancy::{Corner, Occupancy};
 use super::outline::{Outline, outlines};
-use super::page::{Form, Texture};
+use super::page::{Form, Region, Texture};
 use super::plan::{HOPE, Near, Plan, QuarterTurns, alike, by_size, level, mark_copies};
 use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation};
 use super::squeeze::{Pose, Squeezed};
@@ -18,7 +18,7 @@ use arrangement::{Arrangement, Poses};
 
 /// Cells along the side of the square page that the charts are expected to need. With 64, worse cuts are chosen. With 256, a trial
 /// costs four times as much, and less is found in the same time.
-const RASTER: u32 = 96;
+pub(in crate::atlas) const RASTER: u32 = 96;
 /// Value that replaces [`RASTER`] with more than [`FEW`] charts per page, as each of them then has fewer cells.
 const FINE_RASTER: u32 = 256;
 /// Maximum number of charts per page on the raster of [`RASTER`] cells.
@@ -37,7 +37,7 @@ const MOST_SIDES: u32 = 16;
 /// A search keeps dozens of snapshots, at about one to two bytes per cell.
 const MOST_CELLS: u64 = ((RASTER * MOST_SIDES) as u64).pow(2);
 /// Maximum number of charts. With more, the large ones leave enough room for the small ones.
-const MOST_CHARTS: usize = 512;
+pub(in crate::atlas) const MOST_CHARTS: usize = 512;
 
 /// Layout on a coarse raster.
 ///
@@ -102,11 +102,7 @@ impl CoarseLayout {
             return None;
         }
         let texture = options.texture;
-        let side = if plan.order.len() > FEW * texture.pages as usize {
-            FINE_RASTER
-        } else {
-            RASTER
-        };
+        let side = raster_side(plan.order.len(), texture);
         let cells = f64::from(texture.raster(side));
         let raster = CoarseRaster {
             side,
@@ -250,6 +246,15 @@ impl CoarseLayout {
     }
 }
 
+/// Returns the cells along the side of a square page with this many charts.
+pub(super) fn raster_side(n_charts: usize, texture: Texture) -> u32 {
+    if n_charts > FEW * texture.pages as usize {
+        FINE_RASTER
+    } else {
+        RASTER
+    }
+}
+
 /// Returns the longer side of the largest page, in cells; infinite without pages.
 fn squeezed_side(pages: &[Page]) -> f64 {
     let sides = pages.iter().map(|page| page.squeezed.side);
@@ -290,7 +295,7 @@ impl CoarseRaster {
 }
 
 /// Factor by which the raster of the final layout is finer along each side.
-const FINE: f64 = 2.0;
+pub(in crate::atlas) const FINE: f64 = 2.0;
 
 impl CoarseLayout {
     /// Returns the arrangement as poses of charts, for each page that has charts.
@@ -316,15 +321,20 @@ impl CoarseLayout {
         let page = |number: u32| {
             let is_here = |&&chart: &&usize| self.state.corners[chart].page == number;
             let charts: Vec<usize> = self.first.order.iter().filter(is_here).copied().collect();
+            let frame = self.raster.texture.frame(Region::page(0));
             let squeezed = Squeezed {
                 poses: charts.iter().map(pose).collect(),
                 side: f64::from(self.state.side),
-                shape: self.raster.texture.shape(self.raster.padding),
+                padding: self.raster.padding,
+                frames: charts.iter().map(|_| frame).collect(),
+                stays: Arc::default(),
             };
             Page {
                 number,
                 charts,
                 squeezed,
+                border: Border::Cropped,
+                stays: Arc::default(),
             }
         };
         let pages = (0..self.raster.texture.pages).map(page);

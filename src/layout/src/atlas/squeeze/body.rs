@@ -15,6 +15,8 @@ pub(in crate::atlas) struct Pose {
     pub angle: f64,
     /// Cosine and sine of the angle.
     turn: [f64; 2],
+    /// Factor by which the body is enlarged.
+    pub(super) stretch: f64,
 }
 
 impl Pose {
@@ -24,7 +26,13 @@ impl Pose {
             middle,
             angle,
             turn: [cos, sin],
+            stretch: 1.0,
         }
+    }
+
+    /// Returns the pose with the body enlarged about its middle.
+    pub(super) fn stretched(self, stretch: f64) -> Self {
+        Self { stretch, ..self }
     }
 
     /// Returns the pose shifted by `by` and turned further by `angle`.
@@ -34,7 +42,7 @@ impl Pose {
 
     /// Maps a point from the frame of the body to the page.
     pub(super) fn place(&self, p: [f64; 2]) -> [f64; 2] {
-        let [x, y] = self.turned(p);
+        let [x, y] = self.turned(p.map(|x| x * self.stretch));
         [self.middle[0] + x, self.middle[1] + y]
     }
 
@@ -45,8 +53,8 @@ impl Pose {
     }
 
     /// Maps a point from the page to the frame of the body.
-    pub(super) fn back(&self, p: [f64; 2]) -> [f64; 2] {
-        let [c, s] = self.turn;
+    fn back(&self, p: [f64; 2]) -> [f64; 2] {
+        let [c, s] = self.turn.map(|x| x / self.stretch);
         let [x, y] = [p[0] - self.middle[0], p[1] - self.middle[1]];
         [c * x + s * y, c * y - s * x]
     }
@@ -54,7 +62,7 @@ impl Pose {
 
 /// Chart in a frame whose origin is the middle of its rectangle, in cells.
 pub(in crate::atlas) struct Body {
-    pub(super) field: Field,
+    field: Field,
     pub(super) samples: Vec<Samples>,
     /// Distance that it keeps from other charts, in cells.
     pub(super) kept: f64,
@@ -88,9 +96,25 @@ impl Body {
         }
     }
 
+    /// Returns the signed distance of a point of the page to the region that the body keeps free at a pose, and its gradient.
+    pub(super) fn distance(&self, pose: &Pose, point: [f64; 2]) -> (f64, [f64; 2]) {
+        let (distance, gradient) = self.field.at(pose.back(point));
+        (self.stretched(distance, pose), pose.turned(gradient))
+    }
+
+    /// Returns a lower bound of this distance. This is cheaper than the distance.
+    pub(super) fn least_distance(&self, pose: &Pose, point: [f64; 2]) -> f64 {
+        self.stretched(self.field.at_least(pose.back(point)), pose)
+    }
+
+    /// Returns a distance from the region around the enlarged body. The distance that it keeps is not enlarged.
+    fn stretched(&self, distance: f64, pose: &Pose) -> f64 {
+        (distance + self.kept) * pose.stretch - self.kept
+    }
+
     /// Returns the bounds, at a pose, of the body's rectangle.
     pub(super) fn bounds(&self, pose: &Pose) -> [[f64; 2]; 2] {
-        let [c, s] = pose.turn.map(f64::abs);
+        let [c, s] = pose.turn.map(|x| x.abs() * pose.stretch);
         let [w, h] = self.half;
         let half = [c * w + s * h, s * w + c * h];
         [[-1.0; 2], [1.0; 2]].map(|sign| [0, 1].map(|k| pose.middle[k] + sign[k] * half[k]))

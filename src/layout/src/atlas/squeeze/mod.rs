@@ -14,10 +14,12 @@ mod overlap;
 
 use std::sync::Arc;
 
-use super::effort::{OnRead, ReadLimit};
-use super::page::PageShape;
+use super::effort::{OnRead, ReadLimit, UNHEARD};
+use super::outline::Outline;
+use super::page::Frame;
 pub(super) use body::{Body, Pose};
 use overlap::{Equations, Scene};
+use unwrapd_method::numerics::bounds::Bounds;
 
 /// Share by which the side of the page shrinks at a time: at first, and at last, when shrinking ends.
 const SHRINKS: [f64; 2] = [0.01, 4e-4];
@@ -28,13 +30,59 @@ const GROWTHS: [f64; 2] = [0.01, 1e-3];
 /// Maximum number of times that the page grows.
 const MOST_GROWTHS: usize = 16;
 
-/// Poses of charts on a page.
+/// Poses of charts on a page, or on several pages with islands that stay.
 #[derive(Clone)]
 pub(super) struct Squeezed {
     pub poses: Vec<Pose>,
     /// Longer side of the page, without borders, in cells.
     pub side: f64,
-    pub shape: PageShape,
+    /// Distance kept between charts, and to two opposite borders together, in cells.
+    pub padding: f64,
+    /// Frame of each chart.
+    pub frames: Arc<[Frame]>,
+    pub stays: Arc<[Stays]>,
+}
+
+/// Island that stays where it is on the page, and grows with it.
+#[derive(Clone)]
+pub(in crate::atlas) struct Stays {
+    body: Arc<Body>,
+    /// Center of its bounding rectangle, in longer sides of a page with its borders.
+    middle: [f64; 2],
+    /// Angle by which it is turned, in radians.
+    angle: f64,
+    /// Longer side of a page with its borders for which the body was made, in cells.
+    page: f64,
+}
+
+impl Stays {
+    /// Creates an island from its outline in longer sides of a page, which has `page` cells along that side with its borders. Other
+    /// charts keep `kept` cells away.
+    pub(super) fn new(outline: &Outline, page: f64, kept: f64) -> Self {
+        let upright = outline.turned([1.0, 0.0]);
+        Self {
+            body: Arc::new(Body::new(&upright, page, kept)),
+            middle: upright.middle(),
+            angle: 0.0,
+            page,
+        }
+    }
+
+    /// Returns the island at another center and angle.
+    pub(super) fn moved(&self, middle: [f64; 2], angle: f64) -> Self {
+        Self {
+            middle,
+            angle,
+            ..self.clone()
+        }
+    }
+
+    /// Returns the pose on a page with `side` cells along its longer side without borders.
+    fn pose(&self, side: f64, padding: f64) -> Pose {
+        let page = side + padding;
+        let middle = self.middle.map(|x| x * page - padding / 2.0);
+        Pose::new(middle, self.angle).stretched(page / self.page)
+    }
 }
 
 impl Squeezed {
@@ -42,7 +90,7 @@ impl Squeezed {
     /// where they are. Stops shrinking once about `words` words are read. Returns whether no overlap remains.
     pub(super) fn settle(&mut self, bodies: &[Arc<Body>], words: u64, on_read: &OnRead) -> bool {
         let limit = ReadLimit::new(words, on_read);
-        let mut scene = Scene::new(bodies, self.reach(), 0.0, limit);
+        let mut scene = Scene::new(bodies, self, 0.0, limit);
         let is_apart = self.grow(&mut scene, GROWTHS[0]);
         if is_apart {
             self.shrink(&mut scene, SHRINKS[0]);
@@ -50,9 +98,12 @@ impl Squeezed {
         is_apart
     }
 
-    /// Returns the distances to which charts may extend to the right and up, in cells.
-    fn reach(&self) -> [f64; 2] {
-        self.shape.reach(self.side)
+    /// Returns the bounds of each chart, in cells.
+    pub(super) fn bounds(&self) -> Vec<Bounds> {
+        let frames = self.frames.iter();
+        frames
+            .map(|frame| frame.bounds(self.side, self.padding))
+            .collect()
     }
 
     /// Separates charts, growing the page by the share `by` whenever that fails. Returns whether they are apart.
@@ -62,7 +113,7 @@ impl Squeezed {
                 return true;
             }
             self.scale(1.0 + by);
-            scene.reach = self.reach();
+            scene.resize(self);
         }
         false
     }
@@ -76,10 +127,24 @@ impl Squeezed {
         (words, on_read): (u64, &OnRead),
     ) -> bool {
         let limit = ReadLimit::new(words, on_read);
-        let mut scene = Scene::new(bodies, self.reach(), room, limit);
+        let mut scene = Scene::new(bodies, self, room, limit);
         let is_apart = self.grow(&mut scene, GROWTHS[1]);
         if is_apart {
             self.shrink(&mut scene, LEAP);
+        }
+        is_apart
+    }
+
+    /// Separates charts after an island has moved, growing the page if needed, then shrinks it to `side` as far as they make room. Returns
+    /// whether no overlap remains.
+    pub(super) fn follow(&mut self, bodies: &[Arc<Body>], side: f64) -> bool {
+        let limit = ReadLimit::new(u64::MAX, UNHEARD);
+        let mut scene = Scene::new(bodies, self, 0.0, limit);
+        scene.most_steps = STEPS_PER_MOVE;
+        let is_apart = self.grow(&mut scene, GROWTHS[0]);
+        let by = LEAP.min(1.0 - side / self.side);
+        if is_apart && by > 0.0 {
+            self.shrink_once(&mut scene, by);
         }
         is_apart
     }
@@ -88,7 +153,7 @@ impl Squeezed {
     pub(super) fn refined(&self, by: f64) -> Self {
         let mut refined = self.clone();
         refined.scale(by);
-        refined.shape = self.shape.scaled(by);
+        refined.padding = by * self.padding;
         refined
     }
 
@@ -111,27 +176,47 @@ impl Squeezed {
     fn shrink(&mut self, scene: &mut Scene, first: f64) {
         let mut by = first;
         while by > SHRINKS[1] && scene.may_read() {
-            let mut trial = self.clone();
-            trial.scale(1.0 - by);
-            scene.reach = trial.reach();
-            if scene.separate(&mut trial.poses) {
-                *self = trial;
-            } else {
+            if !self.shrink_once(scene, by) {
                 by /= 2.0;
             }
         }
     }
+
+    /// Shrinks the page by a share if the charts can then be separated where they are. Returns whether they can.
+    fn shrink_once(&mut self, scene: &mut Scene, by: f64) -> bool {
+        let mut trial = self.clone();
+        trial.scale(1.0 - by);
+        scene.resize(&trial);
+        let is_apart = scene.separate(&mut trial.poses);
+        if is_apart {
+            *self = trial;
+        }
+        is_apart
+    }
 }
 
 impl<'a> Scene<'a> {
-    fn new(bodies: &'a [Arc<Body>], reach: [f64; 2], room: f64, limit: ReadLimit<'a>) -> Self {
-        Self {
-            bodies,
-            reach,
+    fn new(bodies: &[Arc<Body>], squeezed: &Squeezed, room: f64, limit: ReadLimit<'a>) -> Self {
+        let stays = squeezed.stays.iter().map(|stays| &stays.body);
+        let mut scene = Self {
+            bodies: bodies.iter().chain(stays).cloned().collect(),
+            bounds: Vec::new(),
+            stays: Vec::new(),
             room,
+            most_steps: STEPS,
             work: 0,
             limit,
-        }
+        };
+        scene.resize(squeezed);
+        scene
+    }
+
+    /// Updates everything that grows with the page.
+    fn resize(&mut self, squeezed: &Squeezed) {
+        let Squeezed { side, padding, .. } = *squeezed;
+        let stays = squeezed.stays.iter();
+        self.bounds = squeezed.bounds();
+        self.stays = stays.map(|stays| stays.pose(side, padding)).collect();
     }
 
     /// Returns whether the search may go on.
@@ -147,6 +232,8 @@ impl<'a> Scene<'a> {
 
 /// Maximum number of steps that separate bodies.
 const STEPS: usize = 50;
+/// Value that replaces [`STEPS`] while an island is dragged: with few charts in the way, a few steps are enough.
+const STEPS_PER_MOVE: usize = 10;
 /// Initial damping of Levenberg's method.
 const DAMPING: f64 = 1e-2;
 /// Factors of the damping after a step that is accepted and after one that is rejected.
@@ -174,7 +261,7 @@ impl Scene<'_> {
         let mut now = Equations::new(self, poses);
         let mut damping = DAMPING;
         let mut slow = 0;
-        for _ in 0..STEPS {
+        for _ in 0..self.most_steps {
             let is_over = now.deepest < TOLERANCE || slow == MOST_SLOW || damping > MOST_DAMPING;
             if is_over || self.is_ended() {
                 break;

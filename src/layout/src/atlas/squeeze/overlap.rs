@@ -4,7 +4,7 @@ use std::sync::Arc;
 use super::body::{Body, Pose, SAMPLES};
 use crate::atlas::effort::ReadLimit;
 use crate::atlas::problem::Rotation;
-use unwrapd_method::numerics::bounds::{touch, widened};
+use unwrapd_method::numerics::bounds::{Bounds, touch, widened};
 use unwrapd_method::numerics::cholesky::SymmetricPattern;
 use unwrapd_method::numerics::conjugate_gradients::ConjugateGradients;
 
@@ -22,11 +22,16 @@ pub(super) struct Contact {
 
 /// Page and the bodies that should lie on it.
 pub(super) struct Scene<'a> {
-    pub bodies: &'a [Arc<Body>],
-    /// Distances to which bodies may extend to the right and up, in cells.
-    pub reach: [f64; 2],
+    /// Bodies that move, then those that stay.
+    pub bodies: Vec<Arc<Body>>,
+    /// Bounds of each body that moves, in cells.
+    pub bounds: Vec<Bounds>,
+    /// Poses of the bodies that stay.
+    pub stays: Vec<Pose>,
     /// Distance kept between bodies beyond the one that each keeps, in cells.
     pub room: f64,
+    /// Maximum number of steps that separate bodies.
+    pub most_steps: usize,
     /// Cost of the search so far, in words.
     pub work: u64,
     /// Limit of this cost.
@@ -41,25 +46,23 @@ impl Scene<'_> {
         poses: [&Pose; 2],
         mut visit: impl FnMut(Contact),
     ) {
-        let (body, other) = (&self.bodies[a], &self.bodies[b]);
+        let [body, other] = [a, b].map(|body| &self.bodies[body]);
         let room = self.room;
         let mut lookups = 0;
         for samples in &body.samples {
             lookups += 1;
-            let center = poses[1].back(poses[0].place(samples.center));
-            if other.field.at_least(center) > samples.radius + room {
+            let center = poses[0].place(samples.center);
+            let radius = poses[0].stretch * samples.radius;
+            if other.least_distance(poses[1], center) > radius + room {
                 continue;
             }
             lookups += SAMPLES as u64;
             for &p in &samples.points {
                 let point = poses[0].place(p);
-                let (distance, gradient) = other.field.at(poses[1].back(point));
+                let (distance, out) = other.distance(poses[1], point);
                 if distance < room {
-                    visit(Contact {
-                        point,
-                        depth: room - distance,
-                        out: poses[1].turned(gradient),
-                    });
+                    let depth = room - distance;
+                    visit(Contact { point, depth, out });
                 }
             }
         }
@@ -73,9 +76,9 @@ impl Scene<'_> {
         pose: &Pose,
         mut visit: impl FnMut(Contact),
     ) {
-        let reach = self.reach;
+        let [low, high] = self.bounds[a];
         let is_within =
-            |p: [f64; 2], by: f64| (0..2).all(|k| p[k] - by >= 0.0 && p[k] + by <= reach[k]);
+            |p: [f64; 2], by: f64| (0..2).all(|k| p[k] - by >= low[k] && p[k] + by <= high[k]);
         let body = &self.bodies[a];
         let bounds = body.bounds(pose);
         if bounds.iter().all(|&corner| is_within(corner, 0.0)) {
@@ -88,7 +91,7 @@ impl Scene<'_> {
             }
             for point in samples.points.map(|p| pose.place(p)) {
                 for k in 0..2 {
-                    for (depth, sign) in [(-point[k], 1.0), (point[k] - reach[k], -1.0)] {
+                    for (depth, sign) in [(low[k] - point[k], 1.0), (point[k] - high[k], -1.0)] {
                         if depth > 0.0 {
                             let mut out = [0.0; 2];
                             out[k] = sign;
@@ -136,10 +139,10 @@ fn row(body: &Body, pose: &Pose, contact: &Contact) -> Row {
 }
 
 impl Equations {
-    /// Computes the equations of all bodies in a scene.
+    /// Computes the equations of all bodies that move in a scene.
     pub(super) fn new(scene: &mut Scene, poses: &[Pose]) -> Self {
         let n = poses.len();
-        let bodies = scene.bodies;
+        let all: Vec<Pose> = poses.iter().chain(&scene.stays).copied().collect();
         let mut equations = Self {
             energy: 0.0,
             deepest: 0.0,
@@ -147,19 +150,18 @@ impl Equations {
             of_pair: Vec::new(),
             right: vec![[0.0; DOF]; n],
         };
-        let bounds = bodies
-            .iter()
-            .zip(poses)
-            .map(|(body, pose)| body.bounds(pose));
-        let bounds: Vec<_> = bounds.collect();
+        let posed = scene.bodies.iter().zip(&all);
+        let bounds: Vec<Bounds> = posed.map(|(body, pose)| body.bounds(pose)).collect();
         for a in 0..n {
-            scene.contacts_of_border(a, &poses[a], |contact| {
-                equations.add(a, contact.depth, row(&bodies[a], &poses[a], &contact));
+            let body = scene.bodies[a].clone();
+            scene.contacts_of_border(a, &all[a], |contact| {
+                equations.measure(contact.depth);
+                equations.add(a, contact.depth, row(&body, &all[a], &contact));
             });
-            for b in a + 1..n {
-                let apart = bodies[a].kept.max(bodies[b].kept) + scene.room;
+            for b in a + 1..all.len() {
+                let apart = body.kept.max(scene.bodies[b].kept) + scene.room;
                 if touch(&widened(bounds[a], apart), &bounds[b]) {
-                    equations.touch([a, b], scene, poses);
+                    equations.touch([a, b], scene, &all);
                 }
             }
         }
@@ -168,34 +170,38 @@ impl Equations {
 
     /// Adds the contacts of two bodies.
     fn touch(&mut self, [a, b]: [usize; 2], scene: &mut Scene, poses: &[Pose]) {
-        let bodies = scene.bodies;
+        let bodies = [a, b].map(|body| scene.bodies[body].clone());
         let mut do_touch = false;
         let mut block = [[0.0; DOF]; DOF];
         for [p, q] in [[a, b], [b, a]] {
             scene.contacts([p, q], [&poses[p], &poses[q]], |contact| {
-                let of_p = row(&bodies[p], &poses[p], &contact);
-                let of_q = row(&bodies[q], &poses[q], &contact).map(|x| -x);
-                self.add(p, contact.depth, of_p);
-                self.add_to_diagonal(q, contact.depth, of_q);
-                let [of_a, of_b] = if p == a { [of_p, of_q] } else { [of_q, of_p] };
+                // The point of one body moves out of the other.
+                let sign = if p == a { 1.0 } else { -1.0 };
+                let of_a = row(&bodies[0], &poses[a], &contact).map(|x| sign * x);
+                let of_b = row(&bodies[1], &poses[b], &contact).map(|x| -sign * x);
+                self.measure(contact.depth);
+                self.add(a, contact.depth, of_a);
+                self.add(b, contact.depth, of_b);
                 add_product(&mut block, of_b, of_a);
                 do_touch = true;
             });
         }
-        if do_touch {
+        if do_touch && b < self.of_body.len() {
             self.of_pair.push(([a, b], block));
         }
     }
 
-    /// Adds a contact, as far as it concerns the body whose point it is.
-    fn add(&mut self, body: usize, depth: f64, row: Row) {
+    fn measure(&mut self, depth: f64) {
         self.energy += depth * depth;
         self.deepest = self.deepest.max(depth);
-        self.add_to_diagonal(body, depth, row);
     }
 
-    fn add_to_diagonal(&mut self, body: usize, depth: f64, row: Row) {
-        add_product(&mut self.of_body[body], row, row);
+    /// Adds the row of a contact for a body, unless the body stays.
+    fn add(&mut self, body: usize, depth: f64, row: Row) {
+        let Some(of_body) = self.of_body.get_mut(body) else {
+            return;
+        };
+        add_product(of_body, row, row);
         for (right, x) in self.right[body].iter_mut().zip(row) {
             *right += depth * x;
         }

@@ -1,0 +1,168 @@
+//! Charts that stay where they are.
+use super::grid::{Repair, Snapped, snapped};
+use super::mask::{Distances, Mask, Rounding, Run};
+use super::outline::{Outline, outlines};
+use super::page::Texture;
+use super::problem::{AroundError, ChartMap, Placed, Stay};
+use unwrapd_maps::plane::{BoxIndex, search_budget, segment_distance};
+use unwrapd_method::numerics::bounds::{Bounds, bounds_of, touch, widened};
+
+/// Distance to which a chart may extend beyond its page, in units of u and v: less than half a step of the grid, so that rounding
+/// brings it back.
+const BEYOND: f64 = 1.0 / 33_554_432.0;
+/// Tolerance of distances for rounding, in longer sides of a page.
+const ROUNDED: f64 = 1e-9;
+
+/// Outline that other charts keep clear of.
+pub(super) struct Obstacle {
+    pub page: u32,
+    /// Outline in longer sides of a page, from the lower left corner of the first one.
+    pub outline: Outline,
+    /// Distance by which its vertices may be moved, in longer sides of a page.
+    pub slack: f64,
+}
+
+impl Obstacle {
+    /// Returns the cells that the outline touches on its page, and the position of the lower left one, counted from the inner corner of
+    /// borders that are `border` cells wide.
+    pub(super) fn body(&self, texture: Texture, cells: u32, border: f64) -> (Vec<Run>, [i64; 2]) {
+        let cells = f64::from(cells);
+        let around = self.slack * cells;
+        let corners: Vec<[f64; 2]> = self.outline.edges().map(|edge| edge[0]).collect();
+        let [low, _] = bounds_of(&corners);
+        let left = [f64::from(self.page) * texture.resolution.sides()[0], 0.0];
+        let first = |k: usize| ((low[k] - left[k]) * cells - border - around).floor();
+        let first = [0, 1].map(first);
+        let corner = |k: usize| left[k] + (first[k] + border + around) / cells;
+        let outline = self.outline.with_origin([0, 1].map(corner));
+        let distances = Distances {
+            around,
+            padding: 0.0,
+            rounding: Rounding::Outward,
+        };
+        let mask = Mask::new(&outline, cells, distances);
+        (mask.body.runs(), first.map(|x| x as i64))
+    }
+}
+
+/// A chart that stays on its page.
+pub(super) struct Staying {
+    pub obstacle: Obstacle,
+    island: usize,
+    bounds: Bounds,
+    snapped: Snapped,
+}
+
+impl Staying {
+    /// Checks that each chart lies within a page, and rounds it to the grid.
+    pub(super) fn all(stays: &[Stay], texture: Texture) -> Result<Vec<Self>, AroundError> {
+        let maps: Vec<ChartMap> = stays.iter().map(|stay| stay.map).collect();
+        let outlined = outlines(&maps)?.into_iter().zip(stays);
+        let staying = outlined.map(|(outline, stay)| {
+            let corners: Vec<[f64; 2]> = outline.corners().collect();
+            let bounds = bounds_of(&corners);
+            let outline = outline.with_corner([0.0; 2]);
+            let island = stay.island;
+            let page = page(bounds, texture).ok_or(AroundError::OffPage { island })?;
+            let snapped = snapped(&stay.map, &outline, texture.grid_side(), Repair::Open);
+            Ok(Self {
+                obstacle: Obstacle {
+                    page,
+                    slack: (snapped.largest_move + 1.0) / texture.grid_side(),
+                    outline,
+                },
+                island,
+                bounds,
+                snapped,
+            })
+        });
+        staying.collect()
+    }
+
+    /// Returns the chart on the grid.
+    pub(super) fn placed(self, texture: Texture) -> Placed {
+        let on_page = |point| texture.on_page(0, point);
+        Placed {
+            grid: self.snapped.grid.into_iter().map(on_page).collect(),
+        }
+    }
+
+    /// Returns whether the first corner of another chart lies inside.
+    fn covers(&self, other: &Self) -> bool {
+        let Some([x, y]) = other.obstacle.outline.corners().next() else {
+            return false;
+        };
+        let is_near = touch(&self.bounds, &[[x, y], [x, y]]);
+        let crossings = self.obstacle.outline.edges().map(|[p, q]| {
+            // To the right of the point, upward and downward.
+            let is_left =
+                |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]) * (y - p[1]) > (q[1] - p[1]) * (x - p[0]);
+            match (p[1] <= y, q[1] <= y) {
+                (true, false) => i32::from(is_left(p, q)),
+                (false, true) => -i32::from(!is_left(p, q)),
+                _ => 0,
+            }
+        });
+        is_near && crossings.sum::<i32>() != 0
+    }
+}
+
+/// Returns the page that contains a box; `None` if it lies on no page or extends beyond one.
+fn page([low, high]: Bounds, texture: Texture) -> Option<u32> {
+    let sides = texture.resolution.sides();
+    let page = (f64::midpoint(low[0], high[0]) / sides[0]).floor();
+    let left = [page * sides[0], 0.0];
+    let is_inside = |k: usize| {
+        let beyond = BEYOND * sides[k];
+        low[k] >= left[k] - beyond && high[k] <= left[k] + sides[k] + beyond
+    };
+    let is_page = page >= 0.0 && page < f64::from(texture.pages);
+    (is_page && is_inside(0) && is_inside(1)).then_some(page as u32)
+}
+
+/// Returns the nearest two islands and their distance if it is less than `gap`; 0 if they overlap.
+pub(super) fn too_near(charts: &[Staying], gap: f64) -> Option<([usize; 2], f64)> {
+    let mut edges = Vec::new();
+    let mut owners = Vec::new();
+    for (owner, chart) in charts.iter().enumerate() {
+        edges.extend(chart.obstacle.outline.edges());
+        owners.resize(edges.len(), owner);
+    }
+    let boxes: Vec<Bounds> = (edges.iter())
+        .map(|edge| widened(bounds_of(edge), gap / 2.0))
+        .collect();
+    let mut nearest: Option<(f64, [usize; 2])> = None;
+    let mut found = |distance: f64, a: usize, b: usize| {
+        let [a, b] = [a, b].map(|owner| charts[owner].island);
+        let new = (distance, [a.min(b), a.max(b)]);
+        if a != b && nearest.is_none_or(|known| new < known) {
+            nearest = Some(new);
+        }
+    };
+    // Should the search end early, for charts that lie in heaps, the certificate tells.
+    BoxIndex::new(&boxes).pairs(search_budget(boxes.len()), |i, j| {
+        let [a, b] = [i, j].map(|edge| owners[edge as usize]);
+        if charts[a].island != charts[b].island {
+            let distance = segment_distance(edges[i as usize], edges[j as usize]);
+            if distance < gap - ROUNDED || distance <= 0.0 {
+                found(distance, a, b);
+            }
+        }
+    });
+    for (a, b) in pairs(charts) {
+        if charts[a].covers(&charts[b]) || charts[b].covers(&charts[a]) {
+            found(0.0, a, b);
+        }
+    }
+    nearest.map(|(distance, islands)| (islands, distance))
+}
+
+/// Returns the pairs of charts whose boxes meet.
+fn pairs(charts: &[Staying]) -> Vec<(usize, usize)> {
+    let boxes: Vec<Bounds> = charts.iter().map(|chart| chart.bounds).collect();
+    let mut pairs = Vec::new();
+    BoxIndex::new(&boxes).pairs(search_budget(boxes.len()), |a, b| {
+        pairs.push((a as usize, b as usize));
+    });
+    pairs
+}
