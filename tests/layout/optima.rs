@@ -1,5 +1,5 @@
 //! Layouts whose best fill is known, and what holds for all.
-use unwrapd_layout::atlas::{Atlas, AtlasOptions, Rotation, pack};
+use unwrapd_layout::atlas::{Atlas, AtlasOptions, GRID_BITS, Positions, Rotation, pack};
 use unwrapd_method::numerics::random::Random;
 
 use crate::layouts::{Chart, assert_positive_and_inside, bar, blob, maps, smallest_gap};
@@ -107,6 +107,57 @@ fn extremes_have_a_place_beside_others() {
             let atlas = packed(charts, &options);
             let gap = smallest_gap(charts, &atlas, 1024);
             assert!(gap >= 1.999, "zoo {number}, {rotation:?}: {gap}");
+        }
+    }
+}
+
+#[test]
+fn a_chart_as_long_as_the_page_is_said_to_set_the_scale() {
+    let options = AtlasOptions::default();
+    let long = [bar(40), rectangle([1.0; 2]), rectangle([0.5; 2])];
+    let limit = packed(&long, &options).limit.expect("a limit");
+    assert_eq!(limit.chart, 0);
+    // On its diagonal, which is √2 long, a bar of 40 × 1 has a scale of √2 / 41.
+    let bound = (40.0 + 1.0 + 0.25) * 2.0 / (41.0 * 41.0);
+    assert!(
+        (limit.utilization / bound - 1.0).abs() < 0.02,
+        "{limit:?}, {bound}"
+    );
+    let alike = vec![rectangle([1.0; 2]); 9];
+    assert_eq!(packed(&alike, &options).limit, None);
+    let alone = packed(&[bar(3)], &options).limit.expect("a limit");
+    assert_eq!(alone.chart, 0);
+}
+
+#[test]
+fn a_full_page_that_is_packed_again_is_not_emptied() {
+    let unit = f64::from(1 << GRID_BITS);
+    for seed in 0..3 {
+        let mut random = Random::new(seed);
+        let chart = |_| blob(0.5 + random.unit(), 2 + random.below(4) as u32, 0.3);
+        let charts: Vec<Chart> = (0..9).map(chart).collect();
+        let first = packed(&charts, &AtlasOptions::default());
+        let on_page: Vec<Chart> = (charts.iter().zip(&first.placed))
+            .map(|((_, triangles), placed)| {
+                let uv = placed.grid.iter().map(|p| p.map(|x| f64::from(x) / unit));
+                (uv.collect(), triangles.clone())
+            })
+            .collect();
+        for rotation in [Rotation::Any, Rotation::Quarter, Rotation::None] {
+            let options = AtlasOptions {
+                rotation,
+                positions: Positions::Layout,
+                // Too few for a search that finds a layout like this one.
+                budget_words: 100_000,
+                ..AtlasOptions::default()
+            };
+            let again = packed(&on_page, &options);
+            assert!(smallest_gap(&charts, &again, 1024) >= 1.999);
+            let [before, after] = [first.utilization, again.utilization];
+            assert!(
+                after > before - 0.002,
+                "{seed}, {rotation:?}: {before}, {after}"
+            );
         }
     }
 }

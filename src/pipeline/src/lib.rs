@@ -55,7 +55,9 @@ pub use error::PipelineError;
 pub use island_error::IslandError;
 pub use judge::bound_report::{BoundReport, WorstChart, stretch_percent};
 pub use judge::proven::{Mirrored, Proven, ProvenBits, ProvenPadding, ProvenPages};
-pub use judge::report::{AtlasReport, ChartReport, GroupReport, Report, SCHEMA_VERSION, Seconds};
+pub use judge::report::{
+    AtlasReport, ChartReport, GroupReport, LimitReport, Report, SCHEMA_VERSION, Seconds,
+};
 pub use judge::verify::{Judged, Verified, VerifiedGroup, measure_document, verify_document};
 pub use meshes::{
     MeshArrays, UnwrappedMeshes, WeldedUvs, measure_meshes, repack_meshes, unwrap_meshes,

@@ -25,6 +25,7 @@ mod copies;
 mod effort;
 mod enough;
 mod gap;
+mod given;
 mod grid;
 mod layout;
 mod live;
@@ -47,7 +48,7 @@ pub use live::{Followers, LiveLayout};
 pub use pack::{expected_words, fits, pack, pack_coarse};
 pub use page::{GRID_BITS, Region, Texture};
 pub use problem::{
-    AroundError, Atlas, AtlasError, AtlasOptions, Borders, ChartMap, Constraints, Placed, Rotation,
-    Scale, Stay,
+    AroundError, Atlas, AtlasError, AtlasOptions, Borders, ChartMap, Constraints, Limit, Placed,
+    Positions, Rotation, Scale, Stay,
 };
 pub use relax::cleared;

@@ -6,6 +6,7 @@ use super::copies::Moments;
 use super::page::page_side;
 use super::problem::{AtlasError, ChartMap, Rotation};
 use unwrapd_maps::plane::Straightness;
+use unwrapd_method::numerics::hull::convex_hull;
 
 /// Outline of a chart, turned to the angle at which it is packed.
 #[derive(Clone, Debug)]
@@ -185,6 +186,19 @@ impl Outline {
         self.boundary.iter().map(|edge| edge.map(|p| self.place(p)))
     }
 
+    /// Returns the longer side of the smallest page around the outline in any permitted rotation, without borders, in mesh units. The
+    /// sides of the page along u and v are the longer side halved this many times.
+    pub(super) fn least_page(&self, halvings: [u32; 2]) -> f64 {
+        let [width, height] = self.extent;
+        match self.rotation() {
+            Rotation::Any => smallest_page(&convex_hull(self.corners()), halvings).1,
+            Rotation::Quarter => {
+                page_side([width, height], halvings).min(page_side([height, width], halvings))
+            }
+            Rotation::None => page_side(self.extent, halvings),
+        }
+    }
+
     /// Returns the length of the boundary, in mesh units.
     pub(super) fn perimeter(&self) -> f64 {
         let length = |[p, q]: &[[f64; 2]; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
@@ -322,7 +336,7 @@ fn smallest_rectangle(hull: &[[f64; 2]]) -> [f64; 2] {
 }
 
 /// Returns the direction that becomes horizontal for the smallest page that encloses a hull, and the longer side of this page.
-pub(super) fn smallest_page(hull: &[[f64; 2]], halvings: [u32; 2]) -> ([f64; 2], f64) {
+fn smallest_page(hull: &[[f64; 2]], halvings: [u32; 2]) -> ([f64; 2], f64) {
     let mut best = ([1.0, 0.0], f64::INFINITY);
     for step in 0..PAGE_ANGLES {
         let angle = std::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(PAGE_ANGLES);

@@ -3,13 +3,16 @@ use rayon::prelude::*;
 
 use super::coarse::CoarseLayout;
 use super::effort::{Effort, OnRead, UNHEARD};
+use super::given::{Given, Tidiness, given};
 use super::grid::{Repair, Snapped, aligned, doubled_area, snapped};
 use super::layout::{self, Layout, SLACK};
 use super::occupancy::{Corner, Spot};
 use super::outline::{Outline, outlines};
 use super::page::GRID_SIDE;
 use super::plan::Plan;
-use super::problem::{Atlas, AtlasError, AtlasOptions, Borders, ChartMap, Placed, Scale};
+use super::problem::{
+    Atlas, AtlasError, AtlasOptions, Borders, ChartMap, Limit, Placed, Positions, Scale,
+};
 
 /// Maximum number of layouts, each with more room for vertices that had to move farther than the last one allowed.
 const ROUNDS: usize = 6;
@@ -19,6 +22,8 @@ const SEARCHES: u64 = 4;
 const FEW: u64 = 10;
 /// Words per triangle that all searches may read, so that they take about as long as mapping the charts. One search is made anyway.
 const WORDS_PER_TRIANGLE: u64 = 20_000;
+/// Share of the largest scale that a chart permits from which on it is said to set the scale.
+const LIMITING: f64 = 0.99;
 /// Fill that straight charts may lose by lying along the axes.
 const STRAIGHT: f64 = 0.02;
 
@@ -38,20 +43,36 @@ pub fn pack_coarse(
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Result<Atlas, AtlasError> {
-    let slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
+    let atlas = pack_plan(charts, &first, coarse, options, on_read)?;
+    let limit = limit(&atlas, &first.outlines, options);
+    Ok(Atlas { limit, ..atlas })
+}
+
+fn pack_plan(
+    charts: &[ChartMap],
+    first: &Plan,
+    coarse: Option<&CoarseLayout>,
+    options: &AtlasOptions,
+    on_read: &OnRead,
+) -> Result<Atlas, AtlasError> {
+    let slack = vec![SLACK; charts.len()];
     if let Scale::TexelsPerUnit(_) = options.scale
-        && let Some(layout) = layout::layout(&first, &slack, options, on_read)
+        && let Some(layout) = layout::layout(first, &slack, options, on_read)
     {
-        return on_raster(charts, (first, layout), options, on_read);
+        return on_raster(charts, (first.clone(), layout), options, on_read);
     }
     let searched = coarse.map(|coarse| searched(coarse, options, on_read));
     let (coarse, exact) = searched.map_or((None, None), |(coarse, exact)| (Some(coarse), exact));
+    let exact = match options.positions {
+        Positions::Unrelated => exact,
+        Positions::Layout => fuller(exact, given(charts, options, on_read)?, options),
+    };
     // The order of a crowd is not searched: placing the largest charts first may be fuller.
     let is_crowd = coarse.as_ref().is_some_and(CoarseLayout::is_crowded);
     let mut raster = None;
     if is_crowd || exact.is_none() {
-        raster = best(&first, coarse.as_ref(), &slack, options, on_read);
+        raster = best(first, coarse.as_ref(), &slack, options, on_read);
     }
     let is_fuller = |scale: f64| raster.as_ref().is_none_or(|(_, found)| scale > found.scale);
     if let Some((outlines, layout)) = exact.filter(|(_, exact)| is_fuller(exact.scale)) {
@@ -60,9 +81,30 @@ pub fn pack_coarse(
             return Ok(atlas(charts, &layout, &slack, snapped, options));
         }
     }
-    let raster = raster.or_else(|| best(&first, coarse.as_ref(), &slack, options, on_read));
+    let raster = raster.or_else(|| best(first, coarse.as_ref(), &slack, options, on_read));
     let found = raster.ok_or_else(|| none_fits(charts, options))?;
     on_raster(charts, found, options, on_read)
+}
+
+/// Returns the fuller of a layout that was searched and the given one, which has to be fuller by [`STRAIGHT`] if straight charts lean.
+fn fuller(exact: Option<Exact>, given: Option<Given>, options: &AtlasOptions) -> Option<Exact> {
+    let Some(Given {
+        outlines,
+        layout,
+        tidiness,
+    }) = given
+    else {
+        return exact;
+    };
+    let area: f64 = outlines.iter().map(|outline| outline.size.powi(2)).sum();
+    let fill = |scale: f64| area * (scale / options.texture.grid_side()).powi(2);
+    let advantage = match tidiness {
+        Tidiness::Straight => 0.0,
+        Tidiness::Leaning => STRAIGHT,
+    };
+    exact
+        .filter(|(_, exact)| fill(exact.scale) >= fill(layout.scale) - advantage)
+        .or(Some((outlines, layout)))
 }
 
 /// Rounds a layout on the raster to the grid. Lays charts out anew, with more room, while a vertex has to move farther than its chart
@@ -287,7 +329,27 @@ pub(super) fn atlas(
             .count(),
         moved_vertices,
         largest_move,
+        limit: None,
     }
+}
+
+/// Returns the chart that alone sets the scale of an atlas, if there is one.
+fn limit(atlas: &Atlas, outlines: &[Outline], options: &AtlasOptions) -> Option<Limit> {
+    let halvings = options.texture.resolution.halvings();
+    // The diagonal of a chart is an upper bound of the page that it needs.
+    let is_long = |outline: &Outline| {
+        let [width, height] = outline.extent;
+        let stretch = f64::from(1_u32 << halvings[0].max(halvings[1]));
+        width.hypot(height) * stretch * atlas.scale >= LIMITING
+    };
+    let long = (outlines.iter().enumerate()).filter(|(_, outline)| is_long(outline));
+    let sides = long.map(|(chart, outline)| (chart, outline.least_page(halvings)));
+    let (chart, longest) = sides.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let most = (1.0 - options.padding_share()) / longest;
+    (options.scale == Scale::Largest && atlas.scale >= LIMITING * most).then(|| Limit {
+        chart,
+        utilization: atlas.utilization * (most / atlas.scale).max(1.0).powi(2),
+    })
 }
 
 /// Turns a chart by quarters and shifts it to its spot. `around` cells of its mask surround it.

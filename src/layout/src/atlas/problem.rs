@@ -40,6 +40,16 @@ pub enum Borders {
     OnTexels,
 }
 
+/// Use of the positions of given maps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Positions {
+    /// None: the maps have nothing to do with each other.
+    #[default]
+    Unrelated,
+    /// The maps form a layout. It counts if it is fuller, once squeezed, than those that a search finds.
+    Layout,
+}
+
 /// Scale of the charts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Scale {
@@ -63,6 +73,8 @@ pub struct AtlasOptions {
     pub rotation: Rotation,
     /// Positions of the bounding rectangles of charts.
     pub borders: Borders,
+    /// Use of the positions of the given maps.
+    pub positions: Positions,
     /// Multiple of the usual number of searches for the best order and angles, which depends on the charts.
     pub patience: u64,
     /// Maximum number of words that the search reads, about 3·10⁸ per second. A layout is found in any case.
@@ -80,6 +92,7 @@ impl Default for AtlasOptions {
             padding_texels: 2,
             rotation: Rotation::Any,
             borders: Borders::Free,
+            positions: Positions::Unrelated,
             patience: 1,
             budget_words: 500_000_000,
             most_cells: u32::MAX,
@@ -149,6 +162,17 @@ pub struct Atlas {
     pub moved_vertices: usize,
     /// Largest distance between a vertex and its exact position, in steps of the grid.
     pub largest_move: f64,
+    /// Chart that alone sets the scale because it is as long as a page, if there is one.
+    pub limit: Option<Limit>,
+}
+
+/// Chart that alone sets the scale of an atlas. Only a cut through it, or pages of another shape, make the atlas fuller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit {
+    /// Index of the chart.
+    pub chart: usize,
+    /// Upper bound of the share of all pages that any layout of these charts covers.
+    pub utilization: f64,
 }
 
 /// Error of charts that cannot be packed.

@@ -2,9 +2,9 @@
 
 use super::clearance::texels_apart;
 use super::compact::{self, MOST_CHARTS};
-use super::plan::{Plan, Search};
+use super::plan::{Plan, Search, Start};
 use super::settings::Settings;
-use unwrapd_layout::atlas::{self, AtlasOptions, Scale, Texture};
+use unwrapd_layout::atlas::{self, AtlasOptions, Positions, Scale, Texture};
 use unwrapd_layout::charts::MappedChart;
 
 /// Number of words that packing all meshes of a document may read, and the least and most for one mesh: a hundred
@@ -45,6 +45,10 @@ pub fn atlas_options(
         padding_texels: padding_texels(settings, plan),
         rotation: plan.rotation,
         borders: settings.borders,
+        positions: match plan.start {
+            Start::Final => Positions::Layout,
+            Start::New | Start::Present => Positions::Unrelated,
+        },
         patience: settings.layout.packing.passes(),
         budget_words: search_words((settings, plan), n_meshes),
         most_cells: cells.next_power_of_two().max(LEAST_CELLS),

@@ -18,7 +18,7 @@ use crate::options::Workers;
 use crate::portion::Portion;
 use crate::tracker::Tracker;
 use unwrapd_api::Stage;
-use unwrapd_layout::atlas::{self, Atlas};
+use unwrapd_layout::atlas::{self, Atlas, Limit};
 use unwrapd_layout::charts::MappedChart;
 use unwrapd_maps::mesh::Defects;
 use unwrapd_method::solver::Summary;
@@ -40,6 +40,8 @@ pub struct Unwrapped {
     pub still: Vec<u32>,
     /// Padding that was kept, in texels; less than asked for only where the charts alone would fill the square.
     pub padding_texels: f64,
+    /// Chart that alone sets the scale, if there is one.
+    pub limit: Option<Limit>,
 }
 
 /// Record of mapping a chart.
@@ -162,6 +164,7 @@ pub fn unwrap_all(
                 same_as: (first != index).then_some(first),
                 still: placed_faces(mesh, &plan)?.map_or_else(Vec::new, |placed| placed.still()),
                 padding_texels: atlas.padding_texels,
+                limit: atlas.limit,
             })
         })
         .collect()

@@ -90,8 +90,21 @@ pub struct AtlasReport {
     /// The bound on the distortion, and whether it was kept; absent unless `cut` is `auto`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bound: Option<BoundReport>,
+    /// The chart that alone sets the scale because it is as long as a page; absent if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit: Option<LimitReport>,
     /// One entry per chart.
     pub charts: Vec<ChartReport>,
+}
+
+/// Chart that alone sets the scale of an atlas. Only a cut through it, or a texture of another shape, makes the atlas fuller.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct LimitReport {
+    /// Index of the chart in `charts`.
+    pub chart: usize,
+    /// Upper bound of the share of the texture that any layout of these charts fills.
+    pub utilization: f64,
 }
 
 /// Details of mapping a chart.
@@ -186,6 +199,10 @@ impl AtlasReport {
             padding_texels: unwrapped.padding_texels,
             bound: None,
             same_as: None,
+            limit: unwrapped.limit.map(|limit| LimitReport {
+                chart: limit.chart,
+                utilization: limit.utilization,
+            }),
             charts: unwrapped.charts.iter().map(ChartReport::new).collect(),
         }
     }

@@ -5,11 +5,9 @@ use std::sync::{Arc, OnceLock};
 
 use crate::atlas::mask::{Distances, Mask, Turned};
 use crate::atlas::occupancy::{Corner, Occupancy, Window};
-use crate::atlas::outline::{Outline, smallest_page};
-use crate::atlas::page::page_side;
+use crate::atlas::outline::Outline;
 use crate::atlas::problem::Rotation;
 use crate::atlas::squeeze::Body;
-use unwrapd_method::numerics::hull::convex_hull;
 use unwrapd_method::numerics::random::Random;
 
 /// Number of random poses tried to fit a chart to its place.
@@ -302,17 +300,7 @@ impl Poses {
     /// Returns the longer side of the smallest page around the outline in any pose, without borders, in mesh units. The sides of the
     /// page along u and v are the longer side halved this many times.
     pub(super) fn least_page(&self, halvings: [u32; 2]) -> f64 {
-        *self.least_page.get_or_init(|| {
-            let outline = self.outline(0);
-            match outline.rotation() {
-                Rotation::Any => smallest_page(&convex_hull(outline.corners()), halvings).1,
-                Rotation::Quarter => {
-                    let [width, height] = outline.extent;
-                    page_side([width, height], halvings).min(page_side([height, width], halvings))
-                }
-                Rotation::None => page_side(outline.extent, halvings),
-            }
-        })
+        *(self.least_page).get_or_init(|| self.outline(0).least_page(halvings))
     }
 
     pub(super) fn mask(&self, pose: usize) -> &Turned {

@@ -1,0 +1,104 @@
+//! The layout that maps form where they lie, squeezed.
+//!
+//! Charts that are packed again often come from a full page. No search is sure to find its order again, but squeezing keeps it.
+use std::sync::Arc;
+
+use super::coarse::{FINE, MOST_CHARTS, raster_side};
+use super::effort::OnRead;
+use super::gap::{self, Border, Page};
+use super::layout::Layout;
+use super::outline::{Outline, outlines};
+use super::page::Region;
+use super::plan::{by_size, mark_copies};
+use super::problem::{AtlasError, AtlasOptions, ChartMap};
+use super::squeeze::{Body, Pose, Squeezed};
+use unwrapd_maps::plane::Straightness;
+use unwrapd_method::numerics::bounds::bounds_of;
+
+/// Largest component of an axis across the page for a chart that lies along the axes.
+const ACROSS: f64 = 1e-3;
+
+/// Squeezed layout of given maps.
+pub(super) struct Given {
+    pub outlines: Vec<Outline>,
+    pub layout: Layout,
+    pub tidiness: Tidiness,
+}
+
+/// State of the straight charts of a layout.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tidiness {
+    /// All lie along the axes.
+    Straight,
+    /// Some lean.
+    Leaning,
+}
+
+/// Squeezes the charts where they lie. Returns `None` for a crowd, for several pages, or if they cannot be separated where they are.
+pub(super) fn given(
+    charts: &[ChartMap],
+    options: &AtlasOptions,
+    on_read: &OnRead,
+) -> Result<Option<Given>, AtlasError> {
+    let texture = options.texture;
+    let limited = outlines(charts)?.into_iter();
+    let mut outlines: Vec<Outline> = limited
+        .map(|outline| outline.limited_to(options.rotation))
+        .collect();
+    mark_copies(&mut outlines);
+    let order = by_size(&outlines.iter().collect::<Vec<_>>());
+    if order.is_empty() || order.len() > MOST_CHARTS || texture.pages > 1 {
+        return Ok(None);
+    }
+    // The smallest page around all charts.
+    let corners = outlines.iter().flat_map(Outline::corners);
+    let [low, high] = bounds_of(&corners.collect::<Vec<_>>());
+    let frame = texture.frame(Region::page(0));
+    let longer = frame.side([high[0] - low[0], high[1] - low[1]], 0.0);
+    let page = FINE * f64::from(texture.raster(raster_side(order.len(), texture)));
+    let padding = options.padding_share() * page;
+    let side = page - padding;
+    let scale = side / longer;
+    if !scale.is_normal() {
+        return Ok(None);
+    }
+    let pose = |&chart: &usize| {
+        let middle = outlines[chart].middle();
+        Pose::new([0, 1].map(|k| (middle[k] - low[k]) * scale), 0.0)
+    };
+    let mut squeezed = Squeezed {
+        poses: order.iter().map(pose).collect(),
+        side,
+        padding,
+        frames: order.iter().map(|_| frame).collect(),
+        stays: Arc::default(),
+    };
+    let body = |&chart: &usize| Arc::new(Body::new(&outlines[chart], scale, padding));
+    let bodies: Vec<Arc<Body>> = order.iter().map(body).collect();
+    if !squeezed.settle(&bodies, options.budget_words, on_read) {
+        return Ok(None);
+    }
+    let page = Page {
+        number: 0,
+        charts: order,
+        squeezed,
+        border: Border::Cropped,
+        stays: Arc::default(),
+    };
+    let level: Vec<&Outline> = outlines.iter().collect();
+    let exact = gap::layout(&level, &[page], scale, (options, on_read));
+    let lean = |outline: &Outline| match outline.straightness {
+        Straightness::Upright(axis) => axis[0].abs().min(axis[1].abs()) > ACROSS,
+        Straightness::Leaning(_) | Straightness::Round => false,
+    };
+    let tidiness = if outlines.iter().any(lean) {
+        Tidiness::Leaning
+    } else {
+        Tidiness::Straight
+    };
+    Ok(exact.map(|(outlines, layout)| Given {
+        outlines,
+        layout,
+        tidiness,
+    }))
+}
