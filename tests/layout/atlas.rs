@@ -388,8 +388,8 @@ fn charts_come_as_near_as_they_may() {
 }
 
 #[test]
-fn charts_of_which_one_is_enlarged_lie_on_the_raster() {
-    // Squeezed charts all have one scale, at which this one has no cell of the grid.
+fn a_chart_that_is_enlarged_takes_no_room_from_others() {
+    // At the scale of the others, the last one has no cell of the grid.
     let mut charts: Vec<Chart> = (0..5).map(|i| blob(1.0, 2 + i, 0.2)).collect();
     let squeezed = pack(&maps(&charts), &AtlasOptions::default()).unwrap();
     charts.push(blob(1e-9, 3, 0.2));
@@ -398,7 +398,7 @@ fn charts_of_which_one_is_enlarged_lie_on_the_raster() {
     assert_positive_and_inside(&charts, &atlas);
     assert!(smallest_gap(&charts, &atlas, 1024) >= 2.0);
     let kept = atlas.utilization / squeezed.utilization;
-    assert!((0.9..1.0).contains(&kept), "{kept}");
+    assert!(kept > 0.99, "{kept}");
 }
 
 #[test]

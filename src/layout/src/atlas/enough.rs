@@ -5,7 +5,7 @@ use super::coarse::CoarseLayout;
 use super::effort::UNHEARD;
 use super::layout::{SLACK, layout};
 use super::outline::outlines;
-use super::pack::{best, searched};
+use super::pack::searched;
 use super::page::Texture;
 use super::plan::Plan;
 use super::problem::{AtlasError, AtlasOptions, Borders, ChartMap, Scale};
@@ -53,13 +53,15 @@ pub fn enough(charts: &[ChartMap], options: &AtlasOptions) -> Result<Enough, Atl
     let slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
     let coarse = CoarseLayout::new(charts, &largest)?;
-    let coarse = coarse.map(|coarse| searched(&coarse, &largest, UNHEARD).0);
-    let fullest = best(&first, coarse.as_ref(), &slack, &largest, UNHEARD);
+    let exact = coarse.and_then(|coarse| searched(&coarse, &largest, UNHEARD).1);
+    let found = exact
+        .map(|(_, layout)| layout)
+        .or_else(|| layout(&first, &slack, &largest, UNHEARD));
     let longer = f64::from(options.texture.resolution.longer());
     let reached = |scale: f64| scale / options.texture.grid_side() * longer;
     Ok(Enough {
-        resolution: fullest
-            .and_then(|(_, layout)| resolution(MARGIN * texels / reached(layout.scale), options)),
+        resolution: found
+            .and_then(|layout| resolution(MARGIN * texels / reached(layout.scale), options)),
         pages: pages(&first, &slack, options),
     })
 }

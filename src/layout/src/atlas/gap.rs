@@ -28,6 +28,8 @@ const SPREADS: u32 = 8;
 const SHARE: u64 = 16;
 /// Number of times that the side of a page is corrected for the padding, which depends on it.
 const SIDES: usize = 8;
+/// Share of the scale for which charts that are too small for the grid are enlarged, since the final scale may be a little smaller.
+const SMALLER: f64 = 0.98;
 /// Number of positions per cell, along each axis, to which charts are rounded.
 const PLACES: f64 = 256.0;
 
@@ -53,7 +55,7 @@ pub(super) enum Border {
 }
 
 /// Returns the turned outlines and a layout near squeezed pages in which charts keep the padding. Returns `None` if charts could
-/// not be brought far enough apart, if they do not fit at a prescribed scale, or if one is so small that it has to be enlarged.
+/// not be brought far enough apart, or if they do not fit at a prescribed scale.
 ///
 /// The returned outlines are `level` turned by the angles of the squeezed poses. `scale` is in cells per mesh unit.
 pub(super) fn layout(
@@ -143,7 +145,8 @@ impl Tight<'_> {
             },
             ..page.clone()
         };
-        let mut places = Places::new(level, &page, self.scale);
+        let grid_side = self.options.texture.grid_side();
+        let mut places = Places::new(level, &page, self.scale, grid_side);
         places.side = match page.border {
             Border::Cropped => self.side(places.reach),
             Border::Fixed => squeezed.side,
@@ -200,13 +203,16 @@ impl Tight<'_> {
         let mut outlines: Vec<Outline> = self.level.iter().copied().cloned().collect();
         let mut charts = vec![(Spot::default(), 1.0); outlines.len()];
         for (page, places) in pages.iter().zip(placed) {
-            let is_small = |outline: &Outline| stretch(outline, scale) > 1.0;
-            if places.gap < padding + 2.0 * ROUNDED || places.outlines.iter().any(is_small) {
+            let mut stretched = places.outlines.iter().zip(&places.stretches);
+            let is_small = |(outline, &by): (&Outline, &f64)| stretch(outline, scale) > by;
+            if places.gap < padding + 2.0 * ROUNDED || stretched.any(is_small) {
                 return None;
             }
             let placed = places.outlines.into_iter().zip(places.corners);
-            for (&chart, (outline, corner)) in page.charts.iter().zip(placed) {
+            let placed = placed.zip(places.stretches);
+            for (&chart, ((outline, corner), stretch)) in page.charts.iter().zip(placed) {
                 outlines[chart] = outline;
+                charts[chart].1 = stretch;
                 charts[chart].0.corner = Corner {
                     page: page.number + corner.page,
                     ..corner
@@ -228,6 +234,8 @@ impl Tight<'_> {
 /// Charts at rounded positions on one page.
 struct Places {
     outlines: Vec<Outline>,
+    /// Factor by which each chart exceeds the common scale.
+    stretches: Vec<f64>,
     /// Lower left corners, in units of 1/[`PLACES`] of a cell.
     corners: Vec<Corner>,
     /// Largest extents of the charts to the right and up, in cells.
@@ -242,13 +250,14 @@ struct Places {
 
 impl Places {
     /// Rounds the positions of squeezed charts. Keeps them in their frames if the border is fixed.
-    fn new(level: &[&Outline], page: &Page, scale: f64) -> Self {
+    fn new(level: &[&Outline], page: &Page, scale: f64, grid_side: f64) -> Self {
         let Page {
             squeezed, border, ..
         } = page;
         let cells = squeezed.side + squeezed.padding;
         let mut places = Self {
             outlines: Vec::with_capacity(level.len()),
+            stretches: Vec::with_capacity(level.len()),
             corners: Vec::with_capacity(level.len()),
             reach: [0.0; 2],
             side: 0.0,
@@ -266,6 +275,8 @@ impl Places {
             let middle = outline.place(level.middle());
             let left = [frame.left * cells, 0.0];
             let [low, high] = frame.bounds(squeezed.side, squeezed.padding);
+            let stretch = stretch(&outline, SMALLER * scale * grid_side / cells);
+            let scale = stretch * scale;
             let rounded = [0, 1].map(|k| {
                 let extent = outline.extent[k] * scale;
                 let corner = pose.middle[k] - middle[k] * scale - left[k];
@@ -287,6 +298,7 @@ impl Places {
             edges.extend(outline.edges().map(|edge| edge.map(place)));
             charts.resize(edges.len(), places.outlines.len() as u32);
             places.outlines.push(outline);
+            places.stretches.push(stretch);
             places.corners.push(Corner {
                 page: frame.page,
                 x: rounded[0] as u32,

@@ -10,7 +10,7 @@ use super::mask::{Distances, Mask, Rounding, Turned};
 use super::occupancy::{Corner, Occupancy, Spot, Window};
 use super::outline::Outline;
 use super::page::{Form, Region, Texture};
-use super::plan::{HOPE, Near, Plan, QuarterTurns};
+use super::plan::{HOPE, Plan, QuarterTurns};
 use super::problem::{AtlasOptions, Scale};
 use unwrapd_method::solver::Control;
 
@@ -48,9 +48,6 @@ const HASTE: f64 = 0.995;
 /// Scales at which a layout with copies alike is tried, relative to the fullest. It may be fuller, as copies lie in rows; the last
 /// scale costs 6 % of the fill. With many charts, only scales up to 1 are tried.
 const ALIKE: [f64; 5] = [1.06, 1.03, 1.0, 0.985, 0.97];
-/// Value that replaces [`NEAR`] for a layout known from a coarser raster, and factor of the scale if it does not fit.
-const NEAR_IF_KNOWN: f64 = 1.0005;
-const LOWERED: f64 = 0.993;
 
 /// Returns the cells along a side of a square page. Each chart has about 16 along its own side.
 pub(super) fn raster(n_charts: usize, most_cells: u32) -> u32 {
@@ -161,23 +158,13 @@ fn density((scale, attempt): &(f64, Attempt)) -> f64 {
 
 /// Searches for the scale, in cells per mesh unit, with the best fill. Returns it with its layout.
 fn best(packing: &Packing, budget_words: u64) -> Option<(f64, Attempt)> {
-    let known = packing.plan.near.as_ref();
-    let (near, most_words) = match known {
-        Some(_) => (NEAR_IF_KNOWN, budget_words),
-        None if packing.is_crowded() => (NEAR_IF_MANY, budget_words.min(WORDS_IF_MANY)),
-        None => (NEAR, budget_words),
+    let (near, most_words, hope) = if packing.is_crowded() {
+        (NEAR_IF_MANY, budget_words.min(WORDS_IF_MANY), HOPE_IF_MANY)
+    } else {
+        (NEAR, budget_words, HOPE)
     };
     let demand = Demand::of(packing);
-    let mut scale = known.map_or_else(
-        || {
-            demand.scale(if packing.is_crowded() {
-                HOPE_IF_MANY
-            } else {
-                HOPE
-            })
-        },
-        |near| f64::from(packing.cells) / near.extent,
-    );
+    let mut scale = demand.scale(hope);
     let mut best: Option<(f64, Attempt)> = None;
     let mut failed = f64::INFINITY;
     let mut work = 0;
@@ -196,15 +183,11 @@ fn best(packing: &Packing, budget_words: u64) -> Option<(f64, Attempt)> {
             }
             not_yet => {
                 failed = failed.min(scale);
-                if known.is_some() {
-                    LOWERED * scale
-                } else {
-                    let next = not_yet.map_or_else(
-                        |placed| placed.sqrt() * scale,
-                        |attempt| grown(packing, &demand, scale, &attempt),
-                    );
-                    next.clamp(0.5 * scale, scale / near)
-                }
+                let next = not_yet.map_or_else(
+                    |placed| placed.sqrt() * scale,
+                    |attempt| grown(packing, &demand, scale, &attempt),
+                );
+                next.clamp(0.5 * scale, scale / near)
             }
         };
         let before = std::mem::replace(&mut scale, next);
@@ -404,11 +387,11 @@ impl Packing<'_> {
                 let row = lowest.entry([w.min(h), w.max(h)].map(rough)).or_default();
                 let before = occupancy.work;
                 let region = self.regions.get(i).copied().flatten();
-                let spot = match (&self.plan.near, region) {
-                    (_, Some(region)) => occupancy.find(&turned, self.window(region)),
-                    (Some(near), None) => find_near(near, i, &mut occupancy, &turned, target),
-                    (None, None) => occupancy.find(&turned, Window::from(Corner { x: 0, ..*row })),
+                let window = match region {
+                    Some(region) => self.window(region),
+                    None => Window::from(Corner { x: 0, ..*row }),
                 };
+                let spot = occupancy.find(&turned, window);
                 read += occupancy.work - before;
                 *work += read;
                 (self.on_read)(read);
@@ -507,23 +490,4 @@ pub(super) fn stretch(outline: &Outline, unit: f64) -> f64 {
     (root / (outline.size * unit))
         .min(8.0 * root / (longest * unit))
         .max(1.0)
-}
-
-/// Returns a place for a chart near its expected one, or else to the right of it and above.
-fn find_near(
-    near: &Near,
-    chart: usize,
-    occupancy: &mut Occupancy,
-    turned: &[Turned],
-    side: u32,
-) -> Option<(usize, Spot)> {
-    let cells = |share: f64| (share * f64::from(side)) as u32;
-    let (page, lowest) = near.corners[chart];
-    let corner = |[x, y]: [u32; 2]| Corner { page, x, y };
-    let window = Window {
-        highest: corner(lowest.map(|share| cells(share + near.window))),
-        ..Window::from(corner(lowest.map(cells)))
-    };
-    let found = occupancy.find(turned, window);
-    found.or_else(|| occupancy.find(turned, Window::from(window.lowest)))
 }

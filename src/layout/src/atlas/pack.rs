@@ -57,33 +57,35 @@ fn pack_plan(
     on_read: &OnRead,
 ) -> Result<Atlas, AtlasError> {
     let slack = vec![SLACK; charts.len()];
+    let on_first = || layout::layout(first, &slack, options, on_read);
     if let Scale::TexelsPerUnit(_) = options.scale
-        && let Some(layout) = layout::layout(first, &slack, options, on_read)
+        && let Some(layout) = on_first()
     {
-        return on_raster(charts, (first.clone(), layout), options, on_read);
+        return on_raster(charts, first, layout, options, on_read);
     }
-    let searched = coarse.map(|coarse| searched(coarse, options, on_read));
-    let (coarse, exact) = searched.map_or((None, None), |(coarse, exact)| (Some(coarse), exact));
+    let (searched, exact) = coarse
+        .map(|coarse| searched(coarse, options, on_read))
+        .unzip();
     let exact = match options.positions {
-        Positions::Unrelated => exact,
-        Positions::Layout => fuller(exact, given(charts, options, on_read)?, options),
+        Positions::Unrelated => exact.flatten(),
+        Positions::Layout => fuller(exact.flatten(), given(charts, options, on_read)?, options),
     };
     // The order of a crowd is not searched: placing the largest charts first may be fuller.
-    let is_crowd = coarse.as_ref().is_some_and(CoarseLayout::is_crowded);
+    let is_crowd = searched.as_ref().is_some_and(CoarseLayout::is_crowded);
     let mut raster = None;
     if is_crowd || exact.is_none() {
-        raster = best(first, coarse.as_ref(), &slack, options, on_read);
+        raster = on_first();
     }
-    let is_fuller = |scale: f64| raster.as_ref().is_none_or(|(_, found)| scale > found.scale);
+    let is_fuller = |scale: f64| raster.as_ref().is_none_or(|found| scale > found.scale);
     if let Some((outlines, layout)) = exact.filter(|(_, exact)| is_fuller(exact.scale)) {
         let snapped = on_grid(charts, &outlines, &layout, Repair::Open);
         if !is_cramped(&snapped, &layout, &mut slack.clone()) {
             return Ok(atlas(charts, &layout, &slack, snapped, options));
         }
     }
-    let raster = raster.or_else(|| best(first, coarse.as_ref(), &slack, options, on_read));
-    let found = raster.ok_or_else(|| none_fits(charts, options))?;
-    on_raster(charts, found, options, on_read)
+    let layout = raster.or_else(on_first);
+    let layout = layout.ok_or_else(|| none_fits(charts, options))?;
+    on_raster(charts, first, layout, options, on_read)
 }
 
 /// Returns the fuller of a layout that was searched and the given one, which has to be fuller by [`STRAIGHT`] if straight charts lean.
@@ -111,7 +113,8 @@ fn fuller(exact: Option<Exact>, given: Option<Given>, options: &AtlasOptions) ->
 /// has room for.
 fn on_raster(
     charts: &[ChartMap],
-    (plan, mut layout): (Plan, Layout),
+    plan: &Plan,
+    mut layout: Layout,
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Result<Atlas, AtlasError> {
@@ -121,7 +124,7 @@ fn on_raster(
         if !is_cramped(&snapped, &layout, &mut slack) {
             return Ok(atlas(charts, &layout, &slack, snapped, options));
         }
-        layout = layout::layout(&plan, &slack, options, on_read)
+        layout = layout::layout(plan, &slack, options, on_read)
             .ok_or_else(|| none_fits(charts, options))?;
     }
     let rounded = on_grid(charts, &plan.outlines, &layout, Repair::Nothing);
@@ -231,36 +234,6 @@ fn fullest(
         }
     }
     (coarse, fullest)
-}
-
-/// Returns the plan with the largest scale, and its layout: `first`, or the arrangement of a coarse layout.
-pub(super) fn best(
-    first: &Plan,
-    coarse: Option<&CoarseLayout>,
-    slack: &[f64],
-    options: &AtlasOptions,
-    on_read: &OnRead,
-) -> Option<(Plan, Layout)> {
-    let searched = coarse.filter(|coarse| !coarse.is_crowded());
-    let mut plans: Vec<Plan> = searched.map(CoarseLayout::plan).into_iter().collect();
-    plans.push(first.clone());
-    let shared = AtlasOptions {
-        budget_words: options.budget_words / 2 / plans.len() as u64,
-        ..options.clone()
-    };
-    let layouts: Vec<Option<Layout>> = (plans.par_iter().with_max_len(1))
-        .map(|plan| layout::layout(plan, slack, &shared, on_read))
-        .collect();
-    let laid_out = plans.into_iter().zip(layouts);
-    laid_out
-        .filter_map(|(plan, layout)| Some((plan, layout?)))
-        .reduce(|best, next| {
-            if next.1.scale > best.1.scale {
-                next
-            } else {
-                best
-            }
-        })
 }
 
 /// Rounds each chart to the grid, at the origin.

@@ -25,19 +25,6 @@ pub(super) struct Plan {
     pub turns: Vec<QuarterTurns>,
     /// Indices of the charts that have triangles, in the order in which they are placed.
     pub order: Vec<usize>,
-    /// Approximate positions of the charts, if known.
-    pub near: Option<Near>,
-}
-
-/// Layout on a coarser raster that guides a finer one.
-#[derive(Clone, Debug)]
-pub(super) struct Near {
-    /// Page of each chart, and the lower bounds of its position to the right and up, as shares of the longer side.
-    pub corners: Vec<(u32, [f64; 2])>,
-    /// Width of the window above these bounds that is searched first, as a share of the longer side.
-    pub window: f64,
-    /// Mesh units along the longer side.
-    pub extent: f64,
 }
 
 /// Quarter turns with which a chart may be placed.
@@ -71,7 +58,6 @@ impl Plan {
         Self {
             order: by_size(&outlines.iter().collect::<Vec<_>>()),
             turns: vec![turns; outlines.len()],
-            near: None,
             outlines,
         }
     }

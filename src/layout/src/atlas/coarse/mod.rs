@@ -11,7 +11,7 @@ use super::mask::{Distances, Rounding};
 use super::occupancy::{Corner, Occupancy};
 use super::outline::{Outline, outlines};
 use super::page::{Form, Region, Texture};
-use super::plan::{HOPE, Near, Plan, QuarterTurns, alike, by_size, level, mark_copies};
+use super::plan::{HOPE, Plan, alike, by_size, level, mark_copies};
 use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation};
 use super::squeeze::{Pose, Squeezed};
 use arrangement::{Arrangement, Poses};
@@ -360,36 +360,5 @@ impl CoarseLayout {
         let pages: Vec<Page> = self.pages.iter().map(refined).collect();
         let level: Vec<&Outline> = self.level.iter().collect();
         gap::layout(&level, &pages, FINE * self.raster.scale, (options, on_read))
-    }
-
-    /// Returns the arrangement as a plan for a fine raster.
-    pub(in crate::atlas) fn plan(&self) -> Plan {
-        let Arrangement {
-            order,
-            pose,
-            corners,
-            side,
-            cost,
-        } = &self.state;
-        let share = |cells: u32| f64::from(cells.saturating_sub(1)) / f64::from(*side.max(&1));
-        let posed = self.level.iter().zip(pose);
-        let angle = |pose: usize| Poses::angle(pose - pose % 4);
-        Plan {
-            outlines: posed
-                .map(|(level, &pose)| level.rotated(angle(pose)))
-                .collect(),
-            turns: pose
-                .iter()
-                .map(|&pose| QuarterTurns::Only(Poses::turns(pose)))
-                .collect(),
-            order: order.clone(),
-            near: Some(Near {
-                corners: (corners.iter())
-                    .map(|corner| (corner.page, [corner.x, corner.y].map(share)))
-                    .collect(),
-                window: 3.0 / f64::from(*side.max(&1)),
-                extent: (cost + self.raster.padding) / self.raster.scale,
-            }),
-        }
     }
 }

@@ -61,7 +61,6 @@ impl CoarseLayout {
             self.arrangements(&schedule, annealing, on_read)
         };
         let n_searches = self.n_searches + 1;
-        let fullest = found.first().cloned();
         let each = ((words as f64 - annealing) / schedule.squeezed as f64) as u64;
         let settled: Vec<Option<Self>> = (found.into_par_iter().with_max_len(1))
             .map(|state| self.settled(state, each, on_read))
@@ -70,12 +69,6 @@ impl CoarseLayout {
             if squeezed_side(&coarse.pages) < squeezed_side(&self.pages) {
                 *self = coarse;
             }
-        }
-        // If squeezing fails, the arrangement is still a plan.
-        if self.pages.is_empty()
-            && let Some(fullest) = fullest.filter(|state| state.cost < self.state.cost)
-        {
-            self.state = fullest;
         }
         (self.n_searches, self.is_exhausted) = (n_searches, is_exhausted);
     }

@@ -27,6 +27,8 @@ const SHRINKS: [f64; 2] = [0.01, 4e-4];
 const LEAP: f64 = 0.004;
 /// Share by which the page grows while charts overlap, and while they need a little more room.
 const GROWTHS: [f64; 2] = [0.01, 1e-3];
+/// Share of the energy of an overlap that is left after growing from which on growing does not help.
+const STUCK: f64 = 0.9;
 /// Maximum number of times that the page grows.
 const MOST_GROWTHS: usize = 16;
 
@@ -106,14 +108,23 @@ impl Squeezed {
             .collect()
     }
 
-    /// Separates charts, growing the page by the share `by` whenever that fails. Returns whether they are apart.
+    /// Separates charts, growing the page by the share `by` whenever that fails. Where growing does not help, a chart lies in a gap of
+    /// another one that is too narrow, and jumps out of it. Returns whether the charts are apart.
     fn grow(&mut self, scene: &mut Scene, by: f64) -> bool {
+        let mut before = f64::INFINITY;
         for _ in 0..MOST_GROWTHS {
-            if scene.separate(&mut self.poses) {
+            let left = scene.separate(&mut self.poses);
+            if left.are_apart() {
                 return true;
             }
             self.scale(1.0 + by);
             scene.resize(self);
+            if left.energy > STUCK * before
+                && let Some(pair) = left.deepest_pair
+            {
+                scene.jump(&mut self.poses, pair);
+            }
+            before = left.energy;
         }
         false
     }
@@ -187,11 +198,11 @@ impl Squeezed {
         let mut trial = self.clone();
         trial.scale(1.0 - by);
         scene.resize(&trial);
-        let is_apart = scene.separate(&mut trial.poses);
-        if is_apart {
+        let are_apart = scene.separate(&mut trial.poses).are_apart();
+        if are_apart {
             *self = trial;
         }
-        is_apart
+        are_apart
     }
 }
 
@@ -250,19 +261,19 @@ const SLOW: f64 = 0.97;
 const MOST_SLOW: usize = 5;
 /// Cost of the equations of a step for each body, in words.
 const WORDS_PER_BODY: u64 = 500;
-/// Depth in cells below which bodies count as apart.
-const TOLERANCE: f64 = 0.04;
+/// Number of places along each side of a page that a body that jumps may choose among.
+const PLACES: usize = 32;
 
 impl Scene<'_> {
-    /// Separates all bodies, as far as possible from where they are. Returns whether they are apart.
+    /// Separates all bodies, as far as possible from where they are. Returns the equations of the overlaps that are left.
     ///
     /// From: Levenberg 1944, A Method for the Solution of Certain Non-Linear Problems in Least Squares.
-    fn separate(&mut self, poses: &mut Vec<Pose>) -> bool {
+    fn separate(&mut self, poses: &mut Vec<Pose>) -> Equations {
         let mut now = Equations::new(self, poses);
         let mut damping = DAMPING;
         let mut slow = 0;
         for _ in 0..self.most_steps {
-            let is_over = now.deepest < TOLERANCE || slow == MOST_SLOW || damping > MOST_DAMPING;
+            let is_over = now.are_apart() || slow == MOST_SLOW || damping > MOST_DAMPING;
             if is_over || self.is_ended() {
                 break;
             }
@@ -281,7 +292,35 @@ impl Scene<'_> {
                 damping *= AFTER_STEP[1];
             }
         }
-        now.deepest < TOLERANCE
+        now
+    }
+
+    /// Moves the smaller of two bodies to the place of its page that is farthest from all others.
+    fn jump(&mut self, poses: &mut [Pose], [a, b]: [usize; 2]) {
+        let radius = |body: usize| self.bodies[body].radius;
+        // Bodies that stay come last.
+        let body = if b >= poses.len() || radius(a) < radius(b) {
+            a
+        } else {
+            b
+        };
+        let [low, high] = self.bounds[body];
+        let all: Vec<Pose> = poses.iter().chain(&self.stays).copied().collect();
+        let others = || (0..all.len()).filter(|&other| other != body);
+        let mut farthest = (f64::NEG_INFINITY, poses[body].middle);
+        for place in 0..PLACES * PLACES {
+            let at = |k: usize, step: usize| {
+                low[k] + (step as f64 + 0.5) / PLACES as f64 * (high[k] - low[k])
+            };
+            let middle = [at(0, place % PLACES), at(1, place / PLACES)];
+            let distance = |other: usize| self.bodies[other].least_distance(&all[other], middle);
+            let free = others().map(distance).fold(f64::INFINITY, f64::min);
+            if free > farthest.0 {
+                farthest = (free, middle);
+            }
+        }
+        self.work += (PLACES * PLACES * all.len()) as u64;
+        poses[body].middle = farthest.1;
     }
 
     fn stepped(&self, poses: &[Pose], step: &[[f64; 3]]) -> Vec<Pose> {

@@ -104,6 +104,8 @@ impl Scene<'_> {
     }
 }
 
+/// Depth in cells below which bodies count as apart.
+const TOLERANCE: f64 = 0.04;
 /// Number of unknowns of a body: two shifts, and an angle times its radius.
 const DOF: usize = 3;
 /// Added to the diagonal, so that bodies that touch nothing stay.
@@ -118,7 +120,9 @@ pub(super) struct Equations {
     /// Σ d².
     pub energy: f64,
     /// Largest depth.
-    pub deepest: f64,
+    deepest: f64,
+    /// Bodies of the largest depth; `None` if it is a depth beyond the border.
+    pub deepest_pair: Option<[usize; 2]>,
     /// Block of JᵀJ for each body.
     of_body: Vec<Block>,
     /// Block of JᵀJ for each two bodies that touch, sorted.
@@ -146,6 +150,7 @@ impl Equations {
         let mut equations = Self {
             energy: 0.0,
             deepest: 0.0,
+            deepest_pair: None,
             of_body: vec![[[0.0; DOF]; DOF]; n],
             of_pair: Vec::new(),
             right: vec![[0.0; DOF]; n],
@@ -155,7 +160,7 @@ impl Equations {
         for a in 0..n {
             let body = scene.bodies[a].clone();
             scene.contacts_of_border(a, &all[a], |contact| {
-                equations.measure(contact.depth);
+                equations.measure(contact.depth, None);
                 equations.add(a, contact.depth, row(&body, &all[a], &contact));
             });
             for b in a + 1..all.len() {
@@ -179,7 +184,7 @@ impl Equations {
                 let sign = if p == a { 1.0 } else { -1.0 };
                 let of_a = row(&bodies[0], &poses[a], &contact).map(|x| sign * x);
                 let of_b = row(&bodies[1], &poses[b], &contact).map(|x| -sign * x);
-                self.measure(contact.depth);
+                self.measure(contact.depth, Some([a, b]));
                 self.add(a, contact.depth, of_a);
                 self.add(b, contact.depth, of_b);
                 add_product(&mut block, of_b, of_a);
@@ -191,9 +196,17 @@ impl Equations {
         }
     }
 
-    fn measure(&mut self, depth: f64) {
+    /// Returns whether all bodies are apart and within their bounds, up to a small depth.
+    pub(super) fn are_apart(&self) -> bool {
+        self.deepest < TOLERANCE
+    }
+
+    /// Counts a contact, between two bodies or with the border.
+    fn measure(&mut self, depth: f64, pair: Option<[usize; 2]>) {
         self.energy += depth * depth;
-        self.deepest = self.deepest.max(depth);
+        if depth > self.deepest {
+            (self.deepest, self.deepest_pair) = (depth, pair);
+        }
     }
 
     /// Adds the row of a contact for a body, unless the body stays.
