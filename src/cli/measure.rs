@@ -156,13 +156,24 @@ pub(super) fn print_table(groups: &[GroupReport]) {
         let name = format!("{} atlases", groups.len());
         say(table_line(&name, width, &Sums::of(&order)));
     }
-    // Explain needles, and list the pages.
+    // Explain needles and scales, and list the pages.
     let needles = Sums::of(&order).needles;
     if needles > 0 {
         say(format_args!(
             "needles: {needles} triangles less high than 1/10,000 of their length; stretch leaves them out where they have less than \
              .1 % of the area"
         ));
+    }
+    for group in shown {
+        let atlas = group.atlas.as_ref().filter(|atlas| atlas.charts.len() > 1);
+        if let Some(limit) = atlas.and_then(|atlas| atlas.limit.as_ref()) {
+            say(format_args!(
+                "{}: chart {} is as long as the texture and sets the scale; no layout of these charts fills more than {:.1} %",
+                group.label,
+                limit.chart,
+                100.0 * limit.utilization
+            ));
+        }
     }
     for group in shown.iter().filter(|group| group.measures.pages.len() > 1) {
         let mut pages = Vec::new();

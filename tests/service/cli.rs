@@ -227,6 +227,27 @@ fn islands_of_a_file_are_repacked_and_verify() {
 }
 
 #[test]
+fn a_chart_that_sets_the_scale_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    // A card of 40 × 1 and a square beside it, with their positions as UVs.
+    let mut lines = Vec::new();
+    for (x, width) in [(0, 40), (50, 1)] {
+        for [u, v] in [[x, 0], [x + width, 0], [x + width, 1], [x, 1]] {
+            lines.push(format!("v {u} {v} 0\nvt {u} {v}"));
+        }
+    }
+    lines.push("f 1/1 2/2 3/3 4/4\nf 5/5 6/6 7/7 8/8".to_owned());
+    std::fs::write(path("card.obj"), lines.join("\n")).expect("a file");
+    let [input, output] = ["card.obj", "out.obj"].map(path);
+    let output = unwrapd(&["repack", &input, "-o", &output]);
+    assert_status(&output, 0);
+    let text = String::from_utf8_lossy(&output.stdout);
+    let named = "chart 0 is as long as the texture and sets the scale";
+    assert!(text.contains(named), "{text}");
+}
+
+#[test]
 fn what_is_asked_of_a_file_decides_its_verdict() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("charts.obj");
