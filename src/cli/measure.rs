@@ -164,16 +164,17 @@ pub(super) fn print_table(groups: &[GroupReport]) {
              .1 % of the area"
         ));
     }
-    for group in shown {
-        let atlas = group.atlas.as_ref().filter(|atlas| atlas.charts.len() > 1);
-        if let Some(limit) = atlas.and_then(|atlas| atlas.limit.as_ref()) {
-            say(format_args!(
-                "{}: chart {} is as long as the texture and sets the scale; no layout of these charts fills more than {:.1} %",
-                group.label,
-                limit.chart,
-                100.0 * limit.utilization
-            ));
-        }
+    // With several atlases, the report tells.
+    if let [group] = groups
+        && let Some(atlas) = group.atlas.as_ref().filter(|atlas| atlas.charts.len() > 1)
+        && let Some(limit) = &atlas.limit
+    {
+        say(format_args!(
+            "{}: chart {} is as long as the texture and sets the scale; no layout of these charts fills more than {:.1} %",
+            group.label,
+            limit.chart,
+            100.0 * limit.utilization
+        ));
     }
     for group in shown.iter().filter(|group| group.measures.pages.len() > 1) {
         let mut pages = Vec::new();

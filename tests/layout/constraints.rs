@@ -1,7 +1,7 @@
 //! Charts packed in regions, in groups and around islands that stay.
 use unwrapd_layout::atlas::{
-    AroundError, Atlas, AtlasOptions, ChartMap, Constraints, GRID_BITS, Region, Rotation, Stay,
-    Texture, pack, pack_around,
+    Atlas, AtlasOptions, ChartMap, ConstraintError, Constraints, GRID_BITS, Region, Rotation, Stay,
+    Texture, pack, pack_within,
 };
 use unwrapd_maps::certificate::{Claims, Padding, certify};
 use unwrapd_maps::mesh::Resolution;
@@ -35,8 +35,8 @@ fn packed(
     charts: &[Chart],
     constraints: &Constraints,
     options: &AtlasOptions,
-) -> Result<Atlas, AroundError> {
-    pack_around(&maps(charts), constraints, options, &|_| Control::Continue)
+) -> Result<Atlas, ConstraintError> {
+    pack_within(&maps(charts), constraints, options, &|_| Control::Continue)
 }
 
 /// The UVs of a chart in the atlas.
@@ -249,11 +249,14 @@ fn what_cannot_be_met_is_named() {
         region([f64::NAN, 0.0], [1.0, 1.0]),
     ];
     for region in faulty {
-        assert_eq!(refused(&[None, region]), AroundError::Region { chart: 1 });
+        assert_eq!(
+            refused(&[None, region]),
+            ConstraintError::Region { chart: 1 }
+        );
     }
     // Within a texel of a page, nothing has room beside the padding.
     let narrow = region([0.0, 0.0], [1.0 / 1024.0, 1.0]);
-    assert_eq!(refused(&[narrow]), AroundError::NoRoom);
+    assert_eq!(refused(&[narrow]), ConstraintError::NoRoom);
 }
 
 #[test]

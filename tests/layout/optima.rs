@@ -161,3 +161,17 @@ fn a_full_page_that_is_packed_again_is_not_emptied() {
         }
     }
 }
+
+#[test]
+fn stacked_charts_form_no_layout() {
+    // All in one place, as parts that share their texels are.
+    let charts: Vec<Chart> = (0..60).map(|_| blob(1.0, 3, 0.3)).collect();
+    let layout = |positions| {
+        let options = AtlasOptions {
+            positions,
+            ..AtlasOptions::default()
+        };
+        packed(&charts, &options)
+    };
+    assert_eq!(layout(Positions::Layout), layout(Positions::Unrelated));
+}

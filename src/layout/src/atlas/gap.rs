@@ -317,7 +317,7 @@ impl Places {
 }
 
 /// Returns the smallest distance between edges of two charts; infinite for a single chart, and 0 if the search was truncated.
-fn smallest_gap(edges: &[Segment], charts: &[u32]) -> f64 {
+pub(super) fn smallest_gap(edges: &[Segment], charts: &[u32]) -> f64 {
     let boxes: Vec<Bounds> = edges.iter().map(|edge| bounds_of(edge)).collect();
     let distance = |i: u32, j: u32| segment_distance(edges[i as usize], edges[j as usize]);
     match BoxIndex::new(&boxes).closest(charts, search_budget(edges.len()), distance) {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::coarse::{FINE, MOST_CHARTS, raster_side};
 use super::effort::OnRead;
-use super::gap::{self, Border, Page};
+use super::gap::{self, Border, Page, smallest_gap};
 use super::layout::Layout;
 use super::outline::{Outline, outlines};
 use super::page::Region;
@@ -34,7 +34,8 @@ pub(super) enum Tidiness {
     Leaning,
 }
 
-/// Squeezes the charts where they lie. Returns `None` for a crowd, for several pages, or if they cannot be separated where they are.
+/// Squeezes the charts where they lie. Returns `None` for a crowd, for several pages, if outlines meet, or if the charts cannot be
+/// separated where they are.
 pub(super) fn given(
     charts: &[ChartMap],
     options: &AtlasOptions,
@@ -47,7 +48,8 @@ pub(super) fn given(
         .collect();
     mark_copies(&mut outlines);
     let order = by_size(&outlines.iter().collect::<Vec<_>>());
-    if order.is_empty() || order.len() > MOST_CHARTS || texture.pages > 1 {
+    let is_one_page = (1..=MOST_CHARTS).contains(&order.len()) && texture.pages == 1;
+    if !is_one_page || do_meet(&outlines) {
         return Ok(None);
     }
     // The smallest page around all charts.
@@ -71,7 +73,7 @@ pub(super) fn given(
         side,
         padding,
         frames: order.iter().map(|_| frame).collect(),
-        stays: Arc::default(),
+        fixed: Arc::default(),
     };
     let body = |&chart: &usize| Arc::new(Body::new(&outlines[chart], scale, padding));
     let bodies: Vec<Arc<Body>> = order.iter().map(body).collect();
@@ -101,4 +103,16 @@ pub(super) fn given(
         layout,
         tidiness,
     }))
+}
+
+/// Returns whether two outlines meet where they lie. Stacked charts do: separating them one by one would take long and give no layout
+/// that was there.
+fn do_meet(outlines: &[Outline]) -> bool {
+    let mut edges = Vec::new();
+    let mut charts = Vec::new();
+    for (chart, outline) in (0..).zip(outlines) {
+        edges.extend(outline.with_corner([0.0; 2]).edges());
+        charts.resize(edges.len(), chart);
+    }
+    smallest_gap(&edges, &charts) <= 0.0
 }

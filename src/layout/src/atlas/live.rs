@@ -4,7 +4,6 @@
 //! these islands, and shrinks again when it can. If they are in each other's way, they are all placed anew.
 use std::sync::Arc;
 
-use super::around::Problem;
 use super::coarse::{FINE, RASTER};
 use super::effort::UNHEARD;
 use super::layout::SLACK;
@@ -12,8 +11,9 @@ use super::outline::{Outline, outlines};
 use super::page::Region;
 use super::plan::Plan;
 use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation, Scale};
-use super::squeeze::{Body, Pose, Squeezed, Stays};
+use super::squeeze::{Body, FixedBody, Pose, Squeezed};
 use super::stay::Obstacle;
+use super::within::Problem;
 
 /// Distance that islands keep beside the padding, in cells: distances are looked up approximately.
 const ROOM: f64 = 0.2;
@@ -85,7 +85,7 @@ impl LiveLayout {
                 frames: plan.order.iter().map(chart).map(frame).collect(),
                 side: page - padding,
                 padding,
-                stays: [Stays::new(&held, page, padding + ROOM)].into(),
+                fixed: [FixedBody::new(&held, page, padding + ROOM)].into(),
             },
             bodies: bodies.collect(),
             options,
@@ -100,7 +100,7 @@ impl LiveLayout {
     /// Moves the center of the held island and turns it by an angle, in radians, from where it lay at first. Returns where the other
     /// islands make room for it.
     pub fn drag(&mut self, middle: [f64; 2], angle: f64) -> Followers {
-        self.squeezed.stays = [self.squeezed.stays[0].moved(middle, angle)].into();
+        self.squeezed.fixed = [self.squeezed.fixed[0].moved(middle, angle)].into();
         let mut pushed = self.squeezed.clone();
         let is_apart = pushed.follow(&self.bodies, self.side);
         if (!is_apart || pushed.side > CROWDED * self.side_anew)
@@ -137,8 +137,8 @@ impl LiveLayout {
         let found = problem.on_raster((&self.plan, &slack), cells, (&self.options, UNHEARD))?;
         // On this page, islands are as large as their bodies.
         let page = self.page * texture.grid_side() / found.scale;
-        let stays = self.squeezed.stays.clone();
-        let placed = problem.poses((&self.plan, &found), page, stays, &self.options);
+        let fixed = self.squeezed.fixed.clone();
+        let placed = problem.poses((&self.plan, &found), page, fixed, &self.options);
         let mut pushed = placed.clone();
         // The raster keeps them apart, though maybe not by the room.
         let is_apart = pushed.follow(&self.bodies, self.side);

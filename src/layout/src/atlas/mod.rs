@@ -6,10 +6,13 @@
 //!    raster ([`CoarseLayout`]).
 //! 2. All charts of a page move and turn at once until the page cannot shrink any more (`squeeze`).
 //! 3. The distances between charts are measured, and corrected to exactly the padding (`gap`). If this fails, or if there are many
-//!    charts, they are placed on a raster that keeps the padding by construction (`layout`). Charts around islands that stay are
-//!    placed on such a raster as well (`around`).
+//!    charts, they are placed on a raster that keeps the padding by construction (`layout`).
 //! 4. Vertices are rounded to multiples of 2⁻²³, which `f32` represents exactly (`grid`). Rounding may flip a thin triangle. Its
 //!    vertices are then moved, as little as possible, until all triangles are positive in exact integer arithmetic.
+//!
+//! Charts with constraints (regions, groups, islands that stay) are placed on a raster first, and then take the last three steps like
+//! others (`within`). So does a layout that is packed again, from where its charts lie (`given`). While an island is dragged, the others
+//! take the second step only (`live`).
 //!
 //! A chart is rounded once, before it is turned by quarters and shifted by whole grid units, so its signs hold at any place. If a
 //! vertex had to move farther than the padding allows, the charts are laid out again with more room.
@@ -19,7 +22,6 @@
 //! the steps of the last one.
 //!
 //! Charts are never mirrored. All have the same scale, except those below a texel in size for which the grid would be too coarse.
-mod around;
 mod coarse;
 mod copies;
 mod effort;
@@ -39,8 +41,8 @@ mod problem;
 mod relax;
 mod squeeze;
 mod stay;
+mod within;
 
-pub use around::pack_around;
 pub use coarse::CoarseLayout;
 pub use effort::{Effort, OnRead};
 pub use enough::{Enough, enough};
@@ -48,7 +50,8 @@ pub use live::{Followers, LiveLayout};
 pub use pack::{expected_words, fits, pack, pack_coarse};
 pub use page::{GRID_BITS, Region, Texture};
 pub use problem::{
-    AroundError, Atlas, AtlasError, AtlasOptions, Borders, ChartMap, Constraints, Limit, Placed,
-    Positions, Rotation, Scale, Stay,
+    Atlas, AtlasError, AtlasOptions, Borders, ChartMap, ConstraintError, Constraints, Limit,
+    Placed, Positions, Rotation, Scale, Stay,
 };
 pub use relax::cleared;
+pub use within::pack_within;

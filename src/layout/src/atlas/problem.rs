@@ -203,7 +203,7 @@ pub enum AtlasError {
 
 /// Error of charts that cannot be packed within constraints.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum AroundError {
+pub enum ConstraintError {
     /// A chart that stays extends beyond the page that holds its middle, or lies on no page.
     #[error("island {island} leaves its page")]
     OffPage {

@@ -3,7 +3,7 @@ use super::grid::{Repair, Snapped, snapped};
 use super::mask::{Distances, Mask, Rounding, Run};
 use super::outline::{Outline, outlines};
 use super::page::Texture;
-use super::problem::{AroundError, ChartMap, Placed, Stay};
+use super::problem::{ChartMap, ConstraintError, Placed, Stay};
 use unwrapd_maps::plane::{BoxIndex, search_budget, segment_distance};
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of, touch, widened};
 
@@ -55,7 +55,7 @@ pub(super) struct Staying {
 
 impl Staying {
     /// Checks that each chart lies within a page, and rounds it to the grid.
-    pub(super) fn all(stays: &[Stay], texture: Texture) -> Result<Vec<Self>, AroundError> {
+    pub(super) fn all(stays: &[Stay], texture: Texture) -> Result<Vec<Self>, ConstraintError> {
         let maps: Vec<ChartMap> = stays.iter().map(|stay| stay.map).collect();
         let outlined = outlines(&maps)?.into_iter().zip(stays);
         let staying = outlined.map(|(outline, stay)| {
@@ -63,7 +63,7 @@ impl Staying {
             let bounds = bounds_of(&corners);
             let outline = outline.with_corner([0.0; 2]);
             let island = stay.island;
-            let page = page(bounds, texture).ok_or(AroundError::OffPage { island })?;
+            let page = page(bounds, texture).ok_or(ConstraintError::OffPage { island })?;
             let snapped = snapped(&stay.map, &outline, texture.grid_side(), Repair::Open);
             Ok(Self {
                 obstacle: Obstacle {

@@ -10,7 +10,7 @@ use super::soup::Soup;
 use crate::PipelineError;
 use crate::island_error::IslandError;
 use unwrapd_layout::atlas::{
-    AroundError, Atlas, AtlasOptions, Constraints, OnRead, Rotation, Stay, pack_around,
+    Atlas, AtlasOptions, ConstraintError, Constraints, OnRead, Rotation, Stay, pack_within,
 };
 use unwrapd_layout::charts::MappedChart;
 use unwrapd_maps::mesh::{CornerUvs, Resolution};
@@ -62,18 +62,18 @@ pub fn arranged(
         stays: &stays,
         ..Constraints::default()
     };
-    let atlas = pack_around(&chart_maps(free), &constraints, &options, on_read);
+    let atlas = pack_within(&chart_maps(free), &constraints, &options, on_read);
     let number = |island: usize| placements[island].number;
     let atlas = atlas.map_err(|error| match error {
-        AroundError::OffPage { island } => IslandError::OffPage(number(island)).into(),
-        AroundError::TooNear { islands, texels } => IslandError::TooNear {
+        ConstraintError::OffPage { island } => IslandError::OffPage(number(island)).into(),
+        ConstraintError::TooNear { islands, texels } => IslandError::TooNear {
             islands: islands.map(number),
             texels,
             padding: options.padding_texels,
         }
         .into(),
-        AroundError::NoRoom | AroundError::Region { .. } => IslandError::NoRoom.into(),
-        AroundError::Atlas(error) => PipelineError::Atlas(error),
+        ConstraintError::NoRoom | ConstraintError::Region { .. } => IslandError::NoRoom.into(),
+        ConstraintError::Atlas(error) => PipelineError::Atlas(error),
     })?;
     Ok((charts, atlas))
 }

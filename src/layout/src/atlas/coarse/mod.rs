@@ -327,7 +327,7 @@ impl CoarseLayout {
                 side: f64::from(self.state.side),
                 padding: self.raster.padding,
                 frames: charts.iter().map(|_| frame).collect(),
-                stays: Arc::default(),
+                fixed: Arc::default(),
             };
             Page {
                 number,

@@ -42,12 +42,12 @@ pub(super) struct Squeezed {
     pub padding: f64,
     /// Frame of each chart.
     pub frames: Arc<[Frame]>,
-    pub stays: Arc<[Stays]>,
+    pub fixed: Arc<[FixedBody]>,
 }
 
 /// Island that stays where it is on the page, and grows with it.
 #[derive(Clone)]
-pub(in crate::atlas) struct Stays {
+pub(in crate::atlas) struct FixedBody {
     body: Arc<Body>,
     /// Center of its bounding rectangle, in longer sides of a page with its borders.
     middle: [f64; 2],
@@ -57,7 +57,7 @@ pub(in crate::atlas) struct Stays {
     page: f64,
 }
 
-impl Stays {
+impl FixedBody {
     /// Creates an island from its outline in longer sides of a page, which has `page` cells along that side with its borders. Other
     /// charts keep `kept` cells away.
     pub(super) fn new(outline: &Outline, page: f64, kept: f64) -> Self {
@@ -208,11 +208,11 @@ impl Squeezed {
 
 impl<'a> Scene<'a> {
     fn new(bodies: &[Arc<Body>], squeezed: &Squeezed, room: f64, limit: ReadLimit<'a>) -> Self {
-        let stays = squeezed.stays.iter().map(|stays| &stays.body);
+        let fixed = squeezed.fixed.iter().map(|fixed| &fixed.body);
         let mut scene = Self {
-            bodies: bodies.iter().chain(stays).cloned().collect(),
+            bodies: bodies.iter().chain(fixed).cloned().collect(),
             bounds: Vec::new(),
-            stays: Vec::new(),
+            fixed: Vec::new(),
             room,
             most_steps: STEPS,
             work: 0,
@@ -225,9 +225,9 @@ impl<'a> Scene<'a> {
     /// Updates everything that grows with the page.
     fn resize(&mut self, squeezed: &Squeezed) {
         let Squeezed { side, padding, .. } = *squeezed;
-        let stays = squeezed.stays.iter();
+        let fixed = squeezed.fixed.iter();
         self.bounds = squeezed.bounds();
-        self.stays = stays.map(|stays| stays.pose(side, padding)).collect();
+        self.fixed = fixed.map(|fixed| fixed.pose(side, padding)).collect();
     }
 
     /// Returns whether the search may go on.
@@ -305,7 +305,7 @@ impl Scene<'_> {
             b
         };
         let [low, high] = self.bounds[body];
-        let all: Vec<Pose> = poses.iter().chain(&self.stays).copied().collect();
+        let all: Vec<Pose> = poses.iter().chain(&self.fixed).copied().collect();
         let others = || (0..all.len()).filter(|&other| other != body);
         let mut farthest = (f64::NEG_INFINITY, poses[body].middle);
         for place in 0..PLACES * PLACES {

@@ -22,12 +22,12 @@ pub(super) struct Contact {
 
 /// Page and the bodies that should lie on it.
 pub(super) struct Scene<'a> {
-    /// Bodies that move, then those that stay.
+    /// Bodies that move, then those that do not.
     pub bodies: Vec<Arc<Body>>,
     /// Bounds of each body that moves, in cells.
     pub bounds: Vec<Bounds>,
-    /// Poses of the bodies that stay.
-    pub stays: Vec<Pose>,
+    /// Poses of the bodies that do not move.
+    pub fixed: Vec<Pose>,
     /// Distance kept between bodies beyond the one that each keeps, in cells.
     pub room: f64,
     /// Maximum number of steps that separate bodies.
@@ -146,7 +146,7 @@ impl Equations {
     /// Computes the equations of all bodies that move in a scene.
     pub(super) fn new(scene: &mut Scene, poses: &[Pose]) -> Self {
         let n = poses.len();
-        let all: Vec<Pose> = poses.iter().chain(&scene.stays).copied().collect();
+        let all: Vec<Pose> = poses.iter().chain(&scene.fixed).copied().collect();
         let mut equations = Self {
             energy: 0.0,
             deepest: 0.0,
@@ -209,7 +209,7 @@ impl Equations {
         }
     }
 
-    /// Adds the row of a contact for a body, unless the body stays.
+    /// Adds the row of a contact for a body, unless the body is fixed.
     fn add(&mut self, body: usize, depth: f64, row: Row) {
         let Some(of_body) = self.of_body.get_mut(body) else {
             return;

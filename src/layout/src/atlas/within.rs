@@ -1,7 +1,7 @@
 //! Charts packed within constraints: in regions, in groups, and around islands that stay in place.
 //!
 //! Pages keep their size, so the search is for the largest scale of the charts. They are first placed on a raster on which the cells of
-//! the islands are occupied, each where its region allows. Then all charts move at once while the pages shrink together with the
+//! islands that stay are occupied, each where its region allows. Then all charts move at once while the pages shrink together with the
 //! islands and the regions ([`squeeze`](super::squeeze)), which is the same as growing the charts.
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
@@ -18,9 +18,9 @@ use super::pack::{self, is_cramped, on_grid};
 use super::page::{Frame, GRID_SIDE, Region};
 use super::plan::{HOPE, Plan, QuarterTurns};
 use super::problem::{
-    AroundError, Atlas, AtlasOptions, ChartMap, Constraints, Placed, Rotation, Scale,
+    Atlas, AtlasOptions, ChartMap, ConstraintError, Constraints, Placed, Rotation, Scale,
 };
-use super::squeeze::{Body, Pose, Squeezed, Stays};
+use super::squeeze::{Body, FixedBody, Pose, Squeezed};
 use super::stay::{Obstacle, Staying, too_near};
 use unwrapd_method::numerics::random::Random;
 use unwrapd_method::solver::Control;
@@ -34,18 +34,18 @@ const ROUNDS: usize = 6;
 const SQUEEZED_CELLS: u32 = 256;
 
 /// Packs charts within constraints. The atlas contains the packed charts, then those that stay.
-pub fn pack_around(
+pub fn pack_within(
     charts: &[ChartMap],
     constraints: &Constraints,
     options: &AtlasOptions,
     on_read: &OnRead,
-) -> Result<Atlas, AroundError> {
+) -> Result<Atlas, ConstraintError> {
     let texture = options.texture;
     let staying = Staying::all(constraints.stays, texture)?;
     let longer = f64::from(texture.resolution.longer());
     let gap = f64::from(options.padding_texels) / longer;
     if let Some((islands, distance)) = too_near(&staying, gap) {
-        return Err(AroundError::TooNear {
+        return Err(ConstraintError::TooNear {
             islands,
             texels: distance * longer,
         });
@@ -54,7 +54,7 @@ pub fn pack_around(
         region.is_some_and(|region| region.on_page(texture.pages).is_none())
     };
     if let Some(chart) = constraints.regions.iter().position(outside) {
-        return Err(AroundError::Region { chart });
+        return Err(ConstraintError::Region { chart });
     }
     let groups = Group::all(charts, constraints)?;
     let maps: Vec<ChartMap> = groups.iter().map(Group::map).collect();
@@ -88,7 +88,7 @@ struct Group {
 
 impl Group {
     /// Joins the charts of each group, in the order of their first charts.
-    fn all(charts: &[ChartMap], constraints: &Constraints) -> Result<Vec<Self>, AroundError> {
+    fn all(charts: &[ChartMap], constraints: &Constraints) -> Result<Vec<Self>, ConstraintError> {
         // In a joined map, an index that is out of range could name a vertex of another chart.
         outlines(charts)?;
         let mut groups: Vec<Self> = Vec::new();
@@ -146,7 +146,7 @@ pub(super) struct Problem<'a> {
 
 impl Problem<'_> {
     /// Packs the charts: on a coarse raster, squeezed, if that is possible; otherwise on a fine raster.
-    fn packed(&self, options: &AtlasOptions, on_read: &OnRead) -> Result<Atlas, AroundError> {
+    fn packed(&self, options: &AtlasOptions, on_read: &OnRead) -> Result<Atlas, ConstraintError> {
         let charts = self.charts;
         let plan = Plan::largest_first(&outlines(charts)?, options);
         let n = plan.order.len();
@@ -165,13 +165,13 @@ impl Problem<'_> {
         for repair in [[Repair::Open; ROUNDS].as_slice(), &[Repair::Nothing]].concat() {
             let layout = self
                 .on_raster((&plan, &slack), options.most_cells, (options, on_read))
-                .ok_or(AroundError::NoRoom)?;
+                .ok_or(ConstraintError::NoRoom)?;
             let snapped = on_grid(charts, &plan.outlines, &layout, repair);
             if repair == Repair::Nothing || !is_cramped(&snapped, &layout, &mut slack) {
                 return Ok(pack::atlas(charts, &layout, &slack, snapped, options));
             }
         }
-        Err(AroundError::NoRoom)
+        Err(ConstraintError::NoRoom)
     }
 
     /// Returns a layout on a raster that keeps the padding by construction; `None` if the charts do not fit.
@@ -244,8 +244,8 @@ impl Problem<'_> {
         let padding = options.padding_share() * page;
         let scale = found.scale * page / texture.grid_side();
         let obstacles = self.obstacles.iter();
-        let stays = obstacles.map(|it| Stays::new(&it.outline, page, padding));
-        let mut squeezed = self.poses((plan, found), page, stays.collect(), options);
+        let fixed = obstacles.map(|it| FixedBody::new(&it.outline, page, padding));
+        let mut squeezed = self.poses((plan, found), page, fixed.collect(), options);
         let body = |&chart: &usize| Arc::new(Body::new(&plan.outlines[chart], scale, padding));
         let bodies: Vec<Arc<Body>> = plan.order.iter().map(body).collect();
         if !squeezed.settle(&bodies, options.budget_words / 2, on_read) {
@@ -267,7 +267,7 @@ impl Problem<'_> {
         &self,
         (plan, found): (&Plan, &Layout),
         page: f64,
-        stays: Arc<[Stays]>,
+        fixed: Arc<[FixedBody]>,
         options: &AtlasOptions,
     ) -> Squeezed {
         let texture = options.texture;
@@ -291,7 +291,7 @@ impl Problem<'_> {
             poses: plan.order.iter().zip(frames.iter()).map(pose).collect(),
             side: page - padding,
             padding,
-            stays,
+            fixed,
             frames,
         }
     }
