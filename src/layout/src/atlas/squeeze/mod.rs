@@ -295,7 +295,7 @@ impl Scene<'_> {
         now
     }
 
-    /// Moves the smaller of two bodies to the place of its page that is farthest from all others.
+    /// Moves the smaller of two bodies to the lowest place of its page with room for it, or else to the one farthest from all others.
     fn jump(&mut self, poses: &mut [Pose], [a, b]: [usize; 2]) {
         let radius = |body: usize| self.bodies[body].radius;
         // Bodies that stay come last.
@@ -317,6 +317,9 @@ impl Scene<'_> {
             let free = others().map(distance).fold(f64::INFINITY, f64::min);
             if free > farthest.0 {
                 farthest = (free, middle);
+            }
+            if free >= radius(body) {
+                break;
             }
         }
         self.work += (PLACES * PLACES * all.len()) as u64;
