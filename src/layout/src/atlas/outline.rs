@@ -186,11 +186,11 @@ impl Outline {
         self.boundary.iter().map(|edge| edge.map(|p| self.place(p)))
     }
 
-    /// Returns the longer side of the smallest page around the outline in any permitted rotation, without borders, in mesh units. The
+    /// Returns the longer side of the smallest page around the outline in any of these rotations, without borders, in mesh units. The
     /// sides of the page along u and v are the longer side halved this many times.
-    pub(super) fn least_page(&self, halvings: [u32; 2]) -> f64 {
+    pub(super) fn least_page(&self, rotation: Rotation, halvings: [u32; 2]) -> f64 {
         let [width, height] = self.extent;
-        match self.rotation() {
+        match rotation {
             Rotation::Any => smallest_page(&convex_hull(self.corners()), halvings).1,
             Rotation::Quarter => {
                 page_side([width, height], halvings).min(page_side([height, width], halvings))

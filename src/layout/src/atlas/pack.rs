@@ -316,7 +316,9 @@ fn limit(atlas: &Atlas, outlines: &[Outline], options: &AtlasOptions) -> Option<
         width.hypot(height) * stretch * atlas.scale >= LIMITING
     };
     let long = (outlines.iter().enumerate()).filter(|(_, outline)| is_long(outline));
-    let sides = long.map(|(chart, outline)| (chart, outline.least_page(halvings)));
+    // A straight chart that lies along the axes could lie at another angle.
+    let sides =
+        long.map(|(chart, outline)| (chart, outline.least_page(options.rotation, halvings)));
     let (chart, longest) = sides.max_by(|a, b| a.1.total_cmp(&b.1))?;
     let most = (1.0 - options.padding_share()) / longest;
     (options.scale == Scale::Largest && atlas.scale >= LIMITING * most).then(|| Limit {

@@ -300,7 +300,8 @@ impl Poses {
     /// Returns the longer side of the smallest page around the outline in any pose, without borders, in mesh units. The sides of the
     /// page along u and v are the longer side halved this many times.
     pub(super) fn least_page(&self, halvings: [u32; 2]) -> f64 {
-        *(self.least_page).get_or_init(|| self.outline(0).least_page(halvings))
+        let outline = self.outline(0);
+        *(self.least_page).get_or_init(|| outline.least_page(outline.rotation(), halvings))
     }
 
     pub(super) fn mask(&self, pose: usize) -> &Turned {
