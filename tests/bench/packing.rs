@@ -93,7 +93,7 @@ fn drag(case: &str, islands: &[Chart], options: &AtlasOptions) {
     let maps: Vec<ChartMap> = (islands.iter())
         .map(|(uv, triangles)| ChartMap { uv, triangles })
         .collect();
-    let mut live = LiveLayout::new(&maps[1..], &maps[0], options).expect("islands");
+    let mut live = LiveLayout::new(&maps[1..], &maps[..1], 1.0, options).expect("islands");
     let (mut milliseconds, mut scale, mut least_gap) = (Vec::new(), 1.0_f64, f64::INFINITY);
     for step in 0..MOVES {
         let angle = TAU * f64::from(step) / f64::from(MOVES);
@@ -102,7 +102,8 @@ fn drag(case: &str, islands: &[Chart], options: &AtlasOptions) {
             0.5 + 0.3 * (3.0 * angle).sin(),
         ];
         let clock = Clock::start();
-        let followers = live.drag(to, 0.0);
+        live.drag(0, to, 0.0);
+        let followers = live.make_room();
         milliseconds.push(1e3 * clock.seconds().processor);
         scale = scale.min(followers.scale);
         let mut all = vec![moved(&islands[0], to, 1.0)];

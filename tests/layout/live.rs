@@ -52,7 +52,12 @@ fn around(islands: &[Chart], followers: &Followers) -> Vec<Chart> {
 
 fn live(islands: &[Chart]) -> LiveLayout {
     let maps: Vec<ChartMap> = maps(islands);
-    LiveLayout::new(&maps[1..], &maps[0], &AtlasOptions::default()).expect("islands")
+    LiveLayout::new(&maps[1..], &maps[..1], 1.0, &AtlasOptions::default()).expect("islands")
+}
+
+fn dragged(live: &mut LiveLayout, to: [f64; 2], angle: f64) -> Followers {
+    live.drag(0, to, angle);
+    live.make_room()
 }
 
 #[test]
@@ -64,7 +69,7 @@ fn islands_never_overlap_while_one_is_dragged() {
             let t = f64::from(step) / 60.0;
             let angle = std::f64::consts::TAU * t;
             let to = [0.5 + 0.3 * angle.cos(), 0.5 + 0.3 * (2.0 * angle).sin()];
-            let followers = live.drag(to, angle);
+            let followers = dragged(&mut live, to, angle);
             let mut all = around(&islands[1..], &followers);
             for (uv, _) in &all {
                 let is_inside = uv.iter().flatten().all(|x| (0.0..=1.0).contains(x));
@@ -96,7 +101,7 @@ fn islands_keep_their_size_where_there_is_room() {
     for step in 1..20 {
         let t = f64::from(step) / 20.0;
         let to = [0, 1].map(|k| from[k] + t * (0.5 - from[k]));
-        let scale = live.drag(to, 0.0).scale;
+        let scale = dragged(&mut live, to, 0.0).scale;
         assert!(scale > 0.999, "step {step}: {scale}");
     }
 }
@@ -105,11 +110,12 @@ fn islands_keep_their_size_where_there_is_room() {
 fn islands_that_are_not_in_the_way_stay() {
     let islands = islands(8);
     let mut live = live(&islands);
-    let followers = live.drag(center(&islands[0].0), 0.0);
+    let followers = dragged(&mut live, center(&islands[0].0), 0.0);
     let moves = islands[1..].iter().zip(&followers.middles);
     for ((uv, _), middle) in moves {
         let from = center(uv);
         let far = (middle[0] - from[0]).hypot(middle[1] - from[1]);
-        assert!(far < 2e-3, "{far}");
+        // The page is full: islands that lay at the padding get a little more room.
+        assert!(far < 1e-2, "{far}");
     }
 }

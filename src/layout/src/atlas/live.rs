@@ -1,4 +1,4 @@
-//! Layouts that follow an island while it is dragged.
+//! Layouts that follow islands while they are dragged.
 //!
 //! The islands around are pushed aside where they are. If they do not all find room, the page grows, which is the same as shrinking
 //! these islands, and shrinks again when it can. If they are in each other's way, they are all placed anew.
@@ -8,30 +8,39 @@ use super::coarse::{FINE, RASTER};
 use super::effort::UNHEARD;
 use super::layout::SLACK;
 use super::outline::{Outline, outlines};
-use super::page::Region;
+use super::page::{Region, Texture};
 use super::plan::Plan;
 use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation, Scale};
 use super::squeeze::{Body, FixedBody, Pose, Squeezed};
 use super::stay::Obstacle;
 use super::within::Problem;
 
-/// Distance that islands keep beside the padding, in cells: distances are looked up approximately.
-const ROOM: f64 = 0.2;
+/// Distance that islands keep beside the padding, in cells: distances are looked up approximately. Around a turned island, up to 0.23
+/// cells were missing; twice that keeps the padding at any resolution of the texture, which cells do not depend on.
+const ROOM: f64 = 0.5;
 /// Ratio of the sides of two pages above which the larger one is given up.
 const CROWDED: f64 = 1.1;
 
-/// Layout of islands around one that is dragged.
+/// Layout of islands around those that are held.
 pub struct LiveLayout {
     options: AtlasOptions,
     plan: Plan,
-    held: Outline,
+    held: Vec<Held>,
     bodies: Vec<Arc<Body>>,
     squeezed: Squeezed,
-    /// Cells along the longer side of a page at the start, with its borders and without.
+    /// Cells along the longer side of a page at full size, with its borders and without.
     page: f64,
     side: f64,
     /// Side of the last page on which all islands around were placed anew.
     side_anew: f64,
+}
+
+/// Island that is held.
+struct Held {
+    outline: Outline,
+    /// Center and angle at which it is held.
+    middle: [f64; 2],
+    angle: f64,
 }
 
 /// Position of the islands around.
@@ -41,17 +50,30 @@ pub struct Followers {
     pub scale: f64,
     /// Center of the bounding rectangle of each island, in longer sides of a page.
     pub middles: Vec<[f64; 2]>,
+    /// Room beside the islands that are held.
+    pub room: Room,
+}
+
+/// Room beside the islands that are held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Room {
+    /// No island around overlaps another island.
+    Enough,
+    /// Some islands around overlap others. They lie where they last had room.
+    Missing,
 }
 
 impl LiveLayout {
-    /// Creates the layout of islands as they lie, around `held`. The unit of all maps is the longer side of a page, the origin is the
-    /// lower left corner of the first page. Islands stay on the pages that contain their centers, and keep their angles.
+    /// Creates the layout of islands as they lie, around those in `held`. The unit of all maps is the longer side of a page, the
+    /// origin is the lower left corner of the first page. The maps of the islands around have their full size; the islands begin at
+    /// `scale` times that size, with the same centers. They stay on the pages that contain their centers, and keep their angles.
     ///
     /// # Errors
     /// Fails if a map is faulty.
     pub fn new(
-        islands: &[ChartMap],
-        held: &ChartMap,
+        around: &[ChartMap],
+        held: &[ChartMap],
+        scale: f64,
         options: &AtlasOptions,
     ) -> Result<Self, AtlasError> {
         let options = AtlasOptions {
@@ -64,13 +86,13 @@ impl LiveLayout {
         let texture = options.texture;
         let page = FINE * f64::from(texture.raster(RASTER));
         let padding = options.padding_share() * page;
-        let plan = Plan::largest_first(&outlines(islands)?, &options);
-        let held = outlines(&[*held])?.remove(0);
+        let plan = Plan::largest_first(&outlines(around)?, &options);
+        let held = outlines(held)?;
         let chart = |&chart: &usize| &plan.outlines[chart];
         let bodies = plan.order.iter().map(chart);
         let bodies = bodies.map(|it| Arc::new(Body::new(it, page, padding + ROOM)));
         let pose = |outline: &Outline| {
-            let middle = outline.middle().map(|x| x * page - padding / 2.0);
+            let middle = outline.middle().map(|x| x * page / scale - padding / 2.0);
             Pose::new(middle, 0.0)
         };
         let width = texture.resolution.sides()[0];
@@ -79,64 +101,72 @@ impl LiveLayout {
             let on = (outline.middle()[0] / width).floor().clamp(0.0, last);
             texture.frame(Region::page(on as u32))
         };
+        let fixed = held.iter();
+        let fixed = fixed.map(|outline| FixedBody::new(outline, page, padding + ROOM));
         Ok(Self {
             squeezed: Squeezed {
                 poses: plan.order.iter().map(chart).map(pose).collect(),
                 frames: plan.order.iter().map(chart).map(frame).collect(),
-                side: page - padding,
+                side: page / scale - padding,
                 padding,
-                fixed: [FixedBody::new(&held, page, padding + ROOM)].into(),
+                fixed: fixed.collect(),
             },
             bodies: bodies.collect(),
             options,
+            held: held.into_iter().map(Held::new).collect(),
             plan,
-            held,
             page,
             side: page - padding,
             side_anew: page - padding,
         })
     }
 
-    /// Moves the center of the held island and turns it by an angle, in radians, from where it lay at first. Returns where the other
-    /// islands make room for it.
-    pub fn drag(&mut self, middle: [f64; 2], angle: f64) -> Followers {
-        self.squeezed.fixed = [self.squeezed.fixed[0].moved(middle, angle)].into();
+    /// Moves the center of a held island, named by its index, and turns it by an angle, in radians, from where it lay at first.
+    pub fn drag(&mut self, island: usize, middle: [f64; 2], angle: f64) {
+        let held = &mut self.held[island];
+        (held.middle, held.angle) = (middle, angle);
+        let mut fixed = self.squeezed.fixed.to_vec();
+        fixed[island] = fixed[island].moved(middle, angle);
+        self.squeezed.fixed = fixed.into();
+    }
+
+    /// Makes room for the islands that are held. Returns where the other islands then lie. Where they could still grow, another call
+    /// makes them larger.
+    pub fn make_room(&mut self) -> Followers {
         let mut pushed = self.squeezed.clone();
-        let is_apart = pushed.follow(&self.bodies, self.side);
+        let mut is_apart = pushed.follow(&self.bodies, self.side);
         if (!is_apart || pushed.side > CROWDED * self.side_anew)
-            && let Some(anew) = self.placed_anew(middle, angle)
+            && let Some(anew) = self.placed_anew()
         {
             self.side_anew = anew.side;
             if !is_apart || CROWDED * anew.side < pushed.side {
-                pushed = anew;
+                (pushed, is_apart) = (anew, true);
             }
         }
-        self.squeezed = pushed;
-        self.followers()
+        let room = if is_apart {
+            self.squeezed = pushed;
+            Room::Enough
+        } else {
+            Room::Missing
+        };
+        self.followers(room)
     }
 
     /// Returns a layout in which all islands around are placed one after the other; `None` if one finds no place.
-    fn placed_anew(&self, middle: [f64; 2], angle: f64) -> Option<Squeezed> {
+    fn placed_anew(&self) -> Option<Squeezed> {
         let texture = self.options.texture;
-        let turned = self.held.rotated(angle);
-        let center = turned.place(self.held.middle());
-        let last = f64::from(texture.pages - 1);
-        let page = (middle[0] / texture.resolution.sides()[0]).floor();
-        let obstacle = Obstacle {
-            page: page.clamp(0.0, last) as u32,
-            outline: turned.with_origin([0, 1].map(|k| center[k] - middle[k])),
-            slack: 0.0,
-        };
+        let held = self.held.iter().map(|held| held.obstacle(texture));
+        let held: Vec<Obstacle> = held.collect();
         let problem = Problem {
             charts: &[],
             regions: &[],
-            obstacles: &[&obstacle],
+            obstacles: &held.iter().collect::<Vec<_>>(),
         };
         let slack = vec![SLACK; self.plan.outlines.len()];
         let cells = FINE as u32 * RASTER;
         let found = problem.on_raster((&self.plan, &slack), cells, (&self.options, UNHEARD))?;
-        // On this page, islands are as large as their bodies.
-        let page = self.page * texture.grid_side() / found.scale;
+        // On this page, islands are as large as their bodies. On a larger one they are apart as well.
+        let page = self.page * (texture.grid_side() / found.scale).max(1.0);
         let fixed = self.squeezed.fixed.clone();
         let placed = problem.poses((&self.plan, &found), page, fixed, &self.options);
         let mut pushed = placed.clone();
@@ -145,7 +175,7 @@ impl LiveLayout {
         Some(if is_apart { pushed } else { placed })
     }
 
-    fn followers(&self) -> Followers {
+    fn followers(&self, room: Room) -> Followers {
         let Squeezed {
             side,
             padding,
@@ -160,6 +190,30 @@ impl LiveLayout {
         Followers {
             scale: self.page / page,
             middles,
+            room,
+        }
+    }
+}
+
+impl Held {
+    fn new(outline: Outline) -> Self {
+        Self {
+            middle: outline.middle(),
+            angle: 0.0,
+            outline,
+        }
+    }
+
+    /// Returns the island where it is held, on the page that contains its center.
+    fn obstacle(&self, texture: Texture) -> Obstacle {
+        let turned = self.outline.rotated(self.angle);
+        let center = turned.place(self.outline.middle());
+        let last = f64::from(texture.pages - 1);
+        let page = (self.middle[0] / texture.resolution.sides()[0]).floor();
+        Obstacle {
+            page: page.clamp(0.0, last) as u32,
+            outline: turned.with_origin([0, 1].map(|k| center[k] - self.middle[k])),
+            slack: 0.0,
         }
     }
 }

@@ -11,7 +11,7 @@
 //!    vertices are then moved, as little as possible, until all triangles are positive in exact integer arithmetic.
 //!
 //! Charts with constraints (regions, groups, islands that stay) are placed on a raster first, and then take the last three steps like
-//! others (`within`). So does a layout that is packed again, from where its charts lie (`given`). While an island is dragged, the others
+//! others (`within`). So does a layout that is packed again, from where its charts lie (`given`). While islands are dragged, the others
 //! take the second step only (`live`).
 //!
 //! A chart is rounded once, before it is turned by quarters and shifted by whole grid units, so its signs hold at any place. If a
@@ -46,7 +46,7 @@ mod within;
 pub use coarse::CoarseLayout;
 pub use effort::{Effort, OnRead};
 pub use enough::{Enough, enough};
-pub use live::{Followers, LiveLayout};
+pub use live::{Followers, LiveLayout, Room};
 pub use pack::{expected_words, fits, pack, pack_coarse};
 pub use page::{GRID_BITS, Region, Texture};
 pub use problem::{
