@@ -11,7 +11,7 @@ use unwrapd_pipeline::{
 use crate::places;
 
 /// Squares that each have a place and a side in UV, v up, as an OBJ file; they lie apart in space.
-fn squares(places: &[([f64; 2], f64)]) -> Upload {
+pub fn squares(places: &[([f64; 2], f64)]) -> Upload {
     let mut lines = Vec::new();
     for (k, ([u, v], side)) in places.iter().enumerate() {
         for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
@@ -35,7 +35,7 @@ const FOUR: [([f64; 2], f64); 4] = [
     ([0.6, 0.6], 0.35),
 ];
 
-fn island(face: u32) -> Island {
+pub fn island(face: u32) -> Island {
     Island {
         primitive: 0,
         face,
@@ -58,13 +58,13 @@ fn repacked(upload: &Upload, options: &RepackOptions) -> Outcome {
 }
 
 /// The UVs of the first primitive, as the file has them.
-fn uvs(upload: &Upload) -> Vec<CornerUvs> {
+pub fn uvs(upload: &Upload) -> Vec<CornerUvs> {
     let document = Document::read(upload).expect("a file");
     let uvs = document.corner_uvs(0, 0).expect("a set");
     uvs.expect("UVs")
 }
 
-fn written(outcome: &Outcome) -> Upload {
+pub fn written(outcome: &Outcome) -> Upload {
     let (name, bytes) = outcome.files[0].clone();
     Upload::single(name, bytes)
 }

@@ -12,6 +12,7 @@ mod documents;
 mod early_end;
 mod given_seams;
 mod islands;
+mod live_islands;
 mod more_pages;
 mod obj_pipeline;
 mod packing_mode;

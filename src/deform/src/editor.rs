@@ -65,13 +65,18 @@ struct EditorState<M: Editable> {
 
 impl<M: Editable> Editor<M> {
     /// Wraps a map without handles.
-    pub(super) fn of(map: M) -> Self {
+    pub fn of(map: M) -> Self {
         Self {
             map,
             handles: BTreeMap::new(),
             next: 0,
             history: History::new(),
         }
+    }
+
+    /// Returns the map.
+    pub fn map(&self) -> &M {
+        &self.map
     }
 
     /// Adds a handle. Its place is that of the map at the start.

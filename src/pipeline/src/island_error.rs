@@ -26,6 +26,23 @@ pub enum IslandError {
     /// The other islands do not fit around the placed ones.
     #[error("the other islands do not fit around those that stay where they are put")]
     NoRoom,
+    /// An atlas has too many islands for a session.
+    #[error("the atlas has {islands} islands; in a session, at most {most} can make room")]
+    TooMany {
+        /// Number of its islands.
+        islands: usize,
+        /// Maximum number.
+        most: usize,
+    },
+    /// A number of a placement is not finite, or out of range.
+    #[error("{0}")]
+    BadTarget(String),
+    /// A handle does not exist.
+    #[error("there is no such handle")]
+    UnknownHandle,
+    /// Islands have no energy or barrier that could be exchanged.
+    #[error("islands keep their shapes: there is no energy or barrier to set")]
+    NoEnergy,
 }
 
 fn apart(texels: f64, padding: u32) -> String {
@@ -45,6 +62,10 @@ impl IslandError {
             Self::OffPage(_) => "island_off_page",
             Self::TooNear { .. } => "islands_too_near",
             Self::NoRoom => "no_room",
+            Self::TooMany { .. } => "too_many_islands",
+            Self::BadTarget(_) => "bad_target",
+            Self::UnknownHandle => "unknown_handle",
+            Self::NoEnergy => "bad_parameter",
         }
     }
 }

@@ -9,8 +9,8 @@
 //!
 //! The other applications are functions from bytes of a file to bytes of files: [`solve_file`], [`deform_file`],
 //! [`warp_file`]. All take options of their own, [`Limits`] set by their caller, and an [`Observer`]; the command
-//! line and the service are two such callers. [`open_body`], [`open_picture`] and [`open_uvs`] open live sessions on
-//! what these functions would deform.
+//! line and the service are two such callers. [`open_body`], [`open_picture`], [`open_uvs`] and [`open_islands`] open
+//! live sessions on what these functions and [`repack_document`] would change.
 //!
 //! The work runs on its own thread pool. Charts of all groups share one queue, largest first; each is mapped by one
 //! thread, so the result does not depend on the number of threads. Meshes of equal shape are mapped once, and packed
@@ -20,6 +20,7 @@
 //! The warnings list what is not proven; only flips where none are allowed are an error, and leave no file.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+mod arrange;
 mod arrays;
 mod deform;
 mod documents;
@@ -37,6 +38,7 @@ mod settings;
 mod start;
 mod tracker;
 
+pub use arrange::{IslandHandle, IslandSession, LiveIslands, Place, open_islands};
 pub use arrays::placement::Placement;
 pub use arrays::repeated::GridCorners;
 pub use arrays::seams::Seams;

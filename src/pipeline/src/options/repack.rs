@@ -111,7 +111,7 @@ fn one() -> f64 {
 
 impl Island {
     /// Checks the numbers. The error names the island by its position in the list.
-    pub(super) fn check(&self, index: usize) -> Result<(), String> {
+    pub(crate) fn check(&self, index: usize) -> Result<(), String> {
         let named = |what: &str| format!("islands[{index}].{what}");
         let far = |what: &str, value: f64| within(&named(what), value, -FARTHEST, FARTHEST);
         within(&named("turn"), self.turn, -MOST_DEGREES, MOST_DEGREES)?;
