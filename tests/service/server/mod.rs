@@ -13,6 +13,7 @@ mod fair;
 mod full_disk;
 mod idle_options;
 mod inputs;
+mod islands;
 mod jobs;
 pub mod keys;
 mod limited;

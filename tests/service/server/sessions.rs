@@ -54,7 +54,7 @@ pub async fn connected(server: &Server, session: &Value) -> Live {
 }
 
 /// Bakes a session and waits for the job.
-async fn baked(server: &Server, session: &Value) -> Value {
+pub async fn baked(server: &Server, session: &Value) -> Value {
     let path = session["links"]["bake"].as_str().expect("a link");
     let job = read(server.post(path).send().await.expect("an answer")).await;
     let job = server.ended(&job).await;

@@ -255,7 +255,7 @@ codes! {
 // Codes of invalid inputs. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Codes with their meanings.
-pub(super) const CAUSES: [(&str, &str); 63] = [
+pub(super) const CAUSES: [(&str, &str); 64] = [
     // Handles.
     ("malformed_handles", "The list of handles cannot be parsed"),
     ("no_handle", "There is no handle"),
@@ -365,6 +365,10 @@ pub(super) const CAUSES: [(&str, &str); 63] = [
     (
         "no_room",
         "The other islands do not fit around those that stay",
+    ),
+    (
+        "too_many_islands",
+        "The atlas has more islands than a session can arrange",
     ),
     ("invalid_uvs", "The new UVs do not match the document"),
     (

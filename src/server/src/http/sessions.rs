@@ -116,9 +116,9 @@ impl FromRequestParts<Arc<App>> for PathSession {
 
 /// Open a live session.
 ///
-/// In a session, handles pull a mesh, a picture or UVs while a client watches. The input and the
-/// options are those of a job of kind `deform`, `warp`, `edit_uv` or `texture_map`. Instead of an
-/// upload, the query parameter `job` takes the input or the result of an ended job; `file` says which.
+/// In a session, handles pull a mesh, a picture or UVs while a client watches, or hold UV islands while
+/// others make room. The input and the options are those of a job of kind `deform`, `warp`, `edit_uv`,
+/// `texture_map` or `repack`. Instead of an upload, the query parameter `job` takes the input or the result of an ended job; `file` says which.
 /// A session has a process of its own. It ends after some minutes without a message, or when the
 /// service stops.
 ///
@@ -127,7 +127,7 @@ impl FromRequestParts<Arc<App>> for PathSession {
 #[utoipa::path(
     post, path = "/v1/sessions", operation_id = "openSession", tag = "sessions",
     params(
-        ("kind" = Option<Kind>, Query, description = "`deform`, `warp`, `edit_uv` or `texture_map`. With `job` the default is `edit_uv`; an upload has to say it, here or in the form"),
+        ("kind" = Option<Kind>, Query, description = "`deform`, `warp`, `edit_uv`, `texture_map` or `repack`. With `job` the default is `edit_uv`; an upload has to say it, here or in the form"),
         ("filename" = Option<String>, Query, description = "File name of a raw body"),
         ("job" = Option<String>, Query, format = "uuid", description = "The ended job to take the input from; there is no body then"),
         ("file" = Option<JobFile>, Query, description = "With `job`: the file to take; the default is `result`"),
@@ -223,7 +223,7 @@ pub(super) async fn close_session(PathSession(session): PathSession) -> Response
 /// Bake a live session.
 ///
 /// Creates a job with the input and the options of the session, its present handles, and its present
-/// map as the start. The job finishes what is under way, and writes, judges and reports the result like any
+/// map as the start. A job of kind `repack` has a handle for every island instead of a start. The job finishes what is under way, and writes, judges and reports the result like any
 /// other. The session goes on.
 #[utoipa::path(
     post, path = "/v1/sessions/{id}/bake", operation_id = "bakeSession", tag = "sessions",

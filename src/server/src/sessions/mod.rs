@@ -1,7 +1,7 @@
 //! Live sessions: bodies, pictures and UVs that clients edit while the solver runs.
 //!
-//! A session does interactively what a job of kind `deform`, `warp`, `edit_uv` or `texture_map` does. A client adds,
-//! moves and removes handles while the solver iterates. Every iterate is a valid map, which is sent as a binary frame.
+//! A session does interactively what a job of kind `deform`, `warp`, `edit_uv`, `texture_map` or `repack` does. A
+//! client adds, moves and removes handles while the solver iterates. Every iterate is a valid map, which is sent as a binary frame.
 //!
 //! ```text
 //! client ──messages──► server ──pipe──► child: LiveSession ─► deform::Session

@@ -207,7 +207,7 @@ pub struct Baked {
 
 impl OpenSession {
     /// Turns the present state of the session into a job: the same input and options, with the current handles, and
-    /// the current map as its [start](START). The session goes on.
+    /// the current map as its [start](START) unless the handles tell all. The session goes on.
     ///
     /// # Errors
     /// Fails if there is no handle, or a file cannot be written.
@@ -243,15 +243,17 @@ impl OpenSession {
             files.push((file.clone(), place));
         }
         // Add the current map, which the child has just written.
-        let start = tokio::fs::read(self.folder.path().join(START)).await?;
-        let place = folder.path().join(START);
-        tokio::fs::write(&place, &start).await?;
-        let file = InputFile {
-            name: START.to_owned(),
-            bytes: start.len() as u64,
-            sha256: Some(sha256(&start)),
-        };
-        files.push((file, place));
+        if begins_from_map(self.kind) {
+            let start = tokio::fs::read(self.folder.path().join(START)).await?;
+            let place = folder.path().join(START);
+            tokio::fs::write(&place, &start).await?;
+            let file = InputFile {
+                name: START.to_owned(),
+                bytes: start.len() as u64,
+                sha256: Some(sha256(&start)),
+            };
+            files.push((file, place));
+        }
         // Describe the job.
         let options = with_handles(self.kind, self.options.clone(), handles);
         let submission = Submission {
@@ -274,10 +276,17 @@ impl OpenSession {
 fn with_handles(kind: Kind, mut options: Value, handles: Vec<Value>) -> Value {
     let name = match kind {
         Kind::EditUv | Kind::TextureMap => "anchors",
+        Kind::Repack => "islands",
         _ => "handles",
     };
     options[name] = Value::Array(handles);
     options
+}
+
+/// Returns whether a job of this kind begins from the map of a session. The islands of `repack` have their places in
+/// its options.
+fn begins_from_map(kind: Kind) -> bool {
+    kind != Kind::Repack
 }
 
 // Asynchronous records on the pipe between server and child.

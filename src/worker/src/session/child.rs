@@ -131,10 +131,12 @@ fn superseded(batch: &[ServerRecord]) -> Vec<bool> {
     late
 }
 
-/// Writes the map to the folder and returns its handles.
-fn bake(session: &LiveSession, folder: &Path) -> Result<Vec<Value>, Failure> {
+/// Writes the map to the folder, if a job begins from it, and returns the handles of the job.
+fn bake(session: &mut LiveSession, folder: &Path) -> Result<Vec<Value>, Failure> {
     let (handles, start) = session.baked();
-    std::fs::write(folder.join(START), start_file(&start))?;
+    if let Some(start) = start {
+        std::fs::write(folder.join(START), start_file(&start))?;
+    }
     Ok(handles)
 }
 

@@ -24,6 +24,8 @@ pub(super) trait LiveEditing: Send {
     fn stage(&self) -> Stage;
     /// Returns the map as frames show it.
     fn view(&self) -> &dyn View;
+    /// Returns the handles of a job that goes on from the present map.
+    fn job_handles(&mut self) -> Vec<Value>;
 }
 
 /// A map as frames show it.
@@ -38,8 +40,8 @@ pub(super) trait View {
     fn elements(&self) -> FrameElements<'_>;
     /// Returns the data that a client needs once.
     fn drawn(&self) -> Drawn<'_>;
-    /// Returns the coordinates of a [start file](unwrapd_api::START).
-    fn start(&self) -> Vec<f64>;
+    /// Returns the coordinates of a [start file](unwrapd_api::START); `None` if the handles of a job tell all.
+    fn start(&self) -> Option<Vec<f64>>;
 }
 
 /// A map with an editor, whose handles have a format of their own.
@@ -56,6 +58,10 @@ pub(super) trait Edited: View + Send {
     fn failure(error: &<Self::Map as Editable>::Error) -> Failure;
     /// Restores the initial map, with the handles that no client added.
     fn reset(&mut self);
+    /// Returns the handles of a job that goes on from the present map, of which clients hold these.
+    fn job_handles(&mut self, held: Vec<Value>) -> Vec<Value> {
+        held
+    }
 }
 
 /// A map whose handles have the names that clients gave them. An undo may bring a handle back, so no name is forgotten.
@@ -150,6 +156,11 @@ impl<E: Edited> LiveEditing for NamedHandles<E> {
 
     fn view(&self) -> &dyn View {
         &self.edited
+    }
+
+    fn job_handles(&mut self) -> Vec<Value> {
+        let held = self.handles().into_iter().map(|named| named.handle);
+        self.edited.job_handles(held.collect())
     }
 }
 

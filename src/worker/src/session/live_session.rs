@@ -1,4 +1,4 @@
-//! The state of a session, on a body, a picture or UVs: messages in, frames out.
+//! The state of a session, on a body, a picture, UVs or islands: messages in, frames out.
 
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
@@ -13,8 +13,9 @@ use unwrapd_deform::warp::PictureHandle;
 use unwrapd_deform::{Handle, LiveBody, ProblemError, Session};
 use unwrapd_method::solver::Stage;
 use unwrapd_pipeline::{
-    self as pipeline, CommandOptions, DeformOptions, EditOptions, PipelineError, SessionBody,
-    WarpOptions, open_body, open_picture, open_uvs,
+    self as pipeline, CommandOptions, DeformOptions, EditOptions, Island, IslandError,
+    IslandHandle, IslandSession, LiveIslands, PipelineError, RepackOptions, SessionBody,
+    WarpOptions, open_body, open_islands, open_picture, open_uvs,
 };
 
 /// State of a session. It depends only on the input, the messages, and the iterations that these precede.
@@ -57,7 +58,13 @@ impl LiveSession {
             }
             Kind::EditUv => uvs(upload, pipeline::Editing::Map, options, limits)?,
             Kind::TextureMap => uvs(upload, pipeline::Editing::Texture, options, limits)?,
-            Kind::Unwrap | Kind::Measure | Kind::Verify | Kind::Solve | Kind::Repack => {
+            Kind::Repack => {
+                let options: RepackOptions = read(options, limits)?;
+                let islands = open_islands(upload, &options).map_err(|e| failure(&e))?;
+                let islands = NamedHandles::new(IslandView::new(islands));
+                (Box::new(islands), json!(options.islands))
+            }
+            Kind::Unwrap | Kind::Measure | Kind::Verify | Kind::Solve => {
                 let detail = format!("a job of kind {} has no handles", kind.word());
                 return Err(Failure::new("invalid_options", detail));
             }
@@ -154,10 +161,9 @@ impl LiveSession {
     }
 
     /// Returns the handles in the format of the job's options, and the coordinates of its
-    /// [start](unwrapd_api::START).
-    pub fn baked(&self) -> (Vec<Value>, Vec<f64>) {
-        let handles = self.editing.handles().into_iter().map(|named| named.handle);
-        (handles.collect(), self.editing.view().start())
+    /// [start](unwrapd_api::START) if it has one.
+    pub fn baked(&mut self) -> (Vec<Value>, Option<Vec<f64>>) {
+        (self.editing.job_handles(), self.editing.view().start())
     }
 }
 
@@ -295,8 +301,8 @@ impl View for BodyView {
         }
     }
 
-    fn start(&self) -> Vec<f64> {
-        self.positions()
+    fn start(&self) -> Option<Vec<f64>> {
+        Some(self.positions())
     }
 }
 
@@ -356,8 +362,94 @@ impl View for UvView {
         }
     }
 
-    fn start(&self) -> Vec<f64> {
+    fn start(&self) -> Option<Vec<f64>> {
         let corners = self.0.uvs().into_flattened();
-        corners.into_flattened()
+        Some(corners.into_flattened())
+    }
+}
+
+// Live arrangement of islands.
+
+/// Islands of which some are held.
+pub(super) struct IslandView {
+    session: IslandSession,
+    /// Sign of the area of each face.
+    signs: Vec<i8>,
+}
+
+impl IslandView {
+    pub fn new(session: IslandSession) -> Self {
+        Self {
+            signs: session.map().signs(),
+            session,
+        }
+    }
+}
+
+impl Edited for IslandView {
+    type Map = LiveIslands;
+
+    fn editor(&self) -> &IslandSession {
+        &self.session
+    }
+
+    fn editor_mut(&mut self) -> &mut IslandSession {
+        &mut self.session
+    }
+
+    fn read(&self, name: u32, handle: Value) -> Result<Island, Failure> {
+        let handle: IslandHandle = parsed(handle)?;
+        let named = self.session.map().named(name as usize, &handle);
+        named.map_err(|error| Self::failure(&error))
+    }
+
+    fn failure(error: &IslandError) -> Failure {
+        Failure::new(error.code(), error.to_string())
+    }
+
+    fn reset(&mut self) {
+        self.session.reset();
+    }
+
+    /// Returns the places of all islands: the job has no more to do than to write them.
+    fn job_handles(&mut self, _: Vec<Value>) -> Vec<Value> {
+        // Make room for what was held last.
+        if self.session.stage() == Stage::Moving {
+            self.session.step();
+        }
+        let islands = self.session.map().placements().into_iter();
+        islands.map(|island| json!(island)).collect()
+    }
+}
+
+impl View for IslandView {
+    fn energy(&self) -> f64 {
+        f64::NAN
+    }
+
+    fn positions(&self) -> Vec<f64> {
+        self.session.map().vertex_uvs().into_flattened()
+    }
+
+    fn smallest(&self, _: &[f64]) -> f64 {
+        self.session.map().smallest()
+    }
+
+    fn elements(&self) -> FrameElements<'_> {
+        let signs = self.signs.clone();
+        FrameElements::Triangles(self.session.map().faces(), Some(signs))
+    }
+
+    fn drawn(&self) -> Drawn<'_> {
+        Drawn {
+            rest: self.positions(),
+            triangles: self.session.map().faces(),
+            skin: None,
+            picture: None,
+        }
+    }
+
+    fn start(&self) -> Option<Vec<f64>> {
+        None
     }
 }
