@@ -46,3 +46,15 @@ async fn islands_are_arranged_and_the_others_packed_around_them() {
         tokio::task::spawn_blocking(move || unwrapd(&["verify", &output, "--bijective"]));
     assert_status(&verified.await.expect("no panic"), 0);
 }
+
+#[tokio::test]
+async fn islands_make_room_while_one_is_dragged() {
+    let server = Server::start();
+    let folder = tempfile::tempdir().expect("a folder");
+    let url = unwrapped(&server, "cat_head.obj").await;
+    let output = text(&folder.path().join("baked.glb"));
+    scenario("make_room", url, std::slice::from_ref(&output)).await;
+    let verified =
+        tokio::task::spawn_blocking(move || unwrapd(&["verify", &output, "--bijective"]));
+    assert_status(&verified.await.expect("no panic"), 0);
+}

@@ -1,12 +1,12 @@
-// The islands that stay, with their places and the history of changes.
+// The islands that stay and those that made room, with their places and the history of changes.
 
 import { after, IDENTITY, isStill, type Similarity } from "../viewer/similarity";
 
 /** Places of the islands that stay, by atlas and chart. */
 export type Placed = ReadonlyMap<string, Similarity>;
 
-/** An arrangement of the result of a job. */
-export interface Snapshot { job: string; placed: Placed }
+/** An arrangement of the result of a job: the islands that stay, and those that made room for them. */
+export interface Snapshot { job: string; placed: Placed; followers: Placed }
 
 export const keyOf = (atlas: number, chart: number) => `${atlas}/${chart}`;
 
@@ -17,7 +17,7 @@ export class Arrangement {
   #future: Snapshot[] = [];
 
   constructor(job: string) {
-    this.#now = { job, placed: new Map() };
+    this.#now = { job, placed: new Map(), followers: new Map() };
   }
 
   get now(): Snapshot {
@@ -26,7 +26,12 @@ export class Arrangement {
 
   /** Set if an island was moved since the last job. */
   get isUnsaved(): boolean {
-    return [...this.#now.placed.values()].some((by) => !isStill(by));
+    return [...this.places.values()].some((by) => !isStill(by));
+  }
+
+  /** Places of all islands that are not where the file has them. */
+  get places(): Placed {
+    return new Map([...this.#now.followers, ...this.#now.placed]);
   }
 
   /** Replaces the current arrangement and records it for undo. */
@@ -38,23 +43,33 @@ export class Arrangement {
 
   /** Moves islands from their current places; they stay from then on. */
   move(keys: string[], by: Similarity): void {
-    this.#change({ ...this.#now, placed: moved(this.#now.placed, keys, by) });
+    const placed = new Map([...this.#now.placed, ...moved(this.places, keys, by)].filter(([key]) => this.#now.placed.has(key) || keys.includes(key)));
+    this.#change({ ...this.#now, placed, followers: without(this.#now.followers, keys) });
   }
 
-  /** Makes islands stay, or releases them: a released island returns to its place in the file. */
+  /** Puts the islands that make room for the present arrangement somewhere. */
+  follow(followers: Placed): void {
+    this.#now = { ...this.#now, followers: without(followers, [...this.#now.placed.keys()]) };
+  }
+
+  /** Makes islands stay, or releases them: a released island returns to its place in the file, unless others have made room. */
   lock(keys: string[]): void {
-    const placed = new Map(this.#now.placed);
+    const [placed, followers] = [new Map(this.#now.placed), new Map(this.#now.followers)];
     const isLocked = keys.every((key) => placed.has(key));
+    const hasRoom = 0 < followers.size;
     for (const key of keys) {
-      if (isLocked) placed.delete(key);
-      else if (!placed.has(key)) placed.set(key, IDENTITY);
+      const by = placed.get(key) ?? followers.get(key) ?? IDENTITY;
+      placed.delete(key);
+      followers.delete(key);
+      if (!isLocked) placed.set(key, by);
+      else if (hasRoom) followers.set(key, by);
     }
-    this.#change({ ...this.#now, placed });
+    this.#change({ ...this.#now, placed, followers });
   }
 
-  /** Adopts a job that has the islands at their places. */
+  /** Adopts a job that has the islands that stay at their places. */
   baked(job: string): void {
-    this.#change({ job, placed: new Map([...this.#now.placed.keys()].map((key) => [key, IDENTITY])) });
+    this.#change({ job, placed: new Map([...this.#now.placed.keys()].map((key) => [key, IDENTITY])), followers: new Map() });
   }
 
   undo(): boolean {
@@ -85,4 +100,8 @@ export class Arrangement {
 /** Returns the places after moving some islands. */
 export function moved(placed: Placed, keys: string[], by: Similarity): Placed {
   return new Map([...placed, ...keys.map((key): [string, Similarity] => [key, after(placed.get(key) ?? IDENTITY, by)])]);
+}
+
+function without(places: Placed, keys: string[]): Placed {
+  return new Map([...places].filter(([key]) => !keys.includes(key)));
 }

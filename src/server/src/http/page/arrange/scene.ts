@@ -21,9 +21,9 @@ export class ArrangedScene {
   }
 
   /** Returns an island at its place. */
-  at(chart: number, placed: Placed): Island {
+  at(chart: number, places: Placed): Island {
     const island = this.islands.get(chart)!;
-    const by = placed.get(keyOf(this.atlas, chart));
+    const by = places.get(keyOf(this.atlas, chart));
     return by ? moved(island, by) : island;
   }
 
@@ -32,14 +32,14 @@ export class ArrangedScene {
     return [...this.islands.keys()].filter((chart) => placed.has(keyOf(this.atlas, chart)));
   }
 
-  /** Begins to move charts. */
-  moving(charts: Set<number>, placed: Placed): Moving {
-    const others = [...this.islands.keys()].filter((chart) => !charts.has(chart));
-    return { charts: new Set(charts), neighbors: new Neighbors(others.map((chart) => this.at(chart, placed)), this.pages) };
+  /** Begins to move charts among others: all others, or those that stay where the rest makes room. */
+  moving(charts: Set<number>, places: Placed, others: Iterable<number>): Moving {
+    const neighbors = [...others].filter((chart) => !charts.has(chart)).map((chart) => this.at(chart, places));
+    return { charts: new Set(charts), neighbors: new Neighbors(neighbors, this.pages) };
   }
 
-  /** Returns the misplaced islands. Islands being moved are compared with all others; afterwards, only islands that
-   * stay count, since the others are packed elsewhere. */
+  /** Returns the misplaced islands. Islands being moved are compared with the others of the movement; afterwards, only
+   * islands that stay count, since the others are packed elsewhere or make room. */
   faults(placed: Placed, moving: Moving | null): Set<number> {
     const wrong = new Set<number>();
     const locked = this.locked(placed).map((chart) => this.at(chart, placed));
@@ -54,11 +54,12 @@ export class ArrangedScene {
     return wrong;
   }
 
-  /** Sends the places and marks of islands to the GPU. */
-  show(placed: Placed, selected: Set<number>, wrong: Set<number>): void {
+  /** Sends the places and marks of islands to the GPU; those in `placed` stay. */
+  show({ placed, places }: { placed: Placed; places: Placed }, selected: Set<number>, wrong: Set<number>): void {
     for (const chart of this.islands.keys()) {
-      const by = placed.get(keyOf(this.atlas, chart));
-      this.placed.put(chart, by ?? IDENTITY, (selected.has(chart) ? SELECTED : 0) | (by ? LOCKED : 0) | (wrong.has(chart) ? WRONG : 0));
+      const key = keyOf(this.atlas, chart);
+      const marks = (selected.has(chart) ? SELECTED : 0) | (placed.has(key) ? LOCKED : 0) | (wrong.has(chart) ? WRONG : 0);
+      this.placed.put(chart, places.get(key) ?? IDENTITY, marks);
     }
   }
 

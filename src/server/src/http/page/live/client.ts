@@ -8,9 +8,12 @@ export type Handle =
   | { vertex: number; to: number[] }
   | { center: number[]; radius: number; to: number[]; turn?: number; axis?: number[] };
 
+/** An island that is held. */
+export interface HeldIsland { primitive: number; face: number; move?: number[]; turn?: number; scale?: number; pivot?: number[] }
+
 /** Command of a client. */
 export type Wish =
-  | { add: { name: number; handle: Handle } }
+  | { add: { name: number; handle: Handle | HeldIsland } }
   | { move: { name: number; to: number[] } }
   | { remove: { name: number } }
   | { settings: Record<string, unknown> }

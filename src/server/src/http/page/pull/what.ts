@@ -7,7 +7,7 @@ import { extension } from "../viewer/loading";
 export interface Way {
   name: string;
   title: string;
-  kind: "deform" | "warp" | "edit_uv" | "texture_map";
+  kind: "deform" | "warp" | "edit_uv" | "texture_map" | "repack";
   options: Record<string, unknown>;
   /** Set if UVs are pulled. */
   isMap: boolean;
@@ -55,7 +55,7 @@ export interface Session {
 }
 
 /** Opens a session. */
-export async function openSession(origin: Origin, { kind, options }: Way): Promise<Session> {
+export async function openSession(origin: Origin, { kind, options }: Pick<Way, "kind" | "options">): Promise<Session> {
   if ("job" in origin) {
     const query = new URLSearchParams({ job: origin.job, kind });
     for (const [name, value] of Object.entries(options)) query.set(name, String(value));
