@@ -12,9 +12,6 @@ const BLUR: f64 = 1.25;
 /// that is too narrow for anything.
 const NARROW: f64 = 1.5;
 
-/// Column and row of a node.
-type Node = [u32; 2];
-
 /// Signed distance to the border of the region that is nearer to a chart than the distance to be kept; positive outside.
 ///
 /// The field stores values at the nodes of a raster with cells of side 1, and is bilinear between them. Gaps of the chart that are
@@ -153,95 +150,118 @@ impl Raster {
 
     /// Returns the signed distances of the nodes to the border of the region.
     fn signed(&self, kept: f64) -> Vec<f32> {
-        let nodes = self.nodes();
-        let is_known =
-            |&node: &Node| self.is_free(node, kept) && self.distance[self.index(node)].is_finite();
-        let mut from: Vec<Option<Node>> = nodes
-            .clone()
-            .map(|node| Some(node).filter(is_known))
+        let both = self.is_inside.iter().zip(&self.distance);
+        let is_free: Vec<bool> = both
+            .map(|(&is_inside, &distance)| !is_inside && distance >= kept)
             .collect();
-        self.spread(&mut from, kept);
-        let both = nodes.zip(from);
-        both.map(|(node, from)| self.value(node, from, kept).clamp(-1e6, 1e6) as f32)
-            .collect()
-    }
-
-    fn value(&self, node: Node, from: Option<Node>, kept: f64) -> f64 {
-        let index = self.index(node);
-        let distance = self.distance[index];
-        let signed = if self.is_inside[index] {
-            -distance
-        } else {
-            distance
-        } - kept;
-        let Some(known) = from else {
-            return signed;
-        };
-        let by = self.by(node, known, kept);
-        if self.is_free(node, kept) {
-            by
-        } else if by > NARROW - signed || signed.is_infinite() {
-            -by
-        } else {
-            signed
+        let mut nearest = vec![Nearest::UNKNOWN; is_free.len()];
+        for (index, nearest) in nearest.iter_mut().enumerate() {
+            let distance = self.distance[index];
+            if is_free[index] && distance.is_finite() {
+                *nearest = Nearest::itself(distance - kept);
+            }
         }
-    }
-
-    fn is_free(&self, node: Node, kept: f64) -> bool {
-        let index = self.index(node);
-        !self.is_inside[index] && self.distance[index] >= kept
-    }
-
-    /// Estimates the distance of a node to the border of the region from its distance to a known free node. Adds the distance of
-    /// the known node to the border if the node is free, too, and subtracts it if the node lies in the region.
-    fn by(&self, node: Node, known: Node, kept: f64) -> f64 {
-        let way = [0, 1].map(|k| f64::from(node[k]) - f64::from(known[k]));
-        let rest = self.distance[self.index(known)] - kept;
-        let is_free = self.is_free(node, kept);
-        dot(way, way).sqrt() + if is_free { rest } else { -rest }
-    }
-
-    /// Returns all nodes, row by row.
-    fn nodes(&self) -> impl DoubleEndedIterator<Item = Node> + Clone + use<> {
-        let [width, height] = self.size.map(|n| n as u32);
-        (0..height).flat_map(move |j| (0..width).map(move |i| [i, j]))
-    }
-
-    fn index(&self, [i, j]: Node) -> usize {
-        j as usize * self.size[0] + i as usize
+        self.spread(&mut nearest, &is_free);
+        let both = nearest.iter().zip(is_free).enumerate();
+        let values = both.map(|(index, (nearest, is_free))| {
+            let by = nearest.by(is_free);
+            let sign = if self.is_inside[index] { -1.0 } else { 1.0 };
+            let signed = sign * self.distance[index] - kept;
+            if by == f64::INFINITY {
+                signed
+            } else if is_free {
+                by
+            } else if by > NARROW - signed || signed.is_infinite() {
+                -by
+            } else {
+                signed
+            }
+        });
+        values.map(|value| value.clamp(-1e6, 1e6) as f32).collect()
     }
 
     /// Assigns to each node the nearest known node that its neighbors pass on. A known node keeps itself.
     ///
     /// From: Danielsson 1980, Euclidean Distance Mapping.
-    fn spread(&self, from: &mut [Option<Node>], kept: f64) {
-        let mut nearer = |node: Node, before: [[i32; 2]; 4]| {
-            let index = self.index(node);
-            if from[index] == Some(node) {
-                return;
+    fn spread(&self, nearest: &mut [Nearest], is_free: &[bool]) {
+        let [width, height] = self.size;
+        for j in 0..height {
+            for i in 0..width {
+                let before = [[-1, 0], [-1, -1], [0, -1], [1, -1]];
+                self.pass_on(nearest, is_free, [i, j], before);
             }
-            let by = |known: Node| self.by(node, known, kept);
-            let mut least = from[index].map_or(f64::INFINITY, by);
-            for way in before {
-                let [i, j] = [0, 1].map(|k| node[k].wrapping_add_signed(way[k]));
-                let is_node = (i as usize) < self.size[0] && (j as usize) < self.size[1];
-                let known = if is_node {
-                    from[self.index([i, j])]
-                } else {
-                    None
-                };
-                if let Some(known) = known
-                    && let by = by(known)
-                    && by < least
-                {
-                    least = by;
-                    from[index] = Some(known);
+        }
+        for j in (0..height).rev() {
+            for i in (0..width).rev() {
+                let before = [[1, 0], [1, 1], [0, 1], [-1, 1]];
+                self.pass_on(nearest, is_free, [i, j], before);
+            }
+        }
+    }
+
+    /// Passes the known nodes of four neighbors on to a node.
+    fn pass_on(
+        &self,
+        nearest: &mut [Nearest],
+        is_free: &[bool],
+        [i, j]: [usize; 2],
+        neighbors: [[isize; 2]; 4],
+    ) {
+        let [width, height] = self.size;
+        let index = j * width + i;
+        let mut best = nearest[index];
+        if best.way == [0.0; 2] {
+            return;
+        }
+        let mut least = best.by(is_free[index]);
+        for [x, y] in neighbors {
+            let (column, row) = (i.wrapping_add_signed(x), j.wrapping_add_signed(y));
+            if column < width && row < height {
+                let known = nearest[row * width + column].seen_from([x, y]);
+                let by = known.by(is_free[index]);
+                if by < least {
+                    (best, least) = (known, by);
                 }
             }
-        };
-        self.nodes()
-            .for_each(|node| nearer(node, [[-1, 0], [-1, -1], [0, -1], [1, -1]]));
-        let back = self.nodes().rev();
-        back.for_each(|node| nearer(node, [[1, 0], [1, 1], [0, 1], [-1, 1]]));
+        }
+        nearest[index] = best;
+    }
+}
+
+/// Known free node that is the nearest of those that a node has heard of.
+#[derive(Clone, Copy)]
+struct Nearest {
+    /// Columns and rows from the known node to this one.
+    way: [f64; 2],
+    /// Distance of the known node to the border of the region.
+    rest: f64,
+}
+
+impl Nearest {
+    const UNKNOWN: Self = Self {
+        way: [f64::INFINITY; 2],
+        rest: 0.0,
+    };
+
+    const fn itself(rest: f64) -> Self {
+        Self {
+            way: [0.0; 2],
+            rest,
+        }
+    }
+
+    /// Returns the known node of a neighbor, `way` columns and rows ahead, as this node sees it.
+    fn seen_from(self, way: [isize; 2]) -> Self {
+        Self {
+            way: [0, 1].map(|k| self.way[k] - way[k] as f64),
+            ..self
+        }
+    }
+
+    /// Estimates the distance of this node to the border of the region: adds the distance of the known node to the border if this node
+    /// is free, too, and subtracts it if it lies in the region. Infinite if no node is known.
+    fn by(self, is_free: bool) -> f64 {
+        let rest = if is_free { self.rest } else { -self.rest };
+        dot(self.way, self.way).sqrt() + rest
     }
 }
