@@ -39,20 +39,26 @@ pub(super) struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// Visits the points of body `a` that are too near to body `b`.
+    /// Visits the points of body `a` that are too near to body `b`, none of which is outside `near`.
     pub(super) fn contacts(
         &mut self,
         [a, b]: [usize; 2],
         poses: [&Pose; 2],
+        near: &Bounds,
         mut visit: impl FnMut(Contact),
     ) {
         let [body, other] = [a, b].map(|body| &self.bodies[body]);
         let room = self.room;
         let mut lookups = 0;
         for samples in &body.samples {
-            lookups += 1;
             let center = poses[0].place(samples.center);
             let radius = poses[0].stretch * samples.radius;
+            let is_near =
+                |k: usize| near[0][k] <= center[k] + radius && center[k] - radius <= near[1][k];
+            if !(is_near(0) && is_near(1)) {
+                continue;
+            }
+            lookups += 1;
             if other.least_distance(poses[1], center) > radius + room {
                 continue;
             }
@@ -166,20 +172,21 @@ impl Equations {
             for b in a + 1..all.len() {
                 let apart = body.kept.max(scene.bodies[b].kept) + scene.room;
                 if touch(&widened(bounds[a], apart), &bounds[b]) {
-                    equations.touch([a, b], scene, &all);
+                    let near = [a, b].map(|body| widened(bounds[body], apart));
+                    equations.touch([a, b], scene, &all, near);
                 }
             }
         }
         equations
     }
 
-    /// Adds the contacts of two bodies.
-    fn touch(&mut self, [a, b]: [usize; 2], scene: &mut Scene, poses: &[Pose]) {
+    /// Adds the contacts of two bodies, which are near to what is within their bounds `near`.
+    fn touch(&mut self, [a, b]: [usize; 2], scene: &mut Scene, poses: &[Pose], near: [Bounds; 2]) {
         let bodies = [a, b].map(|body| scene.bodies[body].clone());
         let mut do_touch = false;
         let mut block = [[0.0; DOF]; DOF];
-        for [p, q] in [[a, b], [b, a]] {
-            scene.contacts([p, q], [&poses[p], &poses[q]], |contact| {
+        for ([p, q], near) in [([a, b], &near[1]), ([b, a], &near[0])] {
+            scene.contacts([p, q], [&poses[p], &poses[q]], near, |contact| {
                 // The point of one body moves out of the other.
                 let sign = if p == a { 1.0 } else { -1.0 };
                 let of_a = row(&bodies[0], &poses[a], &contact).map(|x| sign * x);
