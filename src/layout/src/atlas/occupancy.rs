@@ -10,7 +10,9 @@ use super::page::Form;
 
 /// Number of words in a row from which on the length of its longest free run is stored, so that full rows are skipped. In shorter
 /// rows, the search itself costs no more than this test.
-const WIDE: usize = 16;
+const WIDE: usize = 14;
+/// Words after the last row: the most that a search reads beyond the end of a row, for columns that do not count.
+const BEYOND: usize = 4;
 /// Marks a row whose longest free run has to be counted again because cells in it were occupied.
 const UNKNOWN: u32 = u32::MAX;
 
@@ -42,7 +44,7 @@ impl Occupancy {
     /// Creates empty pages. No mask's margin may exceed `frame`.
     pub(super) fn new(form: Form, capacity: u32, frame: u32, side: u32) -> Self {
         let [width, height] = form.reach(capacity).map(|cells| cells + 2 * frame);
-        let words = width.div_ceil(64) as usize + 2;
+        let words = width.div_ceil(64) as usize;
         let n_rows = height as usize * form.pages as usize;
         Self {
             form,
@@ -50,7 +52,7 @@ impl Occupancy {
             frame,
             words,
             height: height as usize,
-            rows: vec![0; words * WIDTHS * n_rows],
+            rows: vec![0; words * WIDTHS * n_rows + BEYOND],
             free: vec![width; if words < WIDE { 0 } else { n_rows }],
             side,
             tops: vec![0; form.pages as usize],
@@ -172,7 +174,7 @@ impl Occupancy {
         let inset = 64 * word + self.frame - mask.margin;
         let base = (self.row(corner) - mask.margin as usize) * WIDTHS;
         for probe in &mask.probes {
-            let row = &self.rows[(base + probe.lane as usize) * self.words..][..self.words];
+            let row = &self.rows[(base + probe.lane as usize) * self.words..];
             self.work += N as u64;
             for start in probe.starts {
                 add_shifted(&mut blocked, row, inset + start);
@@ -261,8 +263,15 @@ impl Occupancy {
 
 /// Updates the wider windows of a row after cells between `start` and `end` were occupied.
 pub(super) fn widen(row: &mut [u64], words: usize, [start, end]: [u32; 2]) {
-    let last = (end / 64) as usize;
-    let mut next: [u64; WIDTHS] = from_fn(|k| row[k * words + last + 1]);
+    let last = ((end - 1) / 64) as usize;
+    let after = |k: usize| {
+        if last + 1 < words {
+            row[k * words + last + 1]
+        } else {
+            0
+        }
+    };
+    let mut next: [u64; WIDTHS] = from_fn(after);
     // The widest window that contains a cell begins less than 64 cells before it.
     for word in ((start.saturating_sub(63) / 64) as usize..=last).rev() {
         let mut cells = row[word];

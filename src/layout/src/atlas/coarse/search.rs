@@ -118,7 +118,13 @@ impl CoarseLayout {
     fn annealed(&self, words: u64, random: &mut Random, on_read: &OnRead) -> (Arrangement, bool) {
         let (large, all) = (self.n_large, self.state.order.len());
         let largest = self.first.side + self.first.side / 16;
-        let mut occupancy = self.raster.occupancy(largest + largest / 4);
+        // Room for the small charts, which are placed last.
+        let most = if large < all {
+            largest + largest / 4
+        } else {
+            largest
+        };
+        let mut occupancy = self.raster.occupancy(most);
         let mut prefixes = Prefixes::new(occupancy.clone(), large);
         let mut state = self.first.clone();
         if large < all
@@ -153,7 +159,9 @@ impl CoarseLayout {
             in_vain = 0;
             occupancy.work += WORDS_PER_CHART * large as u64;
             let most = largest.min(bound as u32);
-            prefixes.hold(&mut occupancy, &state, &self.poses, first);
+            if !is_fitted || first != place {
+                prefixes.hold(&mut occupancy, &state, &self.poses, first);
+            }
             let fits = trial.lay_out(&self.poses, &mut occupancy, first..large, most);
             if fits.is_some() && trial.cost <= bound {
                 state = trial;
@@ -165,7 +173,6 @@ impl CoarseLayout {
         }
         prefixes.hold(&mut occupancy, &state, &self.poses, 0);
         best.take(&self.poses, &mut occupancy, 0..large);
-        let most = largest + largest / 4;
         let placed =
             large == all || (best.lay_out(&self.poses, &mut occupancy, large..all, most)).is_some();
         let best = if placed { best } else { self.first.clone() };
