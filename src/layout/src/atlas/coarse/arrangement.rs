@@ -75,7 +75,7 @@ impl Arrangement {
     }
 
     /// Turns the chart at a place of the order to the best of a few poses: the one in which it extends least far on an occupancy
-    /// that holds the charts before it.
+    /// that holds the charts before it, within its capacity. Leaves the chart as it is if it fits in none of them.
     pub(super) fn fit(
         &mut self,
         place: usize,
@@ -98,6 +98,8 @@ impl Arrangement {
             let reach = u64::from(side) << 32 | u64::from(far[0] + far[1]);
             if reach < least {
                 (least, self.pose[chart]) = (reach, pose);
+                // A pose that needs a longer side is no better.
+                occupancy.capacity = side;
             }
         }
     }

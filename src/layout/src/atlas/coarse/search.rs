@@ -61,7 +61,7 @@ impl CoarseLayout {
             self.arrangements(&schedule, annealing, on_read)
         };
         let n_searches = self.n_searches + 1;
-        let each = ((words as f64 - annealing) / schedule.squeezed as f64) as u64;
+        let each = ((words as f64 - annealing) / found.len() as f64) as u64;
         let settled: Vec<Option<Self>> = (found.into_par_iter().with_max_len(1))
             .map(|state| self.settled(state, each, on_read))
             .collect();
@@ -89,7 +89,7 @@ impl CoarseLayout {
             .unzip();
         found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         found.dedup_by_key(|state| state.key(&self.kind));
-        found.truncate(schedule.squeezed);
+        found.truncate(Schedule::SQUEEZED);
         (found, is_exhausted.into_iter().all(|is| is))
     }
 
@@ -143,11 +143,12 @@ impl CoarseLayout {
             let progress = occupancy.work as f64 / words as f64;
             let temperature = first * (last / first).powf(progress);
             let bound = state.cost - temperature * (1.0 - random.unit()).ln();
+            let most = largest.min(bound as u32);
             let mut trial = state.clone();
             let (place, is_fitted) = trial.change(large, &self.poses, random);
             if is_fitted {
                 prefixes.hold(&mut occupancy, &state, &self.poses, place);
-                occupancy.capacity = largest;
+                occupancy.capacity = most;
                 trial.fit(place, &self.poses, &mut occupancy, random);
             }
             let first = trial.copy_pose(place, &self.kind);
@@ -158,7 +159,6 @@ impl CoarseLayout {
             }
             in_vain = 0;
             occupancy.work += WORDS_PER_CHART * large as u64;
-            let most = largest.min(bound as u32);
             if !is_fitted || first != place {
                 prefixes.hold(&mut occupancy, &state, &self.poses, first);
             }
