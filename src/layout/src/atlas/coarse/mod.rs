@@ -10,7 +10,7 @@ use super::layout::{Layout, SLIVERS, padding};
 use super::mask::{Distances, Rounding};
 use super::occupancy::{Corner, Occupancy};
 use super::outline::{Outline, outlines};
-use super::page::{Form, Region, Texture};
+use super::page::{Form, Region, Texture, page_side};
 use super::plan::{HOPE, Plan, alike, by_size, level, mark_copies};
 use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation};
 use super::squeeze::{Pose, Squeezed};
@@ -36,6 +36,9 @@ const MOST_SIDES: u32 = 16;
 /// Maximum number of cells of all pages of an occupancy: those of a coarse page of [`MOST_SIDES`]. Pages with one side are exempt.
 /// A search keeps dozens of snapshots, at about one to two bytes per cell.
 const MOST_CELLS: u64 = ((RASTER * MOST_SIDES) as u64).pow(2);
+/// Factor of the side that one chart alone requires, up to which a squeezed page counts as the smallest: squeezing ends with a step of
+/// .0004 of the side.
+const REACHED: f64 = 1.001;
 /// Maximum number of charts. With more, the large ones leave enough room for the small ones.
 pub(in crate::atlas) const MOST_CHARTS: usize = 512;
 
@@ -216,10 +219,37 @@ impl CoarseLayout {
     /// Returns an upper bound of the scale of any layout of these charts, in UV units per mesh unit along the longer side: each
     /// chart has to fit on a page by itself.
     pub fn most_scale(&self) -> f64 {
+        (1.0 - self.raster.padding / self.raster.cells()) / self.longest()
+    }
+
+    /// Returns an upper bound of the [fill](Self::fill) of any layout of these charts.
+    pub(super) fn most_fill(&self) -> f64 {
+        let ratio = self.raster.cells() / (self.least_side() + self.raster.padding);
+        HOPE * ratio * ratio
+    }
+
+    /// Returns a lower bound of the longer side of the largest page, in cells.
+    fn least_side(&self) -> f64 {
+        self.longest() * self.raster.scale
+    }
+
+    /// Returns the longer side of the smallest page that every chart fits on by itself, without borders, in mesh units.
+    fn longest(&self) -> f64 {
         let halvings = self.raster.texture.resolution.halvings();
-        let sides = self.poses.iter().map(|poses| poses.least_page(halvings));
-        let longest = sides.fold(f64::MIN_POSITIVE, f64::max);
-        (1.0 - self.raster.padding / self.raster.cells()) / longest
+        let mut longest = f64::MIN_POSITIVE;
+        for &chart in &self.first.order {
+            let poses = &self.poses[chart];
+            // A chart fits on its page at the first angle, if not on a smaller one.
+            if page_side(poses.outline(0).extent, halvings) > longest {
+                longest = longest.max(poses.least_page(halvings));
+            }
+        }
+        longest
+    }
+
+    /// Returns whether the squeezed pages are as small as one chart alone requires, so that no search makes them smaller.
+    pub(super) fn is_least(&self) -> bool {
+        self.is_searched() && self.side() <= REACHED * self.least_side()
     }
 
     /// Returns the number of triangles of all charts.

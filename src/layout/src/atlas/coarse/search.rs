@@ -49,6 +49,7 @@ impl CoarseLayout {
         if self.state.order.is_empty()
             || !is_laid_out
             || self.is_exhausted
+            || self.is_least()
             || (self.is_crowded() && effort != Effort::High)
         {
             return;
@@ -62,15 +63,32 @@ impl CoarseLayout {
         };
         let n_searches = self.n_searches + 1;
         let each = ((words as f64 - annealing) / found.len() as f64) as u64;
-        let settled: Vec<Option<Self>> = (found.into_par_iter().with_max_len(1))
-            .map(|state| self.settled(state, each, on_read))
-            .collect();
-        for coarse in settled.into_iter().flatten() {
-            if squeezed_side(&coarse.pages) < squeezed_side(&self.pages) {
-                *self = coarse;
+        // Where one chart alone may set the side, the best arrangement is likely to be the only one that counts.
+        let (first, others) = found.split_at(usize::from(self.may_be_least(&found)));
+        for states in [first, others] {
+            if self.is_least() {
+                break;
+            }
+            let settled: Vec<Option<Self>> = (states.par_iter().with_max_len(1))
+                .map(|state| self.settled(state.clone(), each, on_read))
+                .collect();
+            for coarse in settled.into_iter().flatten() {
+                if squeezed_side(&coarse.pages) < squeezed_side(&self.pages) {
+                    *self = coarse;
+                }
             }
         }
         (self.n_searches, self.is_exhausted) = (n_searches, is_exhausted);
+    }
+
+    /// Returns whether the best of some arrangements, the first, is as small as one chart alone requires.
+    fn may_be_least(&self, found: &[Arrangement]) -> bool {
+        (found.first()).is_some_and(|best| best.side <= self.least_cells())
+    }
+
+    /// Returns the least side of an arrangement, in cells: a mask covers each cell that its rectangle reaches.
+    fn least_cells(&self) -> u32 {
+        self.least_side() as u32 + 1
     }
 
     /// Anneals from several seeds, and reads about `words` words in all. Returns the best arrangements, the best first, and whether
@@ -139,7 +157,8 @@ impl CoarseLayout {
         let [first, last] = TEMPERATURES;
         let mut limit = ReadLimit::new(words, on_read);
         let (mut in_vain, most_in_vain) = (0, self.most_in_vain());
-        while limit.admits(occupancy.work) && in_vain < most_in_vain {
+        let least = self.least_cells();
+        while limit.admits(occupancy.work) && in_vain < most_in_vain && best.side > least {
             let progress = occupancy.work as f64 / words as f64;
             let temperature = first * (last / first).powf(progress);
             let bound = state.cost - temperature * (1.0 - random.unit()).ln();
