@@ -35,7 +35,7 @@ pub(super) struct Layout {
 const ATTEMPTS: [usize; 2] = [12, 400];
 /// Ratio of a scale that failed to the best one, below which the search ends; and with many charts, for which an attempt costs more
 /// and the fill hardly depends on luck.
-const NEAR: f64 = 1.003;
+pub(super) const NEAR: f64 = 1.003;
 const NEAR_IF_MANY: f64 = 1.005;
 /// Maximum number of words of a search for many charts, once the best scale is within a factor of `FAIR` of one that failed or of the
 /// next. The first scale may leave a fifth of the pages empty.

@@ -11,10 +11,10 @@ use super::coarse::{FINE, MOST_CHARTS, raster_side};
 use super::effort::OnRead;
 use super::gap::{self, Border, Page};
 use super::grid::{Repair, doubled_area};
-use super::layout::{Attempt, Extent, Layout, Packing, SLACK, padding, raster};
+use super::layout::{Attempt, Extent, Layout, NEAR, Packing, SLACK, padding, raster};
 use super::occupancy::Occupancy;
 use super::outline::{Outline, outlines};
-use super::pack::{self, is_cramped, on_grid};
+use super::pack::{self, ROUNDS, is_cramped, on_grid};
 use super::page::{Frame, GRID_SIDE, Region};
 use super::plan::{HOPE, Plan, QuarterTurns};
 use super::problem::{
@@ -27,8 +27,6 @@ use unwrapd_method::solver::Control;
 
 /// Free cells around pages beyond the reach of charts: the used part of a page may be rounded down.
 const FRAME: u32 = 4;
-/// Maximum number of layouts, each with more room for vertices that had to move farther than the last one allowed.
-const ROUNDS: usize = 6;
 /// Maximum number of cells along the side of the raster for a few charts that are then squeezed. On a raster that is four times as fine,
 /// the search takes four times as long, and the squeezed layouts are no fuller.
 const SQUEEZED_CELLS: u32 = 256;
@@ -375,8 +373,6 @@ impl Problem<'_> {
 
 /// Maximum number of scales tried after the first one at which the charts fit.
 const ATTEMPTS: usize = 12;
-/// Ratio of a scale that failed to the largest one that did not, below which the search ends.
-const NEAR: f64 = 1.003;
 /// Factor of the scale while the charts fit.
 const LARGER: f64 = 1.15;
 /// Smallest and largest factor of the scale if the charts do not fit.
