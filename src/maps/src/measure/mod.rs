@@ -17,6 +17,7 @@
 //!   separately, so that a collapse cannot hide.
 //! - Orientation and overlap are exact; everything else is a sum of f64. Figures that do not exist for a mesh are
 //!   `None`.
+pub mod cost;
 mod distortion;
 mod faces;
 mod packing;
@@ -24,6 +25,7 @@ mod validity;
 
 use crate::certificate::{Overlap, UvTopology};
 use crate::mesh::{CornerUvs, VAxis};
+pub use cost::LayoutCost;
 pub use distortion::{Density, Distortion, FaceDistortion, face_distortion};
 use faces::FaceMeasures;
 pub use faces::Seams;
@@ -90,6 +92,9 @@ pub struct Measures {
     /// Distances between charts.
     #[serde(flatten)]
     pub gaps: Gaps,
+    /// Cost of the layout.
+    #[serde(flatten)]
+    pub cost: LayoutCost,
     /// The pages that hold charts: one where UVs lie in the unit square.
     pub pages: Vec<Page>,
     /// No face is flipped, degenerate, collapsed or without finite UVs.
@@ -124,15 +129,15 @@ pub fn measure(
         && validity.uv_degenerate == 0
         && validity.uv_collapsed == 0
         && size.uv_nonfinite_faces == 0;
+    let seams = Seams::new(&topology, &faces);
+    let raster_texels = options.raster_texels.clamp(1, MeasureOptions::MAX_RASTER);
+    let packing = Packing::new(&topology, raster_texels, aspect);
     Measures {
-        seams: Seams::new(&topology, &faces),
+        cost: LayoutCost::new(&topology, &seams, &packing),
+        seams,
         distortion: Distortion::new(&topology, &faces),
         density: Density::new(&topology, &faces),
-        packing: Packing::new(
-            &topology,
-            options.raster_texels.clamp(1, MeasureOptions::MAX_RASTER),
-            aspect,
-        ),
+        packing,
         gaps: Gaps::new(&topology, &faces, aspect),
         pages: packing::pages(&topology, &faces, aspect, |v| match v_axis {
             VAxis::Up => v,
