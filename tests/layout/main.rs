@@ -21,6 +21,7 @@ mod pages;
 #[allow(dead_code)]
 mod places;
 mod redrawn;
+mod search;
 mod unfolding;
 #[path = "../support/uv_meshes.rs"]
 #[allow(dead_code)]

@@ -302,7 +302,7 @@ impl MappedChart {
     ///
     /// Charts are wound as most of their area is in space. Where that is a tie, as in a wall modeled from both sides, the
     /// map decides.
-    pub(super) fn facing_front(mut self) -> Self {
+    pub(crate) fn facing_front(mut self) -> Self {
         let area = |(t, triangle): (usize, &[u32; 3])| {
             let [a, b, c] = triangle.map(|v| self.embedding.uv[v as usize]);
             let doubled = doubled_area(a, b, c);

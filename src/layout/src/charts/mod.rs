@@ -67,5 +67,9 @@ pub use opened::charts;
 pub use rough::smoothed_where_rough;
 pub use symmetry::plane::MirrorPlane;
 
+pub(crate) use observer::Watching;
+pub(crate) use unfold::overlaps::overlaps;
+pub(crate) use unfold::push_apart::pushed_apart;
+
 #[cfg(doc)]
 use unwrapd_maps::mesh::Disk;

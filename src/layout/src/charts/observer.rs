@@ -66,7 +66,7 @@ impl Observer for Unobserved {
 }
 
 /// Shows an observer the maps of a chart.
-pub(super) struct Watching<'a> {
+pub(crate) struct Watching<'a> {
     pub chart: &'a Chart,
     pub observer: &'a dyn Observer,
 }

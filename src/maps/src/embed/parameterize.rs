@@ -49,7 +49,7 @@ pub fn parameterize(
 ) -> Embedding {
     let problem = MapProblem {
         disk,
-        rest: rest_shapes(positions, &disk.triangles),
+        rest: rest_shapes(positions, &disk.triangles).weighted(&options.weights),
         options,
     };
     match options.pins {
@@ -169,7 +169,7 @@ pub fn optimize(
     }
     let problem = MapProblem {
         disk,
-        rest: rest_shapes(positions, &disk.triangles),
+        rest: rest_shapes(positions, &disk.triangles).weighted(&options.weights),
         options,
     };
     let start = problem.at_best_size(start);

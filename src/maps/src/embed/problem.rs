@@ -216,6 +216,8 @@ pub struct Options {
     pub pins: Pins,
     /// Settings of the solver.
     pub solver: Settings,
+    /// Factor by which the energy of each triangle counts beside its area; 1 for all if empty.
+    pub weights: Vec<f64>,
 }
 
 impl Default for Options {
@@ -228,6 +230,7 @@ impl Default for Options {
             s: 1.0,
             pins: Pins::None,
             solver: Settings::default(),
+            weights: Vec::new(),
         }
     }
 }

@@ -101,6 +101,16 @@ pub fn rest_shapes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RestShapes
     }
 }
 
+impl RestShapes {
+    /// Multiplies the weight of each shape by a factor, one per triangle; leaves them as they are without factors.
+    pub(super) fn weighted(mut self, factors: &[f64]) -> Self {
+        for (shape, factor) in self.shapes.iter_mut().zip(factors) {
+            shape.weight *= factor;
+        }
+        self
+    }
+}
+
 /// Returns the aspect below which shapes get a substitute.
 fn least_aspect(triangles: &[RestMeasure]) -> f64 {
     let (mut all, mut thin) = (0.0, 0.0);

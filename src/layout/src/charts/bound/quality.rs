@@ -73,7 +73,7 @@ pub enum Bounded {
 
 impl Bound {
     /// The mean excess over the minimum of 4 that may be spent.
-    pub(in crate::charts) fn budget(&self) -> f64 {
+    pub(crate) fn budget(&self) -> f64 {
         MARGIN * (self.mean - 4.0)
     }
 

@@ -1,0 +1,85 @@
+//! The maps of two nets, laid together at a hinge.
+
+use super::cut_mesh::CutMesh;
+use super::metric::Metric;
+use super::net::Net;
+use super::opening::Opening;
+use super::sorted::{difference, union};
+use unwrapd_method::numerics::vec2::sub;
+
+/// Returns the map of the union of two nets in which both lie as they do, moved together at the edges where the opening
+/// keeps them joined; one position per vertex of `mesh`, the union cut along the opening. Returns `None` if the opening
+/// joins what is cut inside of one of them.
+///
+/// The second net is moved by the rigid motion that brings its ends of the hinge as near as possible to those of the
+/// first (Kabsch 1976); the vertices of the hinge lie half way between.
+pub fn laid_together(
+    mesh: &CutMesh,
+    [a, b]: [&Net; 2],
+    contact: &[u32],
+    way: &Opening,
+) -> Option<Vec<[f64; 2]>> {
+    let metric = mesh.metric;
+    let carried = union(&a.slits, &b.slits);
+    let hinge = difference(contact, &way.slits);
+    if hinge.is_empty() || !difference(&carried, &way.slits).is_empty() {
+        return None;
+    }
+    let [p, q] = [a, b].map(|net| ends(metric, net, &hinge));
+    let [from, to] = [mean(&q), mean(&p)];
+    // The rotation as a complex number: the sum of p conj(q), relative to the means.
+    let mut turn = [0.0; 2];
+    for (&p, &q) in p.iter().zip(&q) {
+        let ([px, py], [qx, qy]) = (sub(p, to), sub(q, from));
+        turn[0] += px * qx + py * qy;
+        turn[1] += py * qx - px * qy;
+    }
+    let size = turn[0].hypot(turn[1]);
+    if !size.is_normal() {
+        return None;
+    }
+    let [cos, sin] = turn.map(|x| x / size);
+    let moved = |p: [f64; 2]| {
+        let [x, y] = sub(p, from);
+        [to[0] + cos * x - sin * y, to[1] + sin * x + cos * y]
+    };
+    // Vertices of the hinge belong to both.
+    let n = mesh.welded.len();
+    let mut place: [Vec<Option<[f64; 2]>>; 2] = [vec![None; n], vec![None; n]];
+    for (corner, &vertex) in mesh.sheet.vertex.iter().enumerate() {
+        let face = mesh.faces[corner / 3];
+        if let Ok(at) = a.faces.binary_search(&face) {
+            place[0][vertex as usize] = Some(a.uv[at][corner % 3]);
+        } else {
+            let at = b.faces.binary_search(&face).ok()?;
+            place[1][vertex as usize] = Some(moved(b.uv[at][corner % 3]));
+        }
+    }
+    let [first, second] = place;
+    let both = first.into_iter().zip(second);
+    both.map(|(p, q)| match (p, q) {
+        (Some(p), Some(q)) => Some([0, 1].map(|k| f64::midpoint(p[k], q[k]))),
+        (p, q) => p.or(q),
+    })
+    .collect()
+}
+
+/// Returns where a net maps the ends of edges of its border: of each edge, given in ascending order, first the lower vertex.
+fn ends(metric: &Metric, net: &Net, edges: &[u32]) -> Vec<[f64; 2]> {
+    let mut found = vec![[[0.0; 2]; 2]; edges.len()];
+    for (&face, corners) in net.faces.iter().zip(&net.uv) {
+        for k in 0..3 {
+            if let Ok(at) = edges.binary_search(&metric.edge[3 * face as usize + k]) {
+                let [a, b] = metric.ends(3 * face + k as u32);
+                let ends = [corners[k], corners[(k + 1) % 3]];
+                found[at] = if a < b { ends } else { [ends[1], ends[0]] };
+            }
+        }
+    }
+    found.into_flattened()
+}
+
+fn mean(points: &[[f64; 2]]) -> [f64; 2] {
+    let n = points.len().max(1) as f64;
+    [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n)
+}

@@ -1,0 +1,290 @@
+//! A set of faces with its slits and its map.
+
+use super::cut_mesh::CutMesh;
+use super::laid_together::laid_together;
+use super::metric::Metric;
+use super::opening::Opening;
+use super::sorted::union;
+use crate::charts::{Chart, MappedChart, Observer, Watching, overlaps, pushed_apart};
+use unwrapd_maps::embed::{self, Embedding};
+use unwrapd_maps::mesh::{CUT, Disk, next};
+use unwrapd_method::solver::Summary;
+
+/// Excess at which a face cannot be called more distorted: one squeezed to nothing in floating point would outweigh all others.
+const LARGEST: f64 = 1e6;
+
+/// Excess beyond that of its parts at which a union is a rigid motion of each.
+const EXACT: f64 = 1e-6;
+
+/// Faces laid into the plane without flips and overlaps.
+#[derive(Clone, Debug)]
+pub struct Net {
+    /// Faces in ascending order.
+    pub faces: Vec<u32>,
+    /// Edges cut inside, in ascending order.
+    pub slits: Vec<u32>,
+    /// Length of the slits.
+    pub length: f64,
+    /// Sum of the excess over 4 times the weight of each face.
+    pub excess: f64,
+    /// Corners of each face in the plane.
+    pub uv: Vec<[[f64; 2]; 3]>,
+    summary: Summary,
+}
+
+impl Net {
+    /// Returns the price at a price of the excess.
+    pub fn price(&self, lambda: f64) -> f64 {
+        self.length + lambda * self.excess
+    }
+
+    /// Creates the net of one face at rest.
+    pub fn of_face(metric: &Metric, face: u32) -> Self {
+        Self {
+            faces: vec![face],
+            slits: Vec::new(),
+            length: 0.0,
+            excess: 0.0,
+            uv: vec![metric.face_at_rest(face)],
+            summary: Summary::at_start(0.0),
+        }
+    }
+
+    /// Maps an opening of some faces; returns `None` if no map without flips and overlaps is found.
+    pub fn map(
+        metric: &Metric,
+        faces: &[u32],
+        opening: &Opening,
+        options: &embed::Options,
+        observer: &dyn Observer,
+    ) -> Option<Self> {
+        let mesh = CutMesh::new(metric, faces, &opening.slits);
+        let chart = chart(&mesh)?;
+        let options = &weighted(options, metric, faces);
+        let watching = Watching {
+            chart: &chart,
+            observer,
+        };
+        let embedding = embed::parameterize(&chart.disk, &chart.positions, options, &watching);
+        Self::checked(metric, opening, chart, &embedding, options, observer)
+    }
+
+    /// Maps an opening of the union of two nets, starting from their maps laid together where the opening allows it.
+    ///
+    /// A union that is predicted to be as flat as its parts, such as two panels at a hinge, needs no other map: if they
+    /// overlap as they lie, it has none.
+    pub fn of_union(
+        metric: &Metric,
+        [a, b]: [&Self; 2],
+        contact: &[u32],
+        opening: &Opening,
+        options: &embed::Options,
+        observer: &dyn Observer,
+    ) -> Option<Self> {
+        let faces = union(&a.faces, &b.faces);
+        let mesh = CutMesh::new(metric, &faces, &opening.slits);
+        let Some(start) = laid_together(&mesh, [a, b], contact, opening) else {
+            return Self::map(metric, &faces, opening, options, observer);
+        };
+        let start: Vec<[f64; 2]> = (start.into_iter())
+            .map(|p| p.map(|x| x * metric.unit))
+            .collect();
+        let chart = chart(&mesh)?;
+        let is_rigid = opening.excess - a.excess - b.excess < EXACT;
+        if is_rigid && !overlaps(&chart.disk, &start).is_empty() {
+            return None;
+        }
+        let options = &weighted(options, metric, &faces);
+        let watching = Watching {
+            chart: &chart,
+            observer,
+        };
+        let embedding = embed::optimize(&chart.disk, &chart.positions, &start, options, &watching);
+        match embedding {
+            Ok(embedding) => Self::checked(metric, opening, chart, &embedding, options, observer),
+            Err(_) => Self::map(metric, &faces, opening, options, observer),
+        }
+    }
+
+    /// Creates the net of a map if it has no flips, and no overlaps but such that can be pushed apart.
+    fn checked(
+        metric: &Metric,
+        opening: &Opening,
+        chart: Chart,
+        embedding: &Embedding,
+        options: &embed::Options,
+        observer: &dyn Observer,
+    ) -> Option<Self> {
+        if !embed::is_positive(&chart.disk.triangles, &embedding.uv) {
+            return None;
+        }
+        let watching = Watching {
+            chart: &chart,
+            observer,
+        };
+        let pairs = overlaps(&chart.disk, &embedding.uv);
+        let (uv, left) = pushed_apart(&chart, &embedding.uv, pairs, options, &watching);
+        let faces = chart.corners.iter().map(|corners| corners[0] / 3).collect();
+        left.is_empty().then(|| {
+            let map = MappedChart {
+                chart,
+                embedding: Embedding {
+                    uv,
+                    summary: embedding.summary,
+                },
+                seconds: 0.0,
+            };
+            Self::of_map(metric, faces, opening.slits.clone(), &map)
+        })
+    }
+
+    /// Creates the net of a map whose faces are those of the chart, in ascending order.
+    fn of_map(metric: &Metric, faces: Vec<u32>, slits: Vec<u32>, map: &MappedChart) -> Self {
+        let place = |v: u32| map.embedding.uv[v as usize].map(|x| x / metric.unit);
+        let uv: Vec<[[f64; 2]; 3]> = (map.chart.disk.triangles.iter())
+            .map(|triangle| triangle.map(place))
+            .collect();
+        Self {
+            excess: excess(metric, &faces, &uv),
+            length: metric.length_of(&slits),
+            summary: map.embedding.summary,
+            faces,
+            slits,
+            uv,
+        }
+    }
+
+    /// Creates the net of a chart as it is mapped.
+    pub fn of_chart(metric: &Metric, map: &MappedChart) -> Self {
+        let mut placed: Vec<(u32, [[f64; 2]; 3])> = (map.chart.corners.iter())
+            .zip(&map.chart.disk.triangles)
+            .map(|(corners, triangle)| {
+                let face = corners[0] / 3;
+                let mut uv = [[0.0; 2]; 3];
+                for (&corner, &v) in corners.iter().zip(triangle) {
+                    let k = own_corner(metric, corner);
+                    uv[k] = map.embedding.uv[v as usize].map(|x| x / metric.unit);
+                }
+                (face, uv)
+            })
+            .collect();
+        placed.sort_by_key(|(face, _)| *face);
+        let (faces, mut uv): (Vec<u32>, Vec<[[f64; 2]; 3]>) = placed.into_iter().unzip();
+        if uv.iter().map(doubled_area).sum::<f64>() < 0.0 {
+            for p in uv.as_flattened_mut() {
+                p[0] = -p[0];
+            }
+        }
+        let slits = slits(metric, &faces, &uv);
+        Self {
+            excess: excess(metric, &faces, &uv),
+            length: metric.length_of(&slits),
+            summary: map.embedding.summary,
+            faces,
+            slits,
+            uv,
+        }
+    }
+
+    /// Returns the net as a chart with its map.
+    pub fn mapped_chart(&self, metric: &Metric) -> Option<MappedChart> {
+        let mesh = CutMesh::new(metric, &self.faces, &self.slits);
+        let chart = chart(&mesh)?;
+        let mut uv = vec![[0.0; 2]; chart.disk.n_vertices];
+        for (triangle, corners) in chart.disk.triangles.iter().zip(&self.uv) {
+            for (&v, p) in triangle.iter().zip(corners) {
+                uv[v as usize] = p.map(|x| x * metric.unit);
+            }
+        }
+        let map = MappedChart {
+            chart,
+            embedding: Embedding {
+                uv,
+                summary: self.summary,
+            },
+            seconds: 0.0,
+        };
+        Some(map.facing_front())
+    }
+}
+
+/// Returns the options with what the energy of each face counts beside its area.
+fn weighted(options: &embed::Options, metric: &Metric, faces: &[u32]) -> embed::Options {
+    let weight = |&face: &u32| {
+        let face = face as usize;
+        metric.weight[face] / metric.area[face].max(f64::MIN_POSITIVE)
+    };
+    embed::Options {
+        weights: faces.iter().map(weight).collect(),
+        ..options.clone()
+    }
+}
+
+/// Returns the chart of a cut mesh; `None` if it is no disk.
+fn chart(mesh: &CutMesh) -> Option<Chart> {
+    let triangles = mesh.sheet.vertex.as_chunks().0.to_vec();
+    let disk = Disk::new(mesh.sheet.positions.len(), triangles).ok()?;
+    let corners = mesh.faces.iter().map(|&face| {
+        let order = if mesh.metric.is_turned[face as usize] {
+            [0, 2, 1]
+        } else {
+            [0, 1, 2]
+        };
+        order.map(|k| 3 * face + k)
+    });
+    Some(Chart {
+        corners: corners.collect(),
+        positions: mesh.sheet.positions.clone(),
+        disk,
+        mirror: None,
+    })
+}
+
+/// Returns the corner, in the winding of the metric, of a corner `3 f + c` of the surface.
+fn own_corner(metric: &Metric, corner: u32) -> usize {
+    let k = corner as usize % 3;
+    if metric.is_turned[corner as usize / 3] {
+        [0, 2, 1][k]
+    } else {
+        k
+    }
+}
+
+fn excess(metric: &Metric, faces: &[u32], uv: &[[[f64; 2]; 3]]) -> f64 {
+    let of_face = |(&face, corners): (&u32, &[[f64; 2]; 3])| {
+        let [excess, det] = metric.excess_of_face(face, *corners);
+        let excess = if det > 0.0 {
+            excess.clamp(0.0, LARGEST)
+        } else {
+            LARGEST
+        };
+        metric.weight[face as usize] * excess
+    };
+    faces.iter().zip(uv).map(of_face).sum()
+}
+
+/// Returns the edges between faces of a map that are not glued there.
+fn slits(metric: &Metric, faces: &[u32], uv: &[[[f64; 2]; 3]]) -> Vec<u32> {
+    let ends = |face: usize, h: u32| [h % 3, next(h) % 3].map(|k| uv[face][k as usize]);
+    let mut slits = Vec::new();
+    for (place, &face) in faces.iter().enumerate() {
+        for h in 3 * face..3 * face + 3 {
+            let t = metric.twin[h as usize];
+            if t == CUT || t < h {
+                continue;
+            }
+            if let Ok(other) = faces.binary_search(&(t / 3)) {
+                let [a, b] = ends(place, h);
+                if ends(other, t) != [b, a] {
+                    slits.push(metric.edge[h as usize]);
+                }
+            }
+        }
+    }
+    slits.sort_unstable();
+    slits
+}
+
+fn doubled_area(&[a, b, c]: &[[f64; 2]; 3]) -> f64 {
+    unwrapd_method::numerics::vec2::doubled_area(a, b, c)
+}

@@ -1,0 +1,260 @@
+//! Prediction of the distortion of a map from angle defects alone.
+//!
+//! A metric e²ᵘ g that is flat on a disk, with u = 0 on its outer boundary, has
+//!
+//! ```text
+//! Δu = K
+//! ```
+//!
+//! where K are the angle defects at inner vertices. Each other boundary loop is one node, whose charge is the turn by
+//! which a walk around the hole fails to close. A conformal map with these scales has the excess ∫ 8 (u − ū)² over an
+//! isometry to second order, and the best map about half of it (measured: real over predicted is 1.1 to 1.7 at the
+//! median of 2,800 maps). One sparse solve sees cones, spheres, tubes and plates with holes alike.
+//!
+//! From: Ben-Chen, Gotsman, Bunin 2008, Conformal Flattening by Curvature Prescription and Metric Scaling; Springborn,
+//! Schröder, Pinkall 2008, Conformal Equivalence of Triangle Meshes.
+
+use super::cut_mesh::CutMesh;
+use unwrapd_maps::mesh::CUT;
+use unwrapd_method::numerics::cholesky::{Cholesky, SymmetricPattern};
+use unwrapd_method::numerics::vec3::distance;
+
+/// Largest charge, in radians, that is treated as none: rounding of coordinates in `f32`.
+const UNCHARGED: f64 = 1e-4;
+/// Excess of the best map over that of the conformal one.
+const BEST: f64 = 0.5;
+/// Share of the diagonal that keeps a Laplacian of needles positive definite.
+const REGULAR: f64 = 1e-12;
+
+/// Predicted distortion of the best map of a cut mesh, and of the mesh with further slits.
+///
+/// A slit from the outer boundary grounds the vertices along it: u = 0 there. With the Green's function of the mesh, the
+/// column g of a vertex, that is a change of rank one: u ← u − g u(v)/g(v). All slits of a mesh share one factorization.
+pub struct Prediction<'a> {
+    mesh: &'a CutMesh<'a>,
+    /// For each vertex its node; 0 is the outer boundary, and every other loop is one node.
+    node: Vec<u32>,
+    /// For each boundary loop its node.
+    node_of_loop: Vec<u32>,
+    /// Charge of each node.
+    charge: Vec<f64>,
+    /// Weight of the faces around each node.
+    weight: Vec<f64>,
+    /// Factor of the Laplacian without node 0; `None` if nothing is charged.
+    factor: Option<Cholesky>,
+    is_grounded: Vec<bool>,
+    /// Logarithm of the scale at each node.
+    log_scale: Vec<f64>,
+    /// Columns of the Green's function at the grounded nodes, each scaled and without its share of the earlier ones.
+    columns: Vec<Vec<f64>>,
+    excess: f64,
+}
+
+/// Prediction with further nodes grounded.
+pub struct Grounded {
+    nodes: Vec<usize>,
+    log_scale: Vec<f64>,
+    columns: Vec<Vec<f64>>,
+    /// Predicted excess.
+    pub excess: f64,
+}
+
+impl<'a> Prediction<'a> {
+    /// Predicts the distortion of a cut mesh; `None` if it is no disk.
+    pub fn new(mesh: &'a CutMesh<'a>) -> Option<Self> {
+        if !mesh.is_disk() {
+            return None;
+        }
+        let outer = outer_loop(mesh);
+        let mut node = vec![0; mesh.welded.len()];
+        let mut charge = vec![0.0];
+        for (vertex, node) in node.iter_mut().enumerate() {
+            if mesh.is_inner[vertex] {
+                *node = charge.len() as u32;
+                charge.push(2.0 * std::f64::consts::PI - mesh.angle[vertex]);
+            }
+        }
+        let mut node_of_loop = vec![0; mesh.loops.len()];
+        for (k, boundary) in mesh.loops.iter().enumerate().filter(|(k, _)| *k != outer) {
+            node_of_loop[k] = charge.len() as u32;
+            for &v in boundary {
+                node[v as usize] = charge.len() as u32;
+            }
+            charge.push(mesh.turn(boundary));
+        }
+        let mut weight = vec![0.0; charge.len()];
+        for (corner, &vertex) in mesh.sheet.vertex.iter().enumerate() {
+            let face = mesh.faces[corner / 3] as usize;
+            weight[node[vertex as usize] as usize] += mesh.metric.weight[face] / 3.0;
+        }
+        let mut is_grounded = vec![false; charge.len()];
+        is_grounded[0] = true;
+        let mut prediction = Self {
+            mesh,
+            node,
+            node_of_loop,
+            weight,
+            factor: None,
+            is_grounded,
+            log_scale: vec![0.0; charge.len()],
+            columns: Vec::new(),
+            excess: 0.0,
+            charge,
+        };
+        prediction.solve()?;
+        Some(prediction)
+    }
+
+    /// Returns the predicted excess: the sum of the excess of the symmetric Dirichlet energy over 4, times the weight.
+    pub fn excess(&self) -> f64 {
+        self.excess
+    }
+
+    /// Returns whether a vertex is on the outer boundary, or a slit from it.
+    pub fn is_grounded(&self, vertex: u32) -> bool {
+        self.is_grounded[self.node[vertex as usize] as usize]
+    }
+
+    /// Returns the inner vertex whose scale differs most from that of the boundary; the first of equals.
+    pub fn peak(&self) -> Option<u32> {
+        let scale = |v: usize| self.log_scale[self.node[v] as usize].abs();
+        let inner = (0..self.node.len()).filter(|&v| self.mesh.is_inner[v]);
+        let peak = inner.max_by(|&a, &b| scale(a).total_cmp(&scale(b)).then(b.cmp(&a)));
+        peak.filter(|&v| scale(v) > 0.0).map(|v| v as u32)
+    }
+
+    /// Returns the hole that fails most to close.
+    pub fn charged_hole(&self) -> Option<&'a [u32]> {
+        let scale = |k: usize| {
+            let node = self.node_of_loop[k] as usize;
+            let is_charged = !self.is_grounded[node] && self.charge[node].abs() > UNCHARGED;
+            is_charged.then(|| self.log_scale[node].abs())
+        };
+        let holes = (0..self.node_of_loop.len()).filter_map(|k| Some((k, scale(k)?)));
+        let hole = holes.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+        hole.map(|(k, _)| &*self.mesh.loops[k])
+    }
+
+    /// Predicts the distortion if some vertices are grounded as well.
+    pub fn grounded(&mut self, vertices: impl IntoIterator<Item = u32>) -> Grounded {
+        let mut trial = Grounded {
+            nodes: Vec::new(),
+            log_scale: self.log_scale.clone(),
+            columns: Vec::new(),
+            excess: self.excess,
+        };
+        let Some(factor) = &mut self.factor else {
+            return trial;
+        };
+        for vertex in vertices {
+            let node = self.node[vertex as usize] as usize;
+            if self.is_grounded[node] || trial.nodes.contains(&node) {
+                continue;
+            }
+            let mut column = vec![0.0; trial.log_scale.len()];
+            column[node] = 1.0;
+            factor.solve(&mut column[1..], 1);
+            for earlier in self.columns.iter().chain(&trial.columns) {
+                subtract(&mut column, earlier[node], earlier);
+            }
+            let size = column[node].max(f64::MIN_POSITIVE).sqrt();
+            for x in &mut column {
+                *x /= size;
+            }
+            let share = trial.log_scale[node] / column[node];
+            subtract(&mut trial.log_scale, share, &column);
+            trial.nodes.push(node);
+            trial.columns.push(column);
+        }
+        trial.excess = self.excess_of(&trial.log_scale);
+        trial
+    }
+
+    /// Takes over a prediction with further nodes grounded.
+    pub fn accept(&mut self, trial: Grounded) {
+        for node in trial.nodes {
+            self.is_grounded[node] = true;
+        }
+        self.columns.extend(trial.columns);
+        self.log_scale = trial.log_scale;
+        self.excess = trial.excess;
+    }
+
+    /// Returns the mean square of the deviation from the mean, times the excess per square.
+    fn excess_of(&self, log_scale: &[f64]) -> f64 {
+        let weighted = || self.weight.iter().zip(log_scale);
+        let total: f64 = self.weight.iter().sum();
+        let mean = weighted().map(|(w, u)| w * u).sum::<f64>() / total.max(f64::MIN_POSITIVE);
+        let squares: f64 = weighted().map(|(w, u)| w * (u - mean) * (u - mean)).sum();
+        BEST * 8.0 * squares
+    }
+
+    /// Solves the Poisson equation with node 0 held at 0.
+    fn solve(&mut self) -> Option<()> {
+        if self.charge[1..].iter().all(|k| k.abs() < UNCHARGED) {
+            return Some(());
+        }
+        let n = self.charge.len() - 1;
+        let mut diagonal = vec![0.0; n + 1];
+        let mut entries = Vec::with_capacity(n + 2 * self.mesh.faces.len());
+        for (h, &t) in (0u32..).zip(&self.mesh.sheet.twin) {
+            if t != CUT && t < h {
+                continue;
+            }
+            let [a, b] = (self.mesh.sheet.ends(h)).map(|v| self.node[v as usize] as usize);
+            if a == b {
+                continue;
+            }
+            let across = if t == CUT { 0.0 } else { self.cotangent(t) };
+            let half = f64::midpoint(self.cotangent(h), across);
+            diagonal[a] += half;
+            diagonal[b] += half;
+            if a > 0 && b > 0 {
+                entries.push((a.min(b) as u32 - 1, a.max(b) as u32 - 1, -half));
+            }
+        }
+        entries.extend((0..n as u32).map(|i| {
+            let d = diagonal[i as usize + 1];
+            (i, i, d + REGULAR * d.abs().max(1.0))
+        }));
+        let (pattern, values) = SymmetricPattern::from_entries(n, entries);
+        let mut factor = Cholesky::analyze(&pattern, 1);
+        factor.factor(&values).ok()?;
+        let mut solved = self.charge.clone();
+        factor.solve(&mut solved[1..], 1);
+        self.excess = self.excess_of(&solved);
+        self.log_scale = solved;
+        self.factor = Some(factor);
+        Some(())
+    }
+
+    /// Returns the cotangent of the angle across from a halfedge.
+    fn cotangent(&self, h: u32) -> f64 {
+        let face = self.mesh.faces[h as usize / 3];
+        self.mesh.metric.cotangent[(3 * face + (h + 2) % 3) as usize]
+    }
+}
+
+/// Subtracts a multiple of a vector.
+fn subtract(from: &mut [f64], factor: f64, vector: &[f64]) {
+    for (x, y) in from.iter_mut().zip(vector) {
+        *x -= factor * y;
+    }
+}
+
+/// Returns the longest boundary loop.
+fn outer_loop(mesh: &CutMesh) -> usize {
+    let length = |boundary: &Vec<u32>| {
+        let ends = boundary.iter().zip(boundary.iter().cycle().skip(1));
+        let side = |(&a, &b): (&u32, &u32)| {
+            let [p, q] = [a, b].map(|v| mesh.sheet.positions[v as usize]);
+            distance(p, q)
+        };
+        ends.map(side).sum::<f64>()
+    };
+    let lengths: Vec<f64> = mesh.loops.iter().map(length).collect();
+    (0..lengths.len()).fold(
+        0,
+        |best, k| if lengths[k] > lengths[best] { k } else { best },
+    )
+}

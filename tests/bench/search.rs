@@ -1,0 +1,82 @@
+//! The search for where to cut, beside the cutters of today.
+//!
+//! `cargo bench --bench search -- [--bound E] FILE.obj…` prints for each file and way: charts, seam length over the root of
+//! the area, processor seconds on one thread, and how many faces were mapped for each face of the file. Ways: `today`, without
+//! cuts for fill and symmetry; `pieces`, the search from pieces; `charts`, the search from today's charts.
+
+#[expect(dead_code, reason = "only processor time is wanted")]
+mod clock;
+#[expect(dead_code, reason = "only reading is wanted")]
+#[path = "../support/zoo.rs"]
+mod zoo;
+
+use clock::Clock;
+use std::path::Path;
+use std::sync::Arc;
+use unwrapd_layout::charts::{
+    Bound, Bounded, MappedChart, Symmetry, Unobserved, charts_under_bound, seam_length,
+};
+use unwrapd_layout::search::{Counts, from_charts, from_pieces};
+use unwrapd_maps::embed::Options;
+use unwrapd_maps::mesh::Surface;
+use unwrapd_method::energy::SymmetricDirichlet;
+
+/// Price at which no seam is cut for fill alone.
+const NO_CUTS_FOR_FILL: f64 = 1e3;
+
+fn main() {
+    let mut bound = Bound {
+        mean: 4.1,
+        stretch: None,
+        of: Bounded::Surface,
+    };
+    let mut files = Vec::new();
+    let mut arguments = std::env::args().skip(1).filter(|it| it != "--bench");
+    while let Some(argument) = arguments.next() {
+        if argument == "--bound" {
+            bound.mean = arguments
+                .next()
+                .and_then(|it| it.parse().ok())
+                .expect("an energy");
+        } else {
+            files.push(argument);
+        }
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    pool.expect("one thread")
+        .install(|| files.iter().for_each(|file| report(file, &bound)));
+}
+
+fn report(file: &str, bound: &Bound) {
+    let Some(mesh) = zoo::read_mesh(Path::new(file)) else {
+        println!("{file}: no OBJ or OFF file");
+        return;
+    };
+    let surface = Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh");
+    let options = Options {
+        density: Arc::new(SymmetricDirichlet),
+        ..Options::default()
+    };
+    let price = NO_CUTS_FOR_FILL;
+    let clock = Clock::start();
+    let today = charts_under_bound(&surface, bound, price, &options, Symmetry::Off, &Unobserved);
+    line(file, "today", &today, &clock, None);
+    let clock = Clock::start();
+    let (charts, counts) = from_pieces(&surface, bound, &options, &Unobserved);
+    line(file, "pieces", &charts, &clock, Some(counts));
+    let clock = Clock::start();
+    let (charts, counts) = from_charts(&surface, &today, bound, &options, &Unobserved);
+    line(file, "charts", &charts, &clock, Some(counts));
+}
+
+fn line(file: &str, way: &str, charts: &[MappedChart], clock: &Clock, counts: Option<Counts>) {
+    let area: f64 = charts.iter().map(MappedChart::surface_area).sum();
+    let faces: usize = charts.iter().map(|map| map.chart.corners.len()).sum();
+    let mapped = counts.map_or(0.0, |counts| counts.mapped_faces as f64 / faces as f64);
+    println!(
+        "{file} {way}: {} charts, seam {:.3}, {:.2} s, {mapped:.0} faces mapped per face",
+        charts.len(),
+        seam_length(charts) / area.sqrt(),
+        clock.seconds().processor,
+    );
+}

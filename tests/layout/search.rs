@@ -1,0 +1,332 @@
+//! The search for where to cut.
+
+use crate::zoo::{self, Mesh};
+use std::f32::consts::{PI, TAU};
+use std::sync::Arc;
+use unwrapd_layout::charts::{
+    Bound, Bounded, Cut, Folds, MappedChart, Unobserved, charts, map_chart, seam_length,
+};
+use unwrapd_layout::search::{from_charts, from_pieces};
+use unwrapd_maps::certificate::{Claims, certify};
+use unwrapd_maps::embed::Options;
+use unwrapd_maps::mesh::Surface;
+use unwrapd_method::energy::SymmetricDirichlet;
+use unwrapd_method::numerics::square::{Square, times};
+use unwrapd_method::numerics::vec2::{doubled_area, sub};
+
+fn options() -> Options {
+    Options {
+        density: Arc::new(SymmetricDirichlet),
+        ..Options::default()
+    }
+}
+
+fn bound(mean: f64) -> Bound {
+    Bound {
+        mean,
+        stretch: None,
+        of: Bounded::Surface,
+    }
+}
+
+fn surface(mesh: &Mesh) -> Surface {
+    Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh")
+}
+
+/// Charts of a mesh from pieces, checked.
+fn divided(mesh: &Mesh, mean: f64) -> Vec<MappedChart> {
+    let surface = surface(mesh);
+    let (charts, _) = from_pieces(&surface, &bound(mean), &options(), &Unobserved);
+    check(&surface, &charts);
+    charts
+}
+
+/// Every face is in one chart, and no map has flips or overlaps.
+fn check(surface: &Surface, charts: &[MappedChart]) {
+    let mut faces: Vec<u32> = (charts.iter())
+        .flat_map(|map| map.chart.corners.iter().map(|corners| corners[0] / 3))
+        .collect();
+    faces.sort_unstable();
+    let all: Vec<u32> = (0..surface.triangles.len() as u32).collect();
+    assert_eq!(faces, all, "each face is in one chart");
+    for map in charts {
+        let triangles = &map.chart.disk.triangles;
+        let corners: Vec<[[f64; 2]; 3]> = (triangles.iter())
+            .map(|triangle| triangle.map(|v| map.embedding.uv[v as usize]))
+            .collect();
+        let certificate = certify(
+            &map.chart.positions,
+            triangles,
+            &corners,
+            &Claims::default(),
+        );
+        assert!(certificate.is_valid(), "{certificate:?}");
+    }
+}
+
+/// Seam length over the root of the area.
+fn seam(charts: &[MappedChart]) -> f64 {
+    let area: f64 = charts.iter().map(MappedChart::surface_area).sum();
+    seam_length(charts) / area.sqrt()
+}
+
+/// Mean symmetric Dirichlet energy.
+fn energy(charts: &[MappedChart]) -> f64 {
+    let (mut sum, mut area) = (0.0, 0.0);
+    for map in charts {
+        let rest =
+            unwrapd_maps::embed::rest_shapes(&map.chart.positions, &map.chart.disk.triangles);
+        let unit = rest.scale * rest.scale;
+        for (triangle, shape) in map.chart.disk.triangles.iter().zip(&rest.shapes) {
+            let [a, b, c] = triangle.map(|v| map.embedding.uv[v as usize].map(|x| x / rest.scale));
+            let (first, last) = (sub(b, a), sub(c, a));
+            let sides = [[first[0], last[0]], [first[1], last[1]]];
+            let det = doubled_area(a, b, c) / (2.0 * shape.size);
+            let [s, t] = times(&sides, &shape.inverse).singular_values(det);
+            sum += unit * shape.weight * (s * s + t * t + 1.0 / (s * s) + 1.0 / (t * t));
+            area += unit * shape.weight;
+        }
+    }
+    sum / area
+}
+
+/// A tube of radius 1 along a quarter of a circle of radius 3, `n` squares around and `m` along.
+fn elbow(n: u32, m: u32) -> Mesh {
+    let bent = |i: u32, j: u32| {
+        let (t, p) = (TAU * i as f32 / n as f32, PI / 2.0 * j as f32 / m as f32);
+        let r = 3.0 + t.cos();
+        [r * p.cos(), r * p.sin(), t.sin()]
+    };
+    let mut triangles = Vec::new();
+    for j in 0..m {
+        for i in 0..n {
+            let at = |i: u32, j: u32| j * n + i % n;
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    Mesh {
+        positions: (0..=m)
+            .flat_map(|j| (0..n).map(move |i| bent(i, j)))
+            .collect(),
+        triangles,
+        ..Mesh::default()
+    }
+}
+
+/// A frustum without caps: `n` squares around.
+fn lamp_shade(n: u32) -> Mesh {
+    let mut mesh = zoo::tube(n, 2.0);
+    for p in &mut mesh.positions {
+        let radius = if p[2] > 1.0 { 0.4 } else { 1.0 };
+        *p = [radius * p[0], radius * p[1], p[2]];
+    }
+    mesh
+}
+
+/// Protects the promise of the module for everything nasty that is small.
+#[test]
+fn any_surface_is_divided_into_maps_without_overlaps() {
+    for mesh in zoo::zoo().iter().filter(|mesh| mesh.name != "empty") {
+        println!("{}", mesh.name);
+        divided(mesh, 4.1);
+    }
+}
+
+/// A cube opens to one net: seven of its twelve edges are cut.
+#[test]
+fn a_cube_becomes_one_net() {
+    let charts = divided(&zoo::voxels(&[[0, 0, 0]]), 4.001);
+    assert_eq!(charts.len(), 1);
+    assert!(
+        (seam(&charts) - 7.0 / 6.0_f64.sqrt()).abs() < 1e-6,
+        "{}",
+        seam(&charts)
+    );
+}
+
+/// A bent tube becomes one strip, cut along its length, not ring by ring.
+#[test]
+fn an_elbow_is_slit_once() {
+    let charts = divided(&elbow(12, 8), 4.1);
+    assert_eq!(charts.len(), 1);
+    // The inner side of the bend is a quarter of a circle of radius 2.
+    let area: f64 = charts.iter().map(MappedChart::surface_area).sum();
+    let shortest = f64::from(PI) / area.sqrt();
+    assert!(
+        seam(&charts) < 1.01 * shortest,
+        "{} for {shortest}",
+        seam(&charts)
+    );
+    assert!(energy(&charts) <= 4.1, "{}", energy(&charts));
+}
+
+/// A lamp shade is slit once and then flat, whatever its tessellation.
+#[test]
+fn a_lamp_shade_is_slit_once() {
+    for n in [6, 16, 48] {
+        let charts = divided(&lamp_shade(n), 4.1);
+        assert_eq!(charts.len(), 1, "{n} sides");
+        assert!(energy(&charts) < 4.001, "{n} sides: {}", energy(&charts));
+        let slit = (0.6_f64 * 0.6 + 4.0).sqrt();
+        let length = seam_length(&charts);
+        assert!(
+            (length - slit).abs() < 1e-3,
+            "{n} sides: {length} for {slit}"
+        );
+    }
+}
+
+/// A plate with a hole is flat as it is.
+#[test]
+fn a_plate_with_a_hole_stays_whole() {
+    let mut plate = zoo::grid(5, 5).without(&[24, 25]);
+    plate.positions.iter_mut().for_each(|p| p[2] = 0.0);
+    let charts = divided(&plate, 4.1);
+    assert_eq!(charts.len(), 1);
+    assert!(seam(&charts) < 1e-9);
+}
+
+/// The mean energy keeps the bound, and a looser bound costs no more seam.
+#[test]
+fn the_bound_is_kept_and_its_slack_is_spent() {
+    for mesh in [zoo::sphere(16, 11), zoo::torus(16, 10), elbow(10, 12)] {
+        let mut before = f64::INFINITY;
+        for mean in [4.02, 4.1, 4.5] {
+            let charts = divided(&mesh, mean);
+            assert!(energy(&charts) <= mean, "{} for {mean}", energy(&charts));
+            let cost = seam(&charts) + charts.len() as f64 / 10.0;
+            assert!(cost <= 1.02 * before, "{cost} after {before} at {mean}");
+            before = cost;
+        }
+    }
+}
+
+/// Charts that are cut more than they need to be are glued and closed.
+#[test]
+fn given_charts_get_shorter_seams() {
+    let mesh = elbow(12, 8);
+    let surface = surface(&mesh);
+    let options = options();
+    let start: Vec<MappedChart> = (charts(&surface, Cut::Fast).into_iter())
+        .flat_map(|chart| map_chart(chart, &options, Folds::Cut, &Unobserved))
+        .collect();
+    let (found, counts) = from_charts(&surface, &start, &bound(4.1), &options, &Unobserved);
+    check(&surface, &found);
+    assert!(counts.glued > 0);
+    assert!(found.len() < start.len());
+    assert!(seam(&found) < seam(&start));
+    assert!(energy(&found) <= 4.1, "{}", energy(&found));
+}
+
+/// Scale and order change numbers at the size of rounding, not the cut.
+#[test]
+fn scale_and_order_do_not_change_the_cut() {
+    let mesh = elbow(12, 8);
+    let of = |mesh: &Mesh| {
+        let charts = divided(mesh, 4.1);
+        (charts.len(), seam(&charts))
+    };
+    let (n, length) = of(&mesh);
+    let mut tiny = mesh.clone();
+    tiny.positions
+        .iter_mut()
+        .for_each(|p| *p = p.map(|x| 1e-3 * x));
+    for other in [tiny, mesh.shuffled()] {
+        let (m, other) = of(&other);
+        assert_eq!(n, m);
+        assert!(
+            (length - other).abs() < 0.02 * length,
+            "{length} and {other}"
+        );
+    }
+}
+
+/// A box with beveled edges keeps its sides straight: the bevels take the distortion.
+#[test]
+fn panels_stay_straight() {
+    let mesh = beveled_box(0.1);
+    let charts = divided(&mesh, 4.1);
+    for map in &charts {
+        let (chart, uv) = (&map.chart, &map.embedding.uv);
+        for (triangle, corners) in chart.disk.triangles.iter().zip(&chart.corners) {
+            // The first twelve triangles are the sides.
+            if corners[0] / 3 < 12 {
+                for [a, b] in
+                    [[0, 1], [1, 2], [2, 0]].map(|side| side.map(|k| triangle[k] as usize))
+                {
+                    let (p, q) = (chart.positions[a], chart.positions[b]);
+                    let length = unwrapd_method::numerics::vec3::distance(p, q);
+                    let [x, y] = sub(uv[a], uv[b]);
+                    let stretch = x.hypot(y) / length;
+                    assert!((stretch - 1.0).abs() < 0.03, "{stretch}");
+                }
+            }
+        }
+    }
+}
+
+/// A cube of side 2 whose edges and corners are cut off; the six sides come first.
+fn beveled_box(bevel: f32) -> Mesh {
+    let inner = 1.0 - bevel;
+    let axes = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
+    let place = |axis: [usize; 3], x: f32, y: f32, z: f32| {
+        let mut p = [0.0; 3];
+        (p[axis[0]], p[axis[1]], p[axis[2]]) = (x, y, z);
+        p
+    };
+    let mut quads: Vec<[[f32; 3]; 4]> = Vec::new();
+    for axis in axes {
+        for side in [1.0, -1.0] {
+            let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+            let mut quad = corners.map(|[y, z]| place(axis, side, y * inner, z * inner));
+            if side < 0.0 {
+                quad.reverse();
+            }
+            quads.push(quad);
+        }
+    }
+    for axis in axes {
+        for (s, t) in [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)] {
+            let mut quad = [
+                place(axis, s, t * inner, -inner),
+                place(axis, s * inner, t, -inner),
+                place(axis, s * inner, t, inner),
+                place(axis, s, t * inner, inner),
+            ];
+            if s * t < 0.0 {
+                quad.reverse();
+            }
+            quads.push(quad);
+        }
+    }
+    let mut positions = Vec::new();
+    let mut triangles = Vec::new();
+    for quad in quads {
+        let n = positions.len() as u32;
+        positions.extend(quad);
+        triangles.extend([[n, n + 1, n + 2], [n, n + 2, n + 3]]);
+    }
+    for s in [1.0, -1.0] {
+        for t in [1.0, -1.0] {
+            for u in [1.0, -1.0] {
+                let n = positions.len() as u32;
+                positions.extend([
+                    [s, t * inner, u * inner],
+                    [s * inner, t, u * inner],
+                    [s * inner, t * inner, u],
+                ]);
+                triangles.push(if s * t * u > 0.0 {
+                    [n, n + 1, n + 2]
+                } else {
+                    [n, n + 2, n + 1]
+                });
+            }
+        }
+    }
+    Mesh {
+        positions,
+        triangles,
+        ..Mesh::default()
+    }
+}
