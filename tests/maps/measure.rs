@@ -367,6 +367,9 @@ fn benchmark_meshes_have_their_published_values() {
     near(stretched.distortion.area_dist_max, 1.0);
     near(scaled.distortion.sym_dirichlet_max, 4.0);
     near(cube.seams.seam_over_sqrt_area, 7.0 / 6.0_f64.sqrt());
+    assert_eq!((cube.seams.charts, cube.cost.components), (1, 1));
+    let seams = (0.5 + 7.0 / 6.0_f64.sqrt()).ln();
+    near(cube.cost.cost, seams + 1.0 - cube.packing.pack_square);
     assert_eq!(
         (folded.validity.flipped, folded.overlaps.overlap_faces),
         (2, Some(2))

@@ -1,5 +1,6 @@
 //! The plan of a run: what is cut, mapped, given back, compacted and packed.
 
+use super::compact::CutTerms;
 use super::settings::Settings;
 use crate::PipelineError;
 use crate::options::{KeptMaps, Mapping};
@@ -133,6 +134,16 @@ impl Plan {
         })
     }
 
+    /// Returns the terms of cuts that only make the atlas fuller, for a mesh of so many components; `None` if no chart is
+    /// cut for that.
+    pub fn cut_terms(&self, n_components: usize) -> Option<CutTerms> {
+        self.compaction.map(|seam_weight| CutTerms {
+            seam_weight,
+            n_components,
+            most_charts: self.most_charts,
+        })
+    }
+
     /// Returns whether the present UVs are read.
     pub fn reads_uvs(&self) -> bool {
         self.start != Start::New
@@ -150,5 +161,6 @@ fn embedding(mapping: &Mapping) -> Result<embed::Options, PipelineError> {
             _ => Pins::Two,
         },
         solver: solver::Settings::default(),
+        weights: Vec::new(),
     })
 }
