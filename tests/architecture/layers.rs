@@ -33,7 +33,10 @@ const LAYERS: &[Crate] = &[
             ("measure", &["mesh", "certificate"]),
         ],
     ),
-    ("src/layout/src", &[("charts", &[]), ("atlas", &[])]),
+    (
+        "src/layout/src",
+        &[("charts", &[]), ("atlas", &[]), ("search", &["charts"])],
+    ),
     (
         "src/files/src",
         &[
@@ -111,7 +114,7 @@ fn the_judge_shares_predicates_only() {
 
 #[test]
 fn makers_of_maps_do_not_ask_the_judge() {
-    for module in ["charts", "atlas"] {
+    for module in ["charts", "atlas", "search"] {
         for (place, code) in code_of("src/layout/src", module) {
             let mut named = after(&code, "unwrapd_maps::");
             assert!(named.all(|name| name != JUDGE), "{place}: {code}");

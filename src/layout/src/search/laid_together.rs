@@ -2,10 +2,54 @@
 
 use super::cut_mesh::CutMesh;
 use super::metric::Metric;
-use super::net::Net;
+use super::net::{Net, chart, weighted};
 use super::opening::Opening;
 use super::sorted::{difference, union};
+use crate::charts::{Observer, Watching, overlaps};
+use unwrapd_maps::embed;
 use unwrapd_method::numerics::vec2::sub;
+
+/// Excess beyond that of its parts at which a union is a rigid motion of each.
+const EXACT: f64 = 1e-6;
+
+impl Net {
+    /// Maps an opening of the union of two nets, starting from their maps laid together where the opening allows it.
+    ///
+    /// A union that is predicted to be as flat as its parts, such as two panels at a hinge, needs no other map: if they
+    /// overlap as they lie, it has none.
+    pub fn of_union(
+        metric: &Metric,
+        [a, b]: [&Self; 2],
+        contact: &[u32],
+        opening: &Opening,
+        options: &embed::Options,
+        observer: &dyn Observer,
+    ) -> Option<Self> {
+        let faces = union(&a.faces, &b.faces);
+        let mesh = CutMesh::new(metric, &faces, &opening.slits);
+        let Some(start) = laid_together(&mesh, [a, b], contact, opening) else {
+            return Self::map(metric, &faces, opening, options, observer);
+        };
+        let start: Vec<[f64; 2]> = (start.into_iter())
+            .map(|p| p.map(|x| x * metric.unit))
+            .collect();
+        let chart = chart(&mesh)?;
+        let is_rigid = opening.excess - a.excess - b.excess < EXACT;
+        if is_rigid && !overlaps(&chart.disk, &start).is_empty() {
+            return None;
+        }
+        let options = &weighted(options, metric, &faces);
+        let watching = Watching {
+            chart: &chart,
+            observer,
+        };
+        let embedding = embed::optimize(&chart.disk, &chart.positions, &start, options, &watching);
+        match embedding {
+            Ok(embedding) => Self::checked(metric, opening, chart, &embedding, options, observer),
+            Err(_) => Self::map(metric, &faces, opening, options, observer),
+        }
+    }
+}
 
 /// Returns the map of the union of two nets in which both lie as they do, moved together at the edges where the opening
 /// keeps them joined; one position per vertex of `mesh`, the union cut along the opening. Returns `None` if the opening
@@ -13,7 +57,7 @@ use unwrapd_method::numerics::vec2::sub;
 ///
 /// The second net is moved by the rigid motion that brings its ends of the hinge as near as possible to those of the
 /// first (Kabsch 1976); the vertices of the hinge lie half way between.
-pub fn laid_together(
+fn laid_together(
     mesh: &CutMesh,
     [a, b]: [&Net; 2],
     contact: &[u32],

@@ -1,10 +1,8 @@
 //! A set of faces with its slits and its map.
 
 use super::cut_mesh::CutMesh;
-use super::laid_together::laid_together;
 use super::metric::Metric;
 use super::opening::Opening;
-use super::sorted::union;
 use crate::charts::{Chart, MappedChart, Observer, Watching, overlaps, pushed_apart};
 use unwrapd_maps::embed::{self, Embedding};
 use unwrapd_maps::mesh::{CUT, Disk, next};
@@ -12,9 +10,6 @@ use unwrapd_method::solver::Summary;
 
 /// Excess at which a face cannot be called more distorted: one squeezed to nothing in floating point would outweigh all others.
 const LARGEST: f64 = 1e6;
-
-/// Excess beyond that of its parts at which a union is a rigid motion of each.
-const EXACT: f64 = 1e-6;
 
 /// Faces laid into the plane without flips and overlaps.
 #[derive(Clone, Debug)]
@@ -69,45 +64,8 @@ impl Net {
         Self::checked(metric, opening, chart, &embedding, options, observer)
     }
 
-    /// Maps an opening of the union of two nets, starting from their maps laid together where the opening allows it.
-    ///
-    /// A union that is predicted to be as flat as its parts, such as two panels at a hinge, needs no other map: if they
-    /// overlap as they lie, it has none.
-    pub fn of_union(
-        metric: &Metric,
-        [a, b]: [&Self; 2],
-        contact: &[u32],
-        opening: &Opening,
-        options: &embed::Options,
-        observer: &dyn Observer,
-    ) -> Option<Self> {
-        let faces = union(&a.faces, &b.faces);
-        let mesh = CutMesh::new(metric, &faces, &opening.slits);
-        let Some(start) = laid_together(&mesh, [a, b], contact, opening) else {
-            return Self::map(metric, &faces, opening, options, observer);
-        };
-        let start: Vec<[f64; 2]> = (start.into_iter())
-            .map(|p| p.map(|x| x * metric.unit))
-            .collect();
-        let chart = chart(&mesh)?;
-        let is_rigid = opening.excess - a.excess - b.excess < EXACT;
-        if is_rigid && !overlaps(&chart.disk, &start).is_empty() {
-            return None;
-        }
-        let options = &weighted(options, metric, &faces);
-        let watching = Watching {
-            chart: &chart,
-            observer,
-        };
-        let embedding = embed::optimize(&chart.disk, &chart.positions, &start, options, &watching);
-        match embedding {
-            Ok(embedding) => Self::checked(metric, opening, chart, &embedding, options, observer),
-            Err(_) => Self::map(metric, &faces, opening, options, observer),
-        }
-    }
-
     /// Creates the net of a map if it has no flips, and no overlaps but such that can be pushed apart.
-    fn checked(
+    pub fn checked(
         metric: &Metric,
         opening: &Opening,
         chart: Chart,
@@ -209,7 +167,7 @@ impl Net {
 }
 
 /// Returns the options with what the energy of each face counts beside its area.
-fn weighted(options: &embed::Options, metric: &Metric, faces: &[u32]) -> embed::Options {
+pub fn weighted(options: &embed::Options, metric: &Metric, faces: &[u32]) -> embed::Options {
     let weight = |&face: &u32| {
         let face = face as usize;
         metric.weight[face] / metric.area[face].max(f64::MIN_POSITIVE)
@@ -221,7 +179,7 @@ fn weighted(options: &embed::Options, metric: &Metric, faces: &[u32]) -> embed::
 }
 
 /// Returns the chart of a cut mesh; `None` if it is no disk.
-fn chart(mesh: &CutMesh) -> Option<Chart> {
+pub fn chart(mesh: &CutMesh) -> Option<Chart> {
     let triangles = mesh.sheet.vertex.as_chunks().0.to_vec();
     let disk = Disk::new(mesh.sheet.positions.len(), triangles).ok()?;
     let corners = mesh.faces.iter().map(|&face| {
