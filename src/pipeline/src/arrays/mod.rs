@@ -10,7 +10,6 @@ mod cutter;
 mod divided;
 mod expected_fill;
 mod map;
-mod objective;
 mod packed;
 mod packing;
 mod placed_faces;
