@@ -13,6 +13,7 @@ use unwrapd_maps::mesh::Surface;
 use unwrapd_method::energy::SymmetricDirichlet;
 use unwrapd_method::numerics::square::{Square, times};
 use unwrapd_method::numerics::vec2::{doubled_area, sub};
+use unwrapd_method::numerics::vec3::distance;
 
 fn options() -> Options {
     Options {
@@ -242,24 +243,21 @@ fn scale_and_order_do_not_change_the_cut() {
     }
 }
 
-/// A box with beveled edges keeps its sides straight: the bevels take the distortion.
+/// A box with beveled edges keeps its sides straight: the bevels take the distortion. If panels counted once, the sides would be
+/// stretched by 6 %.
 #[test]
 fn panels_stay_straight() {
-    let mesh = beveled_box(0.1);
-    let charts = divided(&mesh, 4.1);
-    for map in &charts {
+    for map in &divided(&beveled_box(0.3), 4.1) {
         let (chart, uv) = (&map.chart, &map.embedding.uv);
         for (triangle, corners) in chart.disk.triangles.iter().zip(&chart.corners) {
             // The first twelve triangles are the sides.
             if corners[0] / 3 < 12 {
-                for [a, b] in
-                    [[0, 1], [1, 2], [2, 0]].map(|side| side.map(|k| triangle[k] as usize))
-                {
-                    let (p, q) = (chart.positions[a], chart.positions[b]);
-                    let length = unwrapd_method::numerics::vec3::distance(p, q);
+                for side in [[0, 1], [1, 2], [2, 0]] {
+                    let [a, b] = side.map(|k| triangle[k] as usize);
                     let [x, y] = sub(uv[a], uv[b]);
+                    let length = distance(chart.positions[a], chart.positions[b]);
                     let stretch = x.hypot(y) / length;
-                    assert!((stretch - 1.0).abs() < 0.03, "{stretch}");
+                    assert!((stretch - 1.0).abs() < 0.01, "{stretch}");
                 }
             }
         }

@@ -2,8 +2,8 @@
 //!
 //! Each atlas of the document is a [`LiveLayout`] of its islands, which are those that [`repack_document`](crate::repack_document)
 //! packs. An island that is held stays where its handle puts it. The others keep their angles and have one scale, at most that of the
-//! file. A released island stays where it is until another one is held or moved; then it makes room like the others. An atlas of which
-//! no island is held is not touched.
+//! file. A released island stays where it is until another one is held or moved; then it makes room like the others. Atlases without
+//! a held island are not touched.
 use std::collections::{BTreeMap, HashMap};
 use std::f64::consts::TAU;
 
@@ -22,8 +22,8 @@ use unwrapd_method::numerics::bounds::bounds_of;
 use unwrapd_method::numerics::predicates::orient2d_sign;
 use unwrapd_method::solver::Stage;
 
-/// Maximum number of islands that make room for those held in their atlas. A step around 100 islands takes 5 ms at the
-/// median, so a drag is smooth; it grows faster than their number (`cargo bench --bench packing -- --drag`).
+/// Maximum number of islands that make room for those held in their atlas. The time of a step grows faster than their number
+/// (`cargo bench --bench packing -- --drag`).
 const MOST_AROUND: usize = 100;
 /// Maximum side of the rectangle around a held island, in longer sides of a page. Its distances are stored for each cell, and where it
 /// is larger than a page, it fits nowhere.

@@ -70,8 +70,7 @@ impl<'a> CutMesh<'a> {
     pub fn is_disk(&self) -> bool {
         let n_boundary: usize = self.loops.iter().map(Vec::len).sum();
         let n_edges = usize::midpoint(self.sheet.twin.len(), n_boundary);
-        // Euler's number of one disk with holes; a second part or a handle changes it, and both at once do not occur
-        // among unions of neighbors.
+        // Euler: V − E + F = 2 − L for a connected surface without handles.
         let euler = (self.welded.len() + self.faces.len()) as isize - n_edges as isize;
         !self.loops.is_empty() && euler == 2 - self.loops.len() as isize && self.is_connected()
     }

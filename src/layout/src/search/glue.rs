@@ -1,21 +1,19 @@
 //! Neighbors glued to one net, best first.
 
-use super::chains::chains;
 use super::cut_mesh::CutMesh;
 use super::net::Net;
-use super::opening::Ways;
-use super::sorted::{difference, union};
+use super::opening::{MAPPED, Ways};
+use super::sets::{chains, difference, union};
 use super::state::Search;
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap};
 use unwrapd_method::solver::Control;
 
-/// Least defect of a vertex, in radians, at which a contact is divided into stretches that may be hinges.
+/// Least defect of a vertex, in radians, at which a contact is divided into stretches that may be hinges: ten times the fold
+/// within a facet.
 const SHARP: f64 = 0.01;
-/// Number of stretches of a contact that are tried as the only hinge, the longest ones.
+/// Number of stretches of a contact that are tried as the only hinge, the longest ones. Taken from a prototype, not tuned.
 const HINGES: usize = 3;
-/// Number of ways to open a union that are mapped.
-const MAPPED: usize = 4;
 
 /// A pair of nets that may be glued.
 struct Pair {
@@ -27,11 +25,11 @@ struct Pair {
     stage: Stage,
 }
 
-/// What is known of a union.
+/// Progress of the search for a union.
 enum Stage {
-    /// Nothing but the contact.
+    /// Only the contact is known.
     Met,
-    /// How its openings are predicted, as far as they may be the cheapest.
+    /// Openings are predicted, and the best of them mapped.
     Predicted {
         /// Ways that are left to be mapped.
         ways: Ways,
@@ -156,7 +154,7 @@ impl Search<'_> {
         }
     }
 
-    /// Returns a pair of which nothing is known but its contact: at best the union has neither slits nor distortion.
+    /// Creates a pair of neighbors. Its gain is an upper bound: a union has neither slits nor distortion at best.
     fn pair(&self, a: u32, b: u32, lambda: f64) -> Pair {
         let nets = [a.min(b), a.max(b)];
         let contact = self.nets.metric.length_of(&self.nets.contact(a, b));

@@ -4,7 +4,7 @@ use super::cut_mesh::CutMesh;
 use super::metric::Metric;
 use super::net::{Net, chart, weighted};
 use super::opening::Opening;
-use super::sorted::{difference, union};
+use super::sets::{difference, union};
 use crate::charts::{Observer, Watching, overlaps};
 use unwrapd_maps::embed;
 use unwrapd_method::numerics::vec2::sub;

@@ -26,7 +26,6 @@
 //!
 //! Every face is in exactly one net, and every net is a disk, possibly with holes, whose map has neither flips nor overlaps.
 //! Not done here: cuts for fill, symmetry, other starts for surfaces of many faces, on which predictions take long.
-mod chains;
 mod cut_mesh;
 mod glue;
 mod laid_together;
@@ -38,7 +37,7 @@ mod panels;
 mod pieces;
 mod prediction;
 mod reopen;
-mod sorted;
+mod sets;
 mod state;
 
 use crate::charts::{Bound, MappedChart, Observer};
@@ -59,7 +58,8 @@ const FROM_CHARTS: [f64; 7] = [32.0, 16.0, 8.0, 4.0, 2.0, 1.0, 0.5];
 
 /// Divides a surface into charts that keep a bound on the mean energy, starting from pieces that are nearly developable.
 ///
-/// Returns the charts, ordered by when they were made, and the work that it took. Any one face keeps the bound.
+/// Returns the charts and the work that it took. The bound is exceeded only if the pieces exceed it: then nothing is glued that
+/// adds to the excess.
 pub fn from_pieces(
     surface: &Surface,
     bound: &Bound,

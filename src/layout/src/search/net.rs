@@ -33,6 +33,23 @@ impl Net {
         self.length + lambda * self.excess
     }
 
+    fn new(
+        metric: &Metric,
+        faces: Vec<u32>,
+        slits: Vec<u32>,
+        uv: Vec<[[f64; 2]; 3]>,
+        summary: Summary,
+    ) -> Self {
+        Self {
+            excess: excess(metric, &faces, &uv),
+            length: metric.length_of(&slits),
+            summary,
+            faces,
+            slits,
+            uv,
+        }
+    }
+
     /// Creates the net of one face at rest.
     pub fn of_face(metric: &Metric, face: u32) -> Self {
         Self {
@@ -102,14 +119,7 @@ impl Net {
         let uv: Vec<[[f64; 2]; 3]> = (map.chart.disk.triangles.iter())
             .map(|triangle| triangle.map(place))
             .collect();
-        Self {
-            excess: excess(metric, &faces, &uv),
-            length: metric.length_of(&slits),
-            summary: map.embedding.summary,
-            faces,
-            slits,
-            uv,
-        }
+        Self::new(metric, faces, slits, uv, map.embedding.summary)
     }
 
     /// Creates the net of a chart as it is mapped.
@@ -134,14 +144,7 @@ impl Net {
             }
         }
         let slits = slits(metric, &faces, &uv);
-        Self {
-            excess: excess(metric, &faces, &uv),
-            length: metric.length_of(&slits),
-            summary: map.embedding.summary,
-            faces,
-            slits,
-            uv,
-        }
+        Self::new(metric, faces, slits, uv, map.embedding.summary)
     }
 
     /// Returns the net as a chart with its map.

@@ -3,13 +3,15 @@
 use super::cut_mesh::CutMesh;
 use super::metric::Metric;
 use super::prediction::{Grounded, Prediction};
-use super::sorted::union;
+use super::sets::union;
 use std::collections::BTreeSet;
 use unwrapd_maps::cut::Neighbors;
 use unwrapd_method::numerics::vec3::distance;
 
 /// Number of starts along the inner loop of a ring from which a slit to the other loop is tried.
 const STARTS: usize = 4;
+/// Number of ways to open some faces that are mapped before they are given up. Taken from a prototype, not tuned.
+pub const MAPPED: usize = 4;
 /// Least gain of a slit, so that rounding adds none.
 const GAIN: f64 = 1e-9;
 

@@ -4,10 +4,11 @@ use super::metric::Metric;
 use super::pieces::facets;
 use unwrapd_maps::mesh::CUT;
 
-/// Times that the excess on a panel counts: bevels, fillets and round parts take the distortion instead. With 16, the mean energy on
-/// panels of 21 hard meshes is at most 4.006 where the bound is 4.1; with 4 it is 4.024, with 1 it is 4.068.
+/// Times that the excess on a panel counts: bevels, fillets and round parts take the distortion instead. With 16, a study of
+/// hard assets found panels as straight as in the layouts of their artists, with 4 less so.
 pub const PANEL_FACTOR: f64 = 16.0;
-/// Least area of a panel, as a share of the surface.
+/// Least area of a panel, as a share of the surface. This and the next two tell the panels of the shapes that the same study
+/// looked at from the facets of elbows, tori and spheres.
 const LEAST: f64 = 0.004;
 /// Mean fold around a panel, in radians, that sets it apart from the facets of something round, which are alike and gently folded.
 const SET_APART: f64 = 0.9;

@@ -1,14 +1,11 @@
 //! Slits given back.
 
-use super::chains::{branching, chains, halves};
 use super::net::Net;
-use super::opening::Ways;
-use super::sorted::difference;
+use super::opening::{MAPPED, Ways};
+use super::sets::{branching, chains, difference, halves};
 use super::state::Search;
 use unwrapd_method::solver::Control;
 
-/// Number of the most promising openings that are mapped.
-const MAPPED: usize = 4;
 /// Least gain of a change, so that rounding makes none.
 const GAIN: f64 = 1e-6;
 

@@ -3,10 +3,9 @@
 use super::net::Net;
 use super::nets::Nets;
 use super::opening::Opening;
-use super::sorted::union;
+use super::sets::union;
 use crate::charts::Observer;
 use std::collections::HashMap;
-use std::hash::{DefaultHasher, Hash, Hasher};
 use unwrapd_maps::embed;
 use unwrapd_maps::measure::cost::PER_CHART;
 
@@ -19,8 +18,8 @@ pub struct Search<'a> {
     pub per_chart: f64,
     pub options: &'a embed::Options,
     pub observer: &'a dyn Observer,
-    /// Maps by the hash of their faces and slits: none is found twice.
-    known: HashMap<u64, Option<Net>>,
+    /// Maps by their faces and slits, `None` where there is none: each is looked for once.
+    known: HashMap<(Vec<u32>, Vec<u32>), Option<Net>>,
     pub counts: Counts,
 }
 
@@ -103,9 +102,7 @@ impl<'a> Search<'a> {
         opening: &Opening,
         map: impl FnOnce() -> Option<Net>,
     ) -> Option<Net> {
-        let mut hasher = DefaultHasher::new();
-        (faces, &opening.slits).hash(&mut hasher);
-        let key = hasher.finish();
+        let key = (faces.to_vec(), opening.slits.clone());
         if let Some(net) = self.known.get(&key) {
             return net.clone();
         }

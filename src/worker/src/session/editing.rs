@@ -58,7 +58,7 @@ pub(super) trait Edited: View + Send {
     fn failure(error: &<Self::Map as Editable>::Error) -> Failure;
     /// Restores the initial map, with the handles that no client added.
     fn reset(&mut self);
-    /// Returns the handles of a job that goes on from the present map, of which clients hold these.
+    /// Returns the handles of a job that continues from the present map; `held` are those that clients hold.
     fn job_handles(&mut self, held: Vec<Value>) -> Vec<Value> {
         held
     }

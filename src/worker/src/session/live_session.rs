@@ -370,7 +370,7 @@ impl View for UvView {
 
 // Live arrangement of islands.
 
-/// Islands of which some are held.
+/// Islands, some of them held.
 pub(super) struct IslandView {
     session: IslandSession,
     /// Sign of the area of each face.

@@ -75,7 +75,7 @@ impl Arrangement {
     }
 
     /// Turns the chart at a place of the order to the best of a few poses: the one in which it extends least far on an occupancy
-    /// that holds the charts before it, within its capacity. Leaves the chart as it is if it fits in none of them.
+    /// that holds the charts before it, within its capacity. Leaves the chart as it is if no pose fits.
     pub(super) fn fit(
         &mut self,
         place: usize,

@@ -39,7 +39,7 @@ pub(super) struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// Visits the points of body `a` that are too near to body `b`, none of which is outside `near`.
+    /// Visits the points of body `a` that are too near to body `b`. All of them lie within `near`.
     pub(super) fn contacts(
         &mut self,
         [a, b]: [usize; 2],

@@ -1,4 +1,4 @@
-//! Edges in chains.
+//! Sets of edges and faces, as ascending lists.
 
 use super::metric::Metric;
 use std::collections::BTreeMap;
@@ -64,4 +64,18 @@ pub fn halves(metric: &Metric, chain: &[u32]) -> Option<[Vec<u32>; 2]> {
         half.sort_unstable();
         half
     }))
+}
+
+/// Returns the members of both lists.
+pub fn union(a: &[u32], b: &[u32]) -> Vec<u32> {
+    let mut all = [a, b].concat();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+/// Returns the members of the first list that are not in the second.
+pub fn difference(a: &[u32], b: &[u32]) -> Vec<u32> {
+    let is_left = |x: &&u32| b.binary_search(x).is_err();
+    a.iter().filter(is_left).copied().collect()
 }
