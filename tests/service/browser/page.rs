@@ -36,8 +36,17 @@ fn asset(name: &str) -> String {
 
 /// The address of the page with a job, unwrapped from an asset.
 async fn unwrapped(server: &Server, name: &str) -> String {
+    unwrapped_with(server, name, "{}").await
+}
+
+/// Unwraps a mesh so that several islands can be told apart; by default it has one.
+async fn unwrapped_into_islands(server: &Server) -> String {
+    unwrapped_with(server, "cat_head.obj", r#"{"seam_weight": 0.1}"#).await
+}
+
+async fn unwrapped_with(server: &Server, name: &str, options: &str) -> String {
     let mesh = std::fs::read(places::asset(name)).expect("an asset");
-    let job = ended(server, form("unwrap", "{}", (name, mesh))).await;
+    let job = ended(server, form("unwrap", options, (name, mesh))).await;
     assert_eq!(job["state"], "succeeded", "{job}");
     with_job(server, &job)
 }
@@ -93,7 +102,7 @@ async fn both_views_show_what_is_pointed_at() {
 #[tokio::test]
 async fn fills_and_seams_change_what_is_seen() {
     let server = Server::start();
-    let url = unwrapped(&server, "cat_head.obj").await;
+    let url = unwrapped_into_islands(&server).await;
     scenario("looks", url, &[]).await;
 }
 

@@ -1,6 +1,7 @@
 //! Candidate charts of an atlas, and the search for the one with the fullest layout.
 
 use super::chart_maps::chart_maps;
+use super::objective::Objective;
 use rayon::prelude::*;
 use std::sync::Arc;
 use unwrapd_layout::atlas::{AtlasError, AtlasOptions, CoarseLayout, Effort, OnRead};
@@ -29,6 +30,10 @@ const WORTHWHILE: f64 = 1.005;
 pub struct Candidate {
     pub charts: Vec<Arc<MappedChart>>,
     pub layout: CoarseLayout,
+    /// Layouts of the same charts on longer pages, where one of the charts is too long for the page that is asked for.
+    pub elsewhere: Vec<CoarseLayout>,
+    /// Length of all seams.
+    pub seams: f64,
     /// Cost of the cuts, as a share of the square.
     pub cost: f64,
     /// Share of the square that the charts must fill, if a scale is given.
@@ -39,7 +44,7 @@ impl Candidate {
     /// Returns the share of the square that is filled, minus the cost of the cuts. If a scale is given, fill beyond
     /// the wanted share is worth nothing, and charts that reach that share are worth more than any that do not.
     fn value(&self) -> f64 {
-        let fill = self.layout.fill();
+        let fill = self.fill();
         match self.wanted {
             None => fill - self.cost,
             Some(wanted) if fill < wanted => fill - wanted - MOST_COST,
@@ -47,26 +52,38 @@ impl Candidate {
         }
     }
 
+    /// Returns the share of a page that is filled, on the best of the pages.
+    fn fill(&self) -> f64 {
+        let elsewhere = self.elsewhere.iter().map(CoarseLayout::fill);
+        elsewhere.fold(self.layout.fill(), f64::max)
+    }
+
     /// Returns whether the charts may exceed `scale` by the worthwhile factor.
     fn may_exceed(&self, scale: f64) -> bool {
         self.layout.most_scale() >= WORTHWHILE * scale
     }
 
-    /// Replaces charts by their parts, at `cost` each; `parted` lists the last chart first.
+    /// Replaces charts by their parts, along seams of a given length each; `parted` lists the last chart first.
     pub fn cut(
         &self,
         parted: Vec<(usize, Vec<MappedChart>)>,
-        cost: f64,
+        length: f64,
+        objective: &Objective,
     ) -> Result<Cut, AtlasError> {
         let mut candidate = self.clone();
         let mut replaced = Vec::new();
         for (place, parts) in parted {
-            candidate.layout = candidate.layout.replaced(place, &chart_maps(&parts))?;
-            candidate.cost += cost;
+            let maps = chart_maps(&parts);
+            candidate.layout = candidate.layout.replaced(place, &maps)?;
+            for layout in &mut candidate.elsewhere {
+                *layout = layout.replaced(place, &maps)?;
+            }
+            candidate.seams += length;
             candidate.charts.remove(place);
             candidate.charts.extend(parts.into_iter().map(Arc::new));
             replaced.push(place);
         }
+        candidate.cost = objective.cost_of_cuts(candidate.seams, candidate.charts.len());
         Ok(Cut {
             candidate,
             replaced,
@@ -121,6 +138,10 @@ impl<'a> Search<'a> {
         let words = self.share * effort.words(candidate.layout.n_charts()) as f64;
         for _ in 0..self.options.patience {
             candidate.layout.improve(effort, words as u64, self.on_read);
+            // Of other pages only the fill is of interest, which the first effort shows.
+            for layout in (candidate.elsewhere.iter_mut()).filter(|_| effort == Effort::Low) {
+                layout.improve(effort, words as u64, self.on_read);
+            }
         }
     }
 

@@ -3,6 +3,7 @@
 use super::candidate::{Candidate, ROUNDS, ROUNDS_FURTHER, Search, wanted_words};
 use super::chart_maps::chart_maps;
 use super::cutter::{Cutter, WORDS_PER_CUT};
+use super::objective::{Objective, Pages};
 use std::sync::Arc;
 use unwrapd_layout::atlas::{
     AtlasError, AtlasOptions, CoarseLayout, Effort, OnRead, Scale, Texture,
@@ -39,6 +40,17 @@ pub enum Before {
     FewerPages(f64),
 }
 
+/// Price and limit of the cuts that make an atlas fuller.
+#[derive(Clone, Copy, Debug)]
+pub struct CutTerms {
+    /// Multiplies the cost of seams: 0 makes all cuts that gain anything.
+    pub seam_weight: f64,
+    /// Components of the surface, whose charts cost nothing.
+    pub n_components: usize,
+    /// Maximum number of charts.
+    pub most_charts: Option<u32>,
+}
+
 /// Charts and a coarse layout of them.
 pub struct CoarseAtlas {
     pub charts: Vec<MappedChart>,
@@ -52,19 +64,18 @@ impl CoarseAtlas {
     }
 }
 
-/// Cuts charts as long as it pays: as long as a cut gains more of the square than its length costs.
+/// Cuts charts as long as it pays: as long as a cut gains more of the page than the [objective](Objective) asks for its seam.
 ///
 /// Makes the most valuable cut first, by the hulls and sizes of its parts. These estimates tell well where to cut,
 /// but only roughly when to stop. A search for full layouts decides that: the expected number of cuts competes with
 /// one cut less and one more; where the fill cannot be foreseen from the charts, all numbers compete. Maps stay as
 /// they are.
 ///
-/// `seam_price` multiplies the price of a seam: 0 makes all cuts that gain anything. `most_charts` is the maximum
-/// number of charts. Returns `None` if no number of cuts can exceed the scale that was reached on fewer pages.
+/// `terms` says what cuts cost. Returns `None` if no number of cuts can exceed the scale that was reached on fewer pages.
 pub fn compacted(
     (charts, before): (Vec<MappedChart>, Before),
     options: &AtlasOptions,
-    (seam_price, most_charts): (f64, Option<u32>),
+    terms: CutTerms,
     on_read: &OnRead,
 ) -> Result<Option<CoarseAtlas>, AtlasError> {
     let CoarseAtlas { charts, layout } = CoarseAtlas::new(charts, options)?;
@@ -72,7 +83,7 @@ pub fn compacted(
         Some(layout) if layout.n_charts() <= MOST_CHARTS => layout,
         layout => return Ok(Some(CoarseAtlas { charts, layout })),
     };
-    let wanted = most_charts.map_or(usize::MAX, |most| most as usize);
+    let wanted = terms.most_charts.map_or(usize::MAX, |most| most as usize);
     let most =
         most_candidates(charts.len(), options, before).min(wanted.saturating_sub(charts.len()));
     let is_foreseeable = is_foreseeable(options) && !layout.is_crowded();
@@ -82,7 +93,15 @@ pub fn compacted(
         options,
         on_read,
     );
-    let cutter = Cutter::new(charts, layout, (seam_price, wanted), &search);
+    let CutTerms {
+        seam_weight,
+        n_components,
+        ..
+    } = terms;
+    let pages = Pages::of(options);
+    let objective = Objective::new(&charts, n_components, seam_weight, pages);
+    let elsewhere = elsewhere(&charts, &layout, pages, options)?;
+    let cutter = Cutter::new(charts, (layout, elsewhere), objective, wanted, &search);
     let candidates = if is_foreseeable {
         expected(cutter, most)?
     } else {
@@ -93,6 +112,27 @@ pub fn compacted(
         charts: charts.into_iter().map(Arc::unwrap_or_clone).collect(),
         layout: Some(layout),
     }))
+}
+
+/// Returns coarse layouts on longer pages, if a chart is so long that it alone keeps the page from being filled.
+fn elsewhere(
+    charts: &[MappedChart],
+    layout: &CoarseLayout,
+    pages: Pages,
+    options: &AtlasOptions,
+) -> Result<Vec<CoarseLayout>, AtlasError> {
+    let area: f64 = charts.iter().map(MappedChart::area).sum();
+    if area * layout.most_scale().powi(2) >= 1.0 {
+        return Ok(Vec::new());
+    }
+    let maps = chart_maps(charts);
+    let layouts = pages.longer(options).into_iter();
+    let layouts = layouts.map(|options| CoarseLayout::new(&maps, &options));
+    Ok(layouts
+        .collect::<Result<Vec<_>, _>>()?
+        .into_iter()
+        .flatten()
+        .collect())
 }
 
 /// Returns whether the fill can be foreseen from the charts, unless they are a crowd: on one square page, without a

@@ -2,17 +2,13 @@
 
 use super::candidate::{Candidate, MOST_COST, Search};
 use super::expected_fill::{Extent, expected_fill};
+use super::objective::Objective;
 use rayon::prelude::*;
 use std::sync::Arc;
 use unwrapd_layout::atlas::{AtlasError, CoarseLayout, OnRead, Scale, Texture};
-use unwrapd_layout::charts::{MappedChart, Split, parted_alike, seam_length};
+use unwrapd_layout::charts::{MappedChart, Split, parted_alike};
 use unwrapd_method::solver::Control;
 
-/// Share of a page that new seams must gain if they are as long as the existing ones. Existing seams count as at
-/// least the square root of the surface's area.
-const PRICE: f64 = 0.04;
-/// Length of the seam that costs the same as a further chart, in sides of the surface's square.
-const PER_CHART: f64 = 0.4;
 /// Candidates differ by one cut, plus one per `CHARTS_PER_CUT` charts beyond `CHARTS_OF_ONE_CUT`: among many charts,
 /// one cut changes little.
 const CHARTS_PER_CUT: usize = 16;
@@ -31,24 +27,22 @@ pub struct Cutter<'a> {
     extents: Vec<Extent>,
     /// The square root of a page's area.
     of_page: f64,
-    /// Cost per length of seam, as a share of the square. `per_chart` is the seam length that a further chart costs.
-    price: f64,
-    per_chart: f64,
+    objective: Objective,
     most_charts: usize,
 }
 
 impl<'a> Cutter<'a> {
     pub fn new(
         charts: Vec<MappedChart>,
-        layout: CoarseLayout,
-        (seam_price, most_charts): (f64, usize),
+        (layout, elsewhere): (CoarseLayout, Vec<CoarseLayout>),
+        objective: Objective,
+        most_charts: usize,
         search: &'a Search<'a>,
     ) -> Self {
         let options = search.options;
         let area = charts.iter().map(MappedChart::area).sum::<f64>();
         let Texture { resolution, pages } = options.texture;
         let [shorter, longer] = [resolution.shorter(), resolution.longer()].map(f64::from);
-        let seams = seam_length(&charts).max(area.sqrt()).max(f64::MIN_POSITIVE);
         // A chart has to fit across a page that is not square, but may be longer than it is wide.
         let of_page = (area / f64::from(pages) * (shorter / longer).sqrt()).sqrt();
         let charts: Vec<_> = charts.into_iter().map(Arc::new).collect();
@@ -59,6 +53,8 @@ impl<'a> Cutter<'a> {
             candidate: Candidate {
                 charts,
                 layout,
+                elsewhere,
+                seams: objective.seams,
                 cost: 0.0,
                 wanted: match options.scale {
                     Scale::Largest => None,
@@ -68,15 +64,14 @@ impl<'a> Cutter<'a> {
                 },
             },
             of_page,
-            price: PRICE * seam_price / f64::from(pages) / seams,
-            per_chart: PER_CHART * area.sqrt(),
+            objective,
             most_charts,
         }
     }
 
     /// Returns the share of the square that is expected to be filled, minus the cost of the cuts.
     pub fn expected_value(&self) -> f64 {
-        expected_fill(&self.extents) - self.candidate.cost
+        expected_fill(&self.extents, self.objective.pages) - self.candidate.cost
     }
 
     /// Makes the next most valuable cuts and returns the charts; `None` if no chart can be cut or no cut is worth it.
@@ -102,8 +97,7 @@ impl<'a> Cutter<'a> {
             return Ok(false);
         };
         let parted = parted_alike(&candidate.charts, chart, split);
-        let cost = self.price * (split.length + split.n_new() as f64 * self.per_chart);
-        let cut = candidate.cut(parted, cost)?;
+        let cut = candidate.cut(parted, split.length, &self.objective)?;
         if cut.candidate.charts.len() > self.most_charts {
             return Ok(false);
         }

@@ -153,6 +153,14 @@ impl<'a> Divided<'a> {
             .sum()
     }
 
+    /// Returns the number of components of a mesh.
+    pub fn n_components(&self, mesh: usize) -> usize {
+        let pieces = self.of_mesh[mesh].clone();
+        pieces
+            .map(|piece| self.surfaces[piece].defects.components)
+            .sum()
+    }
+
     /// Returns the faces of a mesh that are in charts, in ascending order.
     pub fn faces(&self, mesh: usize) -> Vec<u32> {
         let of_piece = |piece: usize| {

@@ -10,6 +10,7 @@ mod cutter;
 mod divided;
 mod expected_fill;
 mod map;
+mod objective;
 mod packed;
 mod packing;
 mod placed_faces;

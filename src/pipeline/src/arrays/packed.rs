@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::chart_maps::chart_maps;
 use super::clearance::open_charts;
-use super::compact::{Before, CoarseAtlas, MOST_CHARTS, compacted};
+use super::compact::{Before, CoarseAtlas, CutTerms, MOST_CHARTS, compacted};
 use super::plan::Plan;
 use crate::PipelineError;
 use unwrapd_layout::atlas::{
@@ -33,9 +33,11 @@ const PER_PAGE: u64 = 4;
 /// Packs the charts of one mesh into an atlas; at a given scale, on the smallest number of pages found to be enough.
 ///
 /// Tries each number of pages in turn, beginning with the charts that were cut for the one before. The attempts do
-/// not depend on the maximum number of pages, so a larger maximum never gives less.
+/// not depend on the maximum number of pages, so a larger maximum never gives less. `terms` price cuts that make the atlas
+/// fuller; `None` makes none.
 pub fn packed(
     mut charts: Vec<MappedChart>,
+    terms: Option<CutTerms>,
     options: &AtlasOptions,
     plan: &Plan,
     on_read: &OnRead,
@@ -44,15 +46,15 @@ pub fn packed(
         charts.par_iter_mut().for_each(MappedChart::turn_up);
     }
     match options.scale {
-        Scale::Largest => Ok(largest(charts, (options, plan), on_read)?),
-        Scale::TexelsPerUnit(texels) => fewest(charts, texels, (options, plan), on_read),
+        Scale::Largest => Ok(largest(charts, (options, plan, terms), on_read)?),
+        Scale::TexelsPerUnit(texels) => fewest(charts, texels, (options, plan, terms), on_read),
     }
 }
 
 /// Returns the largest layout on any number of pages.
 fn largest(
     charts: Vec<MappedChart>,
-    (options, plan): (&AtlasOptions, &Plan),
+    (options, plan, terms): (&AtlasOptions, &Plan, Option<CutTerms>),
     on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), AtlasError> {
     let most = options.texture.pages;
@@ -60,7 +62,7 @@ fn largest(
     let least = if charts.len() > MOST_CHARTS { most } else { 1 };
     let on = |pages: u32, charts: (Vec<MappedChart>, Before)| {
         let on = on_pages(pages, options);
-        let coarse_atlas = coarse_atlas(charts, &on, plan, on_read)?;
+        let coarse_atlas = coarse_atlas(charts, &on, terms, on_read)?;
         let settled = coarse_atlas.map(|coarse_atlas| settled(coarse_atlas, &on, plan, on_read));
         settled.transpose()
     };
@@ -92,7 +94,7 @@ fn largest(
 fn fewest(
     charts: Vec<MappedChart>,
     texels: f64,
-    (options, plan): (&AtlasOptions, &Plan),
+    (options, plan, terms): (&AtlasOptions, &Plan, Option<CutTerms>),
     on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
     if atlas::fits(&chart_maps(&charts), options)? {
@@ -107,7 +109,7 @@ fn fewest(
     for pages in least..=options.texture.pages {
         let on = on_pages(pages, options);
         let coarse_atlas =
-            coarse_atlas(last, &on, plan, on_read)?.ok_or(AtlasError::TextureTooSmall)?;
+            coarse_atlas(last, &on, terms, on_read)?.ok_or(AtlasError::TextureTooSmall)?;
         last = (coarse_atlas.charts.clone(), Before::FewerPages(0.0));
         match settled(coarse_atlas, &on, plan, on_read) {
             Err(AtlasError::TextureTooSmall) => {}
@@ -156,11 +158,11 @@ fn least_pages(charts: &[MappedChart], texels: f64, options: &AtlasOptions) -> u
 fn coarse_atlas(
     charts: (Vec<MappedChart>, Before),
     options: &AtlasOptions,
-    plan: &Plan,
+    terms: Option<CutTerms>,
     on_read: &OnRead,
 ) -> Result<Option<CoarseAtlas>, AtlasError> {
-    match plan.compaction {
-        Some(seam_price) => compacted(charts, options, (seam_price, plan.most_charts), on_read),
+    match terms {
+        Some(terms) => compacted(charts, options, terms, on_read),
         None => CoarseAtlas::new(charts.0, options).map(Some),
     }
 }

@@ -1,5 +1,6 @@
 //! The plan of a run: what is cut, mapped, given back, compacted and packed.
 
+use super::compact::CutTerms;
 use super::settings::Settings;
 use crate::PipelineError;
 use crate::options::{KeptMaps, Mapping};
@@ -130,6 +131,16 @@ impl Plan {
                 Start::Final => false,
             },
             safe_bits: mapping.quantization_safe,
+        })
+    }
+
+    /// Returns the terms of cuts that only make the atlas fuller, for a mesh of so many components; `None` if no chart is
+    /// cut for that.
+    pub fn cut_terms(&self, n_components: usize) -> Option<CutTerms> {
+        self.compaction.map(|seam_weight| CutTerms {
+            seam_weight,
+            n_components,
+            most_charts: self.most_charts,
         })
     }
 

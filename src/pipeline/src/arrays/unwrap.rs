@@ -146,7 +146,10 @@ pub fn unwrap_all(
             let on_read = |words| portion.read(words);
             let how = (settings, &plan, n_atlases);
             match placed_faces(&meshes[index], &plan)? {
-                None => packed(charts, &options, &plan, &on_read),
+                None => {
+                    let terms = plan.cut_terms(divided.n_components(index));
+                    packed(charts, terms, &options, &plan, &on_read)
+                }
                 Some(placed) => arranged(charts, &meshes[index], &placed, how, &on_read),
             }
             .map(Some)

@@ -1,6 +1,6 @@
 //! What is pulled and arranged by the mouse.
 
-use super::{asset, scenario, text, unwrapped};
+use super::{asset, scenario, text, unwrapped_into_islands};
 use crate::cli::{assert_status, unwrapd};
 use crate::server::Server;
 use crate::server::sessions::sheet;
@@ -38,7 +38,7 @@ async fn a_surface_in_a_cage_is_pulled() {
 async fn islands_are_arranged_and_the_others_packed_around_them() {
     let server = Server::start();
     let folder = tempfile::tempdir().expect("a folder");
-    let url = unwrapped(&server, "cat_head.obj").await;
+    let url = unwrapped_into_islands(&server).await;
     let files = ["before.glb", "after.glb"].map(|name| text(&folder.path().join(name)));
     scenario("arrange", url, &files).await;
     let [_, output] = files;
@@ -51,7 +51,7 @@ async fn islands_are_arranged_and_the_others_packed_around_them() {
 async fn islands_make_room_while_one_is_dragged() {
     let server = Server::start();
     let folder = tempfile::tempdir().expect("a folder");
-    let url = unwrapped(&server, "cat_head.obj").await;
+    let url = unwrapped_into_islands(&server).await;
     let output = text(&folder.path().join("baked.glb"));
     scenario("make_room", url, std::slice::from_ref(&output)).await;
     let verified =

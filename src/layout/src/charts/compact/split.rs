@@ -22,13 +22,6 @@ pub struct Split {
     pub worth: f64,
 }
 
-impl Split {
-    /// How many charts more there are after it.
-    pub fn n_new(&self) -> usize {
-        self.part.iter().max().map_or(0, |&last| last as usize)
-    }
-}
-
 impl MappedChart {
     /// The parts, mapped as the whole is, each seen from its front.
     pub fn parted(&self, split: &Split) -> Vec<Self> {
