@@ -72,9 +72,12 @@ fn report(file: &str, bound: &Bound) {
 fn line(file: &str, way: &str, charts: &[MappedChart], clock: &Clock, counts: Option<Counts>) {
     let area: f64 = charts.iter().map(MappedChart::surface_area).sum();
     let faces: usize = charts.iter().map(|map| map.chart.corners.len()).sum();
-    let mapped = counts.map_or(0.0, |counts| counts.mapped_faces as f64 / faces as f64);
+    let per_face = |n: usize| n as f64 / faces as f64;
+    let counts = counts.unwrap_or_default();
+    let mapped = per_face(counts.mapped_faces);
+    let predicted = per_face(counts.predicted_faces);
     println!(
-        "{file} {way}: {} charts, seam {:.3}, {:.2} s, {mapped:.0} faces mapped per face",
+        "{file} {way}: {} charts, seam {:.3}, {:.2} s, {mapped:.0} maps and {predicted:.0} predictions per face",
         charts.len(),
         seam_length(charts) / area.sqrt(),
         clock.seconds().processor,

@@ -114,7 +114,7 @@ impl Search<'_> {
     }
 
     /// Puts a pair back by the price of its best way or map, unless it gains nothing.
-    fn requeue(&self, mut pair: Pair, lambda: f64, heap: &mut BinaryHeap<Pair>) {
+    fn requeue(&mut self, mut pair: Pair, lambda: f64, heap: &mut BinaryHeap<Pair>) {
         let [a, b] = pair.nets.map(|net| &self.nets.list[&net]);
         let apart = pair.contact + self.per_chart + a.price(lambda) + b.price(lambda);
         let Stage::Predicted { ways, n_left, best } = &mut pair.stage else {
@@ -126,12 +126,12 @@ impl Search<'_> {
             0 => None,
             _ => ways.cheapest(self.nets.metric, &faces, lambda, bar),
         };
-        let price = if let Some(way) = way {
-            way.price(lambda)
-        } else {
+        let price = way.map(|way| way.price(lambda));
+        self.counts.predicted_faces += ways.predicted_faces();
+        let price = price.unwrap_or_else(|| {
             *ways = Ways::new(self.nets.metric, []);
             bar
-        };
+        });
         if price < apart {
             pair.gain = apart - price;
             heap.push(pair);

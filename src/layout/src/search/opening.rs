@@ -39,6 +39,8 @@ pub struct Ways {
     starts: Vec<(f64, Vec<u32>)>,
     /// Predicted openings, the cheapest last.
     openings: Vec<Opening>,
+    /// Faces of all predictions that were made.
+    predicted_faces: usize,
 }
 
 impl Ways {
@@ -52,6 +54,7 @@ impl Ways {
         Self {
             starts,
             openings: Vec::new(),
+            predicted_faces: 0,
         }
     }
 
@@ -67,7 +70,7 @@ impl Ways {
         while let Some((_, slits)) =
             (self.starts).pop_if(|(length, _)| *length < bar(&self.openings))
         {
-            let opening = opened_further(metric, faces, slits, lambda, most);
+            let opening = self.opened_further(metric, faces, slits, lambda, most);
             if let Some(opening) = opening.filter(|opening| opening.price(lambda) < most)
                 && self.openings.iter().all(|it| it.slits != opening.slits)
             {
@@ -85,53 +88,61 @@ impl Ways {
     pub fn take(&mut self) -> Option<Opening> {
         self.openings.pop()
     }
-}
 
-/// Adds slits while they pay; returns `None` if the faces cannot be laid flat so.
-fn opened_further(
-    metric: &Metric,
-    faces: &[u32],
-    mut slits: Vec<u32>,
-    lambda: f64,
-    most_length: f64,
-) -> Option<Opening> {
-    let mut mesh = CutMesh::new(metric, faces, &slits);
-    if mesh.loops.is_empty() {
-        let first = first_slit(&mesh)?;
-        slits = union(&slits, &mesh.edges(&first));
-        mesh = CutMesh::new(metric, faces, &slits);
+    /// Returns the number of faces that were predicted since it was asked last.
+    pub fn predicted_faces(&mut self) -> usize {
+        std::mem::take(&mut self.predicted_faces)
     }
-    let mut prediction = Prediction::new(&mesh)?;
-    let neighbors = Neighbors::new(&mesh.sheet);
-    loop {
-        let length = metric.length_of(&slits);
-        if length > most_length {
-            return None;
+
+    /// Adds slits while they pay; returns `None` if the faces cannot be laid flat so.
+    fn opened_further(
+        &mut self,
+        metric: &Metric,
+        faces: &[u32],
+        mut slits: Vec<u32>,
+        lambda: f64,
+        most_length: f64,
+    ) -> Option<Opening> {
+        let mut mesh = CutMesh::new(metric, faces, &slits);
+        if mesh.loops.is_empty() {
+            let first = first_slit(&mesh)?;
+            slits = union(&slits, &mesh.edges(&first));
+            mesh = CutMesh::new(metric, faces, &slits);
         }
-        let mut best: Option<(Vec<u32>, Grounded)> = None;
-        let mut cost = lambda * prediction.excess();
-        for path in paths(&mesh, &neighbors, &prediction) {
-            let edges = mesh.edges(&path);
-            let added = metric.length_of(&edges);
-            if added >= cost {
-                continue;
+        self.predicted_faces += faces.len();
+        let mut prediction = Prediction::new(&mesh)?;
+        let neighbors = Neighbors::new(&mesh.sheet);
+        loop {
+            let length = metric.length_of(&slits);
+            if length > most_length {
+                return None;
             }
-            let trial = prediction.grounded(path.iter().flat_map(|&h| mesh.sheet.ends(h)));
-            let price = added + lambda * trial.excess;
-            if price < cost - GAIN {
-                cost = price;
-                best = Some((edges, trial));
+            let mut best: Option<(Vec<u32>, Grounded)> = None;
+            let mut cost = lambda * prediction.excess();
+            for path in paths(&mesh, &neighbors, &prediction) {
+                let edges = mesh.edges(&path);
+                let added = metric.length_of(&edges);
+                if added >= cost {
+                    continue;
+                }
+                self.predicted_faces += faces.len();
+                let trial = prediction.grounded(path.iter().flat_map(|&h| mesh.sheet.ends(h)));
+                let price = added + lambda * trial.excess;
+                if price < cost - GAIN {
+                    cost = price;
+                    best = Some((edges, trial));
+                }
             }
+            let Some((edges, grounded)) = best else {
+                return Some(Opening {
+                    length,
+                    excess: prediction.excess(),
+                    slits,
+                });
+            };
+            slits = union(&slits, &edges);
+            prediction.accept(grounded);
         }
-        let Some((edges, grounded)) = best else {
-            return Some(Opening {
-                length,
-                excess: prediction.excess(),
-                slits,
-            });
-        };
-        slits = union(&slits, &edges);
-        prediction.accept(grounded);
     }
 }
 

@@ -40,9 +40,8 @@ impl Search<'_> {
         let mut best: Option<Net> = None;
         for _ in 0..MAPPED {
             let bar = best.as_ref().map_or(price, |net| net.price(lambda));
-            if ways.cheapest(metric, &faces, lambda, bar - GAIN).is_none() {
-                break;
-            }
+            ways.cheapest(metric, &faces, lambda, bar - GAIN);
+            self.counts.predicted_faces += ways.predicted_faces();
             let Some(way) = ways.take() else {
                 break;
             };

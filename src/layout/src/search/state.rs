@@ -32,6 +32,8 @@ pub struct Counts {
     pub maps: usize,
     /// Faces of all maps.
     pub mapped_faces: usize,
+    /// Faces of all predictions.
+    pub predicted_faces: usize,
     /// Maps that flipped or overlapped.
     pub failed: usize,
     /// Unions made.
