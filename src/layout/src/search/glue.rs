@@ -2,7 +2,7 @@
 
 use super::cut_mesh::CutMesh;
 use super::net::Net;
-use super::opening::{MAPPED, Uncut, Ways};
+use super::opening::{MAPPED, Ways};
 use super::sets::{chains, difference, union};
 use super::state::Search;
 use std::cmp::Ordering;
@@ -122,13 +122,12 @@ impl Search<'_> {
         };
         let bar = best.as_ref().map_or(apart, |net| net.price(lambda));
         let faces = union(&a.faces, &b.faces);
-        let mut uncut = Uncut::new(self.nets.metric, &faces);
         let way = match n_left {
             0 => None,
-            _ => ways.cheapest(&mut uncut, lambda, bar),
+            _ => ways.cheapest(self.nets.metric, &faces, lambda, bar),
         };
         let price = way.map(|way| way.price(lambda));
-        self.counts.predicted_faces += uncut.predicted_faces;
+        self.counts.predicted_faces += ways.predicted_faces();
         let price = price.unwrap_or_else(|| {
             *ways = Ways::new(self.nets.metric, []);
             bar

@@ -2,7 +2,7 @@
 
 use super::cut_mesh::CutMesh;
 use super::metric::Metric;
-use super::prediction::{Grounded, Patch, Prediction};
+use super::prediction::{Grounded, Prediction};
 use super::sets::union;
 use std::collections::BTreeSet;
 use unwrapd_maps::cut::Neighbors;
@@ -33,54 +33,84 @@ impl Opening {
     }
 }
 
-/// Faces to cut open.
-pub struct Uncut<'a> {
-    metric: &'a Metric<'a>,
-    /// In ascending order.
-    pub faces: &'a [u32],
-    /// What their predictions share, once it is needed.
-    patch: Option<Patch>,
-    /// Faces of all predictions so far.
-    pub predicted_faces: usize,
+/// Openings of some faces that follow from starting slits, each predicted only once it may be the cheapest.
+pub struct Ways {
+    /// Starting slits with their length, the shortest last.
+    starts: Vec<(f64, Vec<u32>)>,
+    /// Predicted openings, the cheapest last.
+    openings: Vec<Opening>,
+    /// Faces of all predictions that were made.
+    predicted_faces: usize,
 }
 
-impl<'a> Uncut<'a> {
-    pub fn new(metric: &'a Metric, faces: &'a [u32]) -> Self {
+impl Ways {
+    /// Orders the starting slits; no opening is shorter than the slits it starts from.
+    pub fn new(metric: &Metric, starts: impl IntoIterator<Item = Vec<u32>>) -> Self {
+        let starts: BTreeSet<Vec<u32>> = starts.into_iter().collect();
+        let mut starts: Vec<(f64, Vec<u32>)> = (starts.into_iter())
+            .map(|slits| (metric.length_of(&slits), slits))
+            .collect();
+        starts.sort_by(|a, b| b.0.total_cmp(&a.0).then_with(|| b.1.cmp(&a.1)));
         Self {
-            metric,
-            faces,
-            patch: None,
+            starts,
+            openings: Vec::new(),
             predicted_faces: 0,
         }
     }
 
-    /// Adds slits while they pay; returns `None` if the faces cannot be laid flat so, or only with longer slits than `most_length`.
-    fn opened(&mut self, mut slits: Vec<u32>, lambda: f64, most_length: f64) -> Option<Opening> {
-        let (metric, faces) = (self.metric, self.faces);
+    /// Returns the cheapest opening that is left, if its price is below `most`.
+    pub fn cheapest(
+        &mut self,
+        metric: &Metric,
+        faces: &[u32],
+        lambda: f64,
+        most: f64,
+    ) -> Option<&Opening> {
+        let bar = |openings: &[Opening]| openings.last().map_or(most, |it| it.price(lambda));
+        while let Some((_, slits)) =
+            (self.starts).pop_if(|(length, _)| *length < bar(&self.openings))
+        {
+            let opening = self.opened_further(metric, faces, slits, lambda, most);
+            if let Some(opening) = opening.filter(|opening| opening.price(lambda) < most)
+                && self.openings.iter().all(|it| it.slits != opening.slits)
+            {
+                self.openings.push(opening);
+                self.openings.sort_by(|a, b| {
+                    let by_price = b.price(lambda).total_cmp(&a.price(lambda));
+                    by_price.then_with(|| b.slits.cmp(&a.slits))
+                });
+            }
+        }
+        self.openings.last()
+    }
+
+    /// Takes the opening that [`cheapest`](Self::cheapest) returned last.
+    pub fn take(&mut self) -> Option<Opening> {
+        self.openings.pop()
+    }
+
+    /// Returns the number of faces that were predicted since it was asked last.
+    pub fn predicted_faces(&mut self) -> usize {
+        std::mem::take(&mut self.predicted_faces)
+    }
+
+    /// Adds slits while they pay; returns `None` if the faces cannot be laid flat so.
+    fn opened_further(
+        &mut self,
+        metric: &Metric,
+        faces: &[u32],
+        mut slits: Vec<u32>,
+        lambda: f64,
+        most_length: f64,
+    ) -> Option<Opening> {
         let mut mesh = CutMesh::new(metric, faces, &slits);
         if mesh.loops.is_empty() {
             let first = first_slit(&mesh)?;
             slits = union(&slits, &mesh.edges(&first));
             mesh = CutMesh::new(metric, faces, &slits);
         }
-        if !mesh.is_disk() {
-            return None;
-        }
-        if self.patch.is_none() {
-            self.predicted_faces += faces.len();
-            self.patch = Patch::new(&CutMesh::new(metric, faces, &[]));
-        }
-        // Slits around a handle leave loops that the uncut faces do not have.
-        let shared = self.patch.as_mut();
-        let mut own;
-        let mut prediction = match shared.and_then(|patch| Prediction::new(&mesh, patch)) {
-            Some(prediction) => prediction,
-            None => {
-                self.predicted_faces += faces.len();
-                own = Patch::new(&mesh)?;
-                Prediction::new(&mesh, &mut own)?
-            }
-        };
+        self.predicted_faces += faces.len();
+        let mut prediction = Prediction::new(&mesh)?;
         let neighbors = Neighbors::new(&mesh.sheet);
         loop {
             let length = metric.length_of(&slits);
@@ -113,54 +143,6 @@ impl<'a> Uncut<'a> {
             slits = union(&slits, &edges);
             prediction.accept(grounded);
         }
-    }
-}
-
-/// Openings of some faces that follow from starting slits, each predicted only once it may be the cheapest.
-pub struct Ways {
-    /// Starting slits with their length, the shortest last.
-    starts: Vec<(f64, Vec<u32>)>,
-    /// Predicted openings, the cheapest last.
-    openings: Vec<Opening>,
-}
-
-impl Ways {
-    /// Orders the starting slits; no opening is shorter than the slits it starts from.
-    pub fn new(metric: &Metric, starts: impl IntoIterator<Item = Vec<u32>>) -> Self {
-        let starts: BTreeSet<Vec<u32>> = starts.into_iter().collect();
-        let mut starts: Vec<(f64, Vec<u32>)> = (starts.into_iter())
-            .map(|slits| (metric.length_of(&slits), slits))
-            .collect();
-        starts.sort_by(|a, b| b.0.total_cmp(&a.0).then_with(|| b.1.cmp(&a.1)));
-        Self {
-            starts,
-            openings: Vec::new(),
-        }
-    }
-
-    /// Returns the cheapest opening that is left, if its price is below `most`.
-    pub fn cheapest(&mut self, uncut: &mut Uncut, lambda: f64, most: f64) -> Option<&Opening> {
-        let bar = |openings: &[Opening]| openings.last().map_or(most, |it| it.price(lambda));
-        while let Some((_, slits)) =
-            (self.starts).pop_if(|(length, _)| *length < bar(&self.openings))
-        {
-            let opening = uncut.opened(slits, lambda, most);
-            if let Some(opening) = opening.filter(|opening| opening.price(lambda) < most)
-                && self.openings.iter().all(|it| it.slits != opening.slits)
-            {
-                self.openings.push(opening);
-                self.openings.sort_by(|a, b| {
-                    let by_price = b.price(lambda).total_cmp(&a.price(lambda));
-                    by_price.then_with(|| b.slits.cmp(&a.slits))
-                });
-            }
-        }
-        self.openings.last()
-    }
-
-    /// Takes the opening that [`cheapest`](Self::cheapest) returned last.
-    pub fn take(&mut self) -> Option<Opening> {
-        self.openings.pop()
     }
 }
 

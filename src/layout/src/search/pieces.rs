@@ -2,7 +2,7 @@
 
 use super::metric::Metric;
 use super::net::Net;
-use super::opening::{Uncut, Ways};
+use super::opening::Ways;
 use super::state::Search;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -258,9 +258,8 @@ impl Search<'_> {
     fn opened(&mut self, faces: &[u32], lambda: f64) -> Option<Net> {
         let metric = self.nets.metric;
         let mut ways = Ways::new(metric, [Vec::new()]);
-        let mut uncut = Uncut::new(metric, faces);
-        ways.cheapest(&mut uncut, lambda, f64::INFINITY);
-        self.counts.predicted_faces += uncut.predicted_faces;
+        ways.cheapest(metric, faces, lambda, f64::INFINITY);
+        self.counts.predicted_faces += ways.predicted_faces();
         let way = ways.take()?;
         self.map(faces, &way)
     }

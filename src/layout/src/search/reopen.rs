@@ -1,7 +1,7 @@
 //! Slits given back.
 
 use super::net::Net;
-use super::opening::{MAPPED, Uncut, Ways};
+use super::opening::{MAPPED, Ways};
 use super::sets::{branching, chains, difference, halves};
 use super::state::Search;
 use unwrapd_method::solver::Control;
@@ -14,23 +14,20 @@ impl Search<'_> {
     pub fn give_back(&mut self, lambda: f64) {
         let numbers: Vec<u32> = self.nets.list.keys().copied().collect();
         for number in numbers {
-            let faces = self.nets.list[&number].faces.clone();
-            let mut uncut = Uncut::new(self.nets.metric, &faces);
             while !self.nets.list[&number].slits.is_empty()
                 && self.observer.control() != Control::Finish
-                && let Some(net) = self.cheaper(number, &mut uncut, lambda)
+                && let Some(net) = self.cheaper(number, lambda)
             {
                 self.counts.reopened += 1;
                 self.nets.list.insert(number, net);
             }
-            self.counts.predicted_faces += uncut.predicted_faces;
         }
     }
 
-    /// Returns a cheaper net of the faces of one, if there is one that keeps the bound.
-    fn cheaper(&mut self, number: u32, uncut: &mut Uncut, lambda: f64) -> Option<Net> {
+    /// Returns a cheaper net of the same faces, if there is one that keeps the bound.
+    fn cheaper(&mut self, number: u32, lambda: f64) -> Option<Net> {
         let old = &self.nets.list[&number];
-        let (before, price) = (old.excess, old.price(lambda));
+        let (before, price, faces) = (old.excess, old.price(lambda), old.faces.clone());
         let metric = self.nets.metric;
         let breaks = branching(metric, &old.slits);
         let mut starts = vec![Vec::new()];
@@ -43,11 +40,12 @@ impl Search<'_> {
         let mut best: Option<Net> = None;
         for _ in 0..MAPPED {
             let bar = best.as_ref().map_or(price, |net| net.price(lambda));
-            ways.cheapest(uncut, lambda, bar - GAIN);
+            ways.cheapest(metric, &faces, lambda, bar - GAIN);
+            self.counts.predicted_faces += ways.predicted_faces();
             let Some(way) = ways.take() else {
                 break;
             };
-            if let Some(net) = self.map(uncut.faces, &way)
+            if let Some(net) = self.map(&faces, &way)
                 && net.price(lambda) < bar - GAIN
                 && self.nets.excess() - before + net.excess <= self.budget
             {
