@@ -45,6 +45,19 @@ pub(super) struct Page {
     pub stays: Arc<[Outline]>,
 }
 
+impl Page {
+    /// Creates a page without islands that stay, which ends where its charts end.
+    pub(super) fn cropped(number: u32, charts: Vec<usize>, squeezed: Squeezed) -> Self {
+        Self {
+            number,
+            charts,
+            squeezed,
+            border: Border::Cropped,
+            stays: Arc::default(),
+        }
+    }
+}
+
 /// Relation of a page to the charts on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Border {
@@ -76,6 +89,23 @@ pub(super) fn layout(
         tight.places(&pages[i], least.fold(0.0, f64::max))
     });
     tight.layout(pages, placed.collect::<Option<_>>()?)
+}
+
+/// Squeezes the charts of a page, then places them as [`layout`] does. Reads at most half of the word budget.
+pub(super) fn settled_layout(
+    outlines: &[Outline],
+    mut page: Page,
+    scale: f64,
+    (options, on_read): (&AtlasOptions, &OnRead),
+) -> Option<(Vec<Outline>, Layout)> {
+    let body = |&chart: &usize| Arc::new(Body::new(&outlines[chart], scale, page.squeezed.padding));
+    let bodies: Vec<Arc<Body>> = page.charts.iter().map(body).collect();
+    let words = options.budget_words / 2;
+    let is_apart = page.squeezed.settle(&bodies, words, on_read);
+    let level: Vec<&Outline> = outlines.iter().collect();
+    is_apart
+        .then(|| layout(&level, &[page], scale, (options, on_read)))
+        .flatten()
 }
 
 /// Charts to be placed, on a raster of `scale` cells per mesh unit.

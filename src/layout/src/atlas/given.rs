@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use super::coarse::{FINE, MOST_CHARTS, raster_side};
 use super::effort::OnRead;
-use super::gap::{self, Border, Page, smallest_gap};
+use super::gap::{self, Page, smallest_gap};
 use super::layout::Layout;
 use super::outline::{Outline, outlines};
 use super::page::Region;
 use super::plan::{by_size, mark_copies};
 use super::problem::{AtlasError, AtlasOptions, ChartMap};
-use super::squeeze::{Body, Pose, Squeezed};
+use super::squeeze::{Pose, Squeezed};
 use unwrapd_maps::plane::Straightness;
 use unwrapd_method::numerics::bounds::bounds_of;
 
@@ -59,8 +59,7 @@ pub(super) fn given(
     let longer = frame.side([high[0] - low[0], high[1] - low[1]], 0.0);
     let page = FINE * f64::from(texture.raster(raster_side(order.len(), texture)));
     let padding = options.padding_share() * page;
-    let side = page - padding;
-    let scale = side / longer;
+    let scale = (page - padding) / longer;
     if !scale.is_normal() {
         return Ok(None);
     }
@@ -68,27 +67,10 @@ pub(super) fn given(
         let middle = outlines[chart].middle();
         Pose::new([0, 1].map(|k| (middle[k] - low[k]) * scale), 0.0)
     };
-    let mut squeezed = Squeezed {
-        poses: order.iter().map(pose).collect(),
-        side,
-        padding,
-        frames: order.iter().map(|_| frame).collect(),
-        fixed: Arc::default(),
-    };
-    let body = |&chart: &usize| Arc::new(Body::new(&outlines[chart], scale, padding));
-    let bodies: Vec<Arc<Body>> = order.iter().map(body).collect();
-    if !squeezed.settle(&bodies, options.budget_words, on_read) {
-        return Ok(None);
-    }
-    let page = Page {
-        number: 0,
-        charts: order,
-        squeezed,
-        border: Border::Cropped,
-        stays: Arc::default(),
-    };
-    let level: Vec<&Outline> = outlines.iter().collect();
-    let exact = gap::layout(&level, &[page], scale, (options, on_read));
+    let posed = order.iter().map(|chart| (pose(chart), frame));
+    let squeezed = Squeezed::new(posed, Arc::default(), page, padding);
+    let page = Page::cropped(0, order, squeezed);
+    let exact = gap::settled_layout(&outlines, page, scale, (options, on_read));
     let lean = |outline: &Outline| match outline.straightness {
         Straightness::Upright(axis) => axis[0].abs().min(axis[1].abs()) > ACROSS,
         Straightness::Leaning(_) | Straightness::Round => false,

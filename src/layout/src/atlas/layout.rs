@@ -35,7 +35,7 @@ pub(super) struct Layout {
 const ATTEMPTS: [usize; 2] = [12, 400];
 /// Ratio of a scale that failed to the best one, below which the search ends; and with many charts, for which an attempt costs more
 /// and the fill hardly depends on luck.
-pub(super) const NEAR: f64 = 1.003;
+const NEAR: f64 = 1.003;
 const NEAR_IF_MANY: f64 = 1.005;
 /// Maximum number of words of a search for many charts, once the best scale is within a factor of `FAIR` of one that failed or of the
 /// next. The first scale may leave a fifth of the pages empty.
@@ -45,6 +45,8 @@ const FAIR: f64 = 1.01;
 /// the next scale aims at, since an attempt that does not fit is wasted.
 const HOPE_IF_MANY: f64 = 0.87;
 const HASTE: f64 = 0.995;
+/// Largest factor of the scale if the charts do not fit around what is taken.
+const SMALLER: f64 = 0.95;
 /// Scales at which a layout with copies alike is tried, relative to the fullest. It may be fuller, as copies lie in rows; the last
 /// scale costs 6 % of the fill. With many charts, only scales up to 1 are tried.
 const ALIKE: [f64; 5] = [1.06, 1.03, 1.0, 0.985, 0.97];
@@ -93,6 +95,7 @@ pub(super) fn layout(
         border,
         on_read,
         taken: None,
+        free: f64::from(texture.pages) * texture.share(),
         regions: &[],
         is_alike: false,
         extent: match options.scale {
@@ -157,7 +160,7 @@ fn density((scale, attempt): &(f64, Attempt)) -> f64 {
 }
 
 /// Searches for the scale, in cells per mesh unit, with the best fill. Returns it with its layout.
-fn best(packing: &Packing, budget_words: u64) -> Option<(f64, Attempt)> {
+pub(super) fn best(packing: &Packing, budget_words: u64) -> Option<(f64, Attempt)> {
     let (near, most_words, hope) = if packing.is_crowded() {
         (NEAR_IF_MANY, budget_words.min(WORDS_IF_MANY), HOPE_IF_MANY)
     } else {
@@ -183,10 +186,12 @@ fn best(packing: &Packing, budget_words: u64) -> Option<(f64, Attempt)> {
             }
             not_yet => {
                 failed = failed.min(scale);
-                let next = not_yet.map_or_else(
-                    |placed| placed.sqrt() * scale,
-                    |attempt| grown(packing, &demand, scale, &attempt),
-                );
+                let next = match not_yet {
+                    Ok(attempt) => grown(packing, &demand, scale, &attempt),
+                    // Around what is taken, the last charts may lack room by far.
+                    Err(placed) if packing.taken.is_some() => placed.sqrt().min(SMALLER) * scale,
+                    Err(placed) => placed.sqrt() * scale,
+                };
                 next.clamp(0.5 * scale, scale / near)
             }
         };
@@ -207,9 +212,12 @@ fn best(packing: &Packing, budget_words: u64) -> Option<(f64, Attempt)> {
 }
 
 /// Returns the scale at which a layout would fill the page if it grew evenly. A crowd has the full width from the start: the share of
-/// its rows that its charts fill changes little with the scale.
+/// its rows that its charts fill changes little with the scale. Around what is taken, nothing tells that scale, and the result is
+/// infinite.
 fn grown(packing: &Packing, demand: &Demand, scale: f64, attempt: &Attempt) -> f64 {
-    if packing.is_crowded() {
+    if packing.taken.is_some() {
+        f64::INFINITY
+    } else if packing.is_crowded() {
         let [_, rows] = packing.form().reach(packing.whole());
         let used = f64::from(attempt.rows.max(1)) / f64::from(rows * packing.texture.pages);
         demand.scale(HASTE * demand.share(scale) / used)
@@ -222,9 +230,9 @@ fn grown(packing: &Packing, demand: &Demand, scale: f64, attempt: &Attempt) -> f
 struct Demand {
     /// Coefficients of the square, the linear and the constant term: area, margin along outlines, margin at corners.
     terms: [f64; 3],
-    /// Cells of all pages.
-    pages: f64,
-    /// Scale at which the longest chart fits.
+    /// Cells of all pages that are free.
+    free: f64,
+    /// Scale at which the longest chart fits, and at which the charts of no region would exceed its area.
     most: f64,
     cells: f64,
 }
@@ -251,8 +259,9 @@ impl Demand {
                 perimeter * around / 2.0,
                 n * around * around / 2.0,
             ],
-            pages: cells * cells * f64::from(packing.texture.pages) * packing.texture.share(),
-            most: (packing.target() - form.most_inset() - SLACK).max(1.0) / longest,
+            free: cells * cells * packing.free,
+            most: ((packing.target() - form.most_inset() - SLACK).max(1.0) / longest)
+                .min(most_in_regions(packing)),
             cells,
         }
     }
@@ -260,13 +269,13 @@ impl Demand {
     /// Returns the share of the pages that charts take at a scale.
     fn share(&self, scale: f64) -> f64 {
         let [a, b, c] = self.terms;
-        (a * scale * scale + b * scale + c) / self.pages
+        (a * scale * scale + b * scale + c) / self.free
     }
 
     /// Returns the scale at which charts take a share of the pages, at most that at which the longest chart fits.
     fn scale(&self, share: f64) -> f64 {
         let [a, b, c] = self.terms;
-        let missing = (share * self.pages - c).max(1.0);
+        let missing = (share * self.free - c).max(1.0);
         let quadratic = 4.0 * a * missing;
         let root = if quadratic > SLIVERS * b * b {
             (-b + (b * b + quadratic).sqrt()) / (2.0 * a)
@@ -276,6 +285,18 @@ impl Demand {
         };
         root.min(self.most)
     }
+}
+
+/// Returns the scale at which the charts of a region would cover it, the least of all regions.
+fn most_in_regions(packing: &Packing) -> f64 {
+    let mut least = f64::INFINITY;
+    for region in packing.regions.iter().flatten() {
+        let outlines = packing.plan.outlines.iter().zip(packing.regions);
+        let inside = outlines.filter(|(_, other)| other.as_ref() == Some(region));
+        let area: f64 = inside.map(|(outline, _)| outline.size.powi(2)).sum();
+        least = least.min((packing.texture.frame(*region).area() / area).sqrt());
+    }
+    least * f64::from(packing.cells)
 }
 
 /// Distance of a vertex from its exact position, in cells, that needs no other layout.
@@ -311,6 +332,8 @@ pub(super) struct Packing<'a> {
     pub regions: &'a [Option<Region>],
     /// Pages on which cells are occupied before the first chart is placed.
     pub taken: Option<&'a Occupancy>,
+    /// Area of all pages that is not occupied then, in squares on the longer side of a page.
+    pub free: f64,
     pub on_read: &'a OnRead<'a>,
 }
 

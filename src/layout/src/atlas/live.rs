@@ -103,14 +103,10 @@ impl LiveLayout {
         };
         let fixed = held.iter();
         let fixed = fixed.map(|outline| FixedBody::new(outline, page, padding + ROOM));
+        let posed = plan.order.iter().map(chart);
+        let posed = posed.map(|outline| (pose(outline), frame(outline)));
         Ok(Self {
-            squeezed: Squeezed {
-                poses: plan.order.iter().map(chart).map(pose).collect(),
-                frames: plan.order.iter().map(chart).map(frame).collect(),
-                side: page / scale - padding,
-                padding,
-                fixed: fixed.collect(),
-            },
+            squeezed: Squeezed::new(posed, fixed.collect(), page / scale, padding),
             bodies: bodies.collect(),
             options,
             held: held.into_iter().map(Held::new).collect(),

@@ -11,16 +11,16 @@ use super::coarse::{FINE, MOST_CHARTS, raster_side};
 use super::effort::OnRead;
 use super::gap::{self, Border, Page};
 use super::grid::{Repair, doubled_area};
-use super::layout::{Attempt, Extent, Layout, NEAR, Packing, SLACK, padding, raster};
+use super::layout::{Attempt, Extent, Layout, Packing, SLACK, best, padding, raster};
 use super::occupancy::Occupancy;
 use super::outline::{Outline, outlines};
 use super::pack::{self, ROUNDS, is_cramped, on_grid};
-use super::page::{Frame, GRID_SIDE, Region};
-use super::plan::{HOPE, Plan, QuarterTurns};
+use super::page::{GRID_SIDE, Region};
+use super::plan::{Plan, QuarterTurns};
 use super::problem::{
     Atlas, AtlasOptions, ChartMap, ConstraintError, Constraints, Placed, Rotation, Scale,
 };
-use super::squeeze::{Body, FixedBody, Pose, Squeezed};
+use super::squeeze::{FixedBody, Pose, Squeezed};
 use super::stay::{Obstacle, Staying, too_near};
 use unwrapd_method::numerics::random::Random;
 use unwrapd_method::solver::Control;
@@ -195,9 +195,12 @@ impl Problem<'_> {
             extent: Extent::Full,
             regions: self.regions,
             taken: None,
+            free: f64::from(texture.pages) * texture.share(),
         };
         let taken = self.taken(&packing);
         packing.taken = Some(&taken);
+        let sizes = self.obstacles.iter().map(|it| it.outline.size);
+        packing.free -= sizes.map(|size| size * size).sum::<f64>();
         let (scale, attempt) = self.placed(&packing, options)?;
         let cell = texture.grid_side() / f64::from(cells);
         let longer = f64::from(texture.resolution.longer());
@@ -243,21 +246,14 @@ impl Problem<'_> {
         let scale = found.scale * page / texture.grid_side();
         let obstacles = self.obstacles.iter();
         let fixed = obstacles.map(|it| FixedBody::new(&it.outline, page, padding));
-        let mut squeezed = self.poses((plan, found), page, fixed.collect(), options);
-        let body = |&chart: &usize| Arc::new(Body::new(&plan.outlines[chart], scale, padding));
-        let bodies: Vec<Arc<Body>> = plan.order.iter().map(body).collect();
-        if !squeezed.settle(&bodies, options.budget_words / 2, on_read) {
-            return None;
-        }
         let page = Page {
             number: 0,
             charts: plan.order.clone(),
-            squeezed,
+            squeezed: self.poses((plan, found), page, fixed.collect(), options),
             border: Border::Fixed,
             stays: self.obstacles.iter().map(|it| it.outline.clone()).collect(),
         };
-        let level: Vec<&Outline> = plan.outlines.iter().collect();
-        gap::layout(&level, &[page], scale, (options, on_read))
+        gap::settled_layout(&plan.outlines, page, scale, (options, on_read))
     }
 
     /// Returns the poses of a layout on pages with `page` cells along the longer side, in the order of the plan.
@@ -271,27 +267,22 @@ impl Problem<'_> {
         let texture = options.texture;
         let padding = options.padding_share() * page;
         let cell = found.cell * page / texture.grid_side();
-        let frame = |&chart: &usize| {
+        let frame = |chart: usize| {
             let on = Region::page(found.charts[chart].0.corner.page);
             let region = self.regions.get(chart).copied().flatten();
             texture.frame(region.unwrap_or(on))
         };
-        let frames: Arc<[_]> = plan.order.iter().map(frame).collect();
-        let pose = |(&chart, frame): (&usize, &Frame)| {
+        let posed = |&chart: &usize| {
+            let frame = frame(chart);
             let (spot, _) = found.charts[chart];
             let extent = plan.outlines[chart].extent;
             let middle = spot.middle(extent.map(|x| x * found.scale / found.cell));
             let middle = middle.map(|x| (x + found.border) * cell - padding / 2.0);
             let angle = FRAC_PI_2 * f64::from(spot.turns);
-            Pose::new([middle[0] + frame.left * page, middle[1]], angle)
+            let pose = Pose::new([middle[0] + frame.left * page, middle[1]], angle);
+            (pose, frame)
         };
-        Squeezed {
-            poses: plan.order.iter().zip(frames.iter()).map(pose).collect(),
-            side: page - padding,
-            padding,
-            fixed,
-            frames,
-        }
+        Squeezed::new(plan.order.iter().map(posed), fixed, page, padding)
     }
 
     /// Returns the scale, in cells per mesh unit, and a place for each chart; `None` if a chart finds no place.
@@ -303,7 +294,7 @@ impl Problem<'_> {
         }
         match options.scale {
             Scale::Largest => {
-                let found = self.largest(packing, options.budget_words)?;
+                let found = best(packing, options.budget_words)?;
                 Some(grown(packing, found, options))
             }
             Scale::TexelsPerUnit(texels) => {
@@ -312,75 +303,8 @@ impl Problem<'_> {
             }
         }
     }
-
-    /// Returns the largest scale found at which the charts fit in the order of the plan, and their places.
-    fn largest(&self, packing: &Packing, budget_words: u64) -> Option<(f64, Attempt)> {
-        let texture = packing.texture;
-        let pages = f64::from(texture.pages) * texture.share();
-        let sizes = self.obstacles.iter().map(|it| it.outline.size);
-        let taken: f64 = sizes.map(|size| size * size).sum();
-        let free = (pages - taken).max(LEAST_FREE * pages) * f64::from(packing.cells).powi(2);
-        let most = (free / packing.plan.area())
-            .sqrt()
-            .min(self.most_in_regions(packing));
-        // Charts without area: at this scale the longest is as long as a page.
-        let most = if most.is_finite() {
-            most
-        } else {
-            f64::from(packing.cells) / packing.plan.longest().max(1.0 / f64::from(packing.cells))
-        };
-        let mut scale = HOPE.sqrt() * most;
-        let mut best: Option<(f64, Attempt)> = None;
-        let (mut failed, mut work, mut tried) = (f64::INFINITY, 0, 0);
-        while scale >= LEAST * most {
-            match packing.attempt(scale, &mut work) {
-                Ok(attempt) => best = Some((scale, attempt)),
-                Err(share) => {
-                    failed = scale;
-                    scale *= share.sqrt().clamp(SMALLER[0], SMALLER[1]);
-                }
-            }
-            if let Some((good, _)) = best {
-                let is_ended = (packing.on_read)(0) == Control::Finish || work > budget_words;
-                if is_ended || tried == ATTEMPTS || failed < good * NEAR {
-                    break;
-                }
-                tried += 1;
-                scale = if failed.is_finite() {
-                    (good * failed).sqrt()
-                } else {
-                    LARGER * good
-                };
-            }
-        }
-        best
-    }
-
-    /// Returns the scale at which the charts of a region would cover it, the least of all regions.
-    fn most_in_regions(&self, packing: &Packing) -> f64 {
-        let mut least = f64::INFINITY;
-        for region in self.regions.iter().flatten() {
-            let is_there = |&chart: &usize| self.regions[chart].as_ref() == Some(region);
-            let area: f64 = (0..self.charts.len())
-                .filter(is_there)
-                .map(|chart| packing.plan.outlines[chart].size.powi(2))
-                .sum();
-            least = least.min((packing.texture.frame(*region).area() / area).sqrt());
-        }
-        least * f64::from(packing.cells)
-    }
 }
 
-/// Maximum number of scales tried after the first one at which the charts fit.
-const ATTEMPTS: usize = 12;
-/// Factor of the scale while the charts fit.
-const LARGER: f64 = 1.15;
-/// Smallest and largest factor of the scale if the charts do not fit.
-const SMALLER: [f64; 2] = [0.5, 0.95];
-/// Smallest scale tried, as a share of the scale at which the charts would cover the free area.
-const LEAST: f64 = 0.01;
-/// Smallest share of the pages that is assumed to be free.
-const LEAST_FREE: f64 = 1e-3;
 /// Factor of the scale for each trial order, and number of failed trials in a row, per unit of patience, that end the search.
 const GROWTH: f64 = 1.004;
 const MOST_IDLE: u64 = 100;

@@ -5,7 +5,7 @@ mod search;
 use std::sync::Arc;
 
 use super::effort::OnRead;
-use super::gap::{self, Border, Page};
+use super::gap::{self, Page};
 use super::layout::{Layout, SLIVERS, padding};
 use super::mask::{Distances, Rounding};
 use super::occupancy::{Corner, Occupancy};
@@ -352,20 +352,10 @@ impl CoarseLayout {
             let is_here = |&&chart: &&usize| self.state.corners[chart].page == number;
             let charts: Vec<usize> = self.first.order.iter().filter(is_here).copied().collect();
             let frame = self.raster.texture.frame(Region::page(0));
-            let squeezed = Squeezed {
-                poses: charts.iter().map(pose).collect(),
-                side: f64::from(self.state.side),
-                padding: self.raster.padding,
-                frames: charts.iter().map(|_| frame).collect(),
-                fixed: Arc::default(),
-            };
-            Page {
-                number,
-                charts,
-                squeezed,
-                border: Border::Cropped,
-                stays: Arc::default(),
-            }
+            let posed = charts.iter().map(|chart| (pose(chart), frame));
+            let cells = f64::from(self.state.side) + self.raster.padding;
+            let squeezed = Squeezed::new(posed, Arc::default(), cells, self.raster.padding);
+            Page::cropped(number, charts, squeezed)
         };
         let pages = (0..self.raster.texture.pages).map(page);
         pages.filter(|page| !page.charts.is_empty()).collect()

@@ -88,6 +88,23 @@ impl FixedBody {
 }
 
 impl Squeezed {
+    /// Creates a page with `page` cells along its longer side, borders included, from the pose and the frame of each chart.
+    pub(super) fn new(
+        charts: impl Iterator<Item = (Pose, Frame)>,
+        fixed: Arc<[FixedBody]>,
+        page: f64,
+        padding: f64,
+    ) -> Self {
+        let (poses, frames): (_, Vec<Frame>) = charts.unzip();
+        Self {
+            poses,
+            frames: frames.into(),
+            fixed,
+            side: page - padding,
+            padding,
+        }
+    }
+
     /// Separates overlapping charts, growing the page if needed, then shrinks the page as far as charts make room for each other
     /// where they are. Stops shrinking once about `words` words are read. Returns whether no overlap remains.
     pub(super) fn settle(&mut self, bodies: &[Arc<Body>], words: u64, on_read: &OnRead) -> bool {
