@@ -26,8 +26,6 @@ const LEAST_SPREAD: f64 = 1e-4;
 const SPREADS: u32 = 8;
 /// Each of these rounds reads about one part in `SHARE` of the word budget at most.
 const SHARE: u64 = 16;
-/// Number of times that the side of a page is corrected for the padding, which depends on it.
-const SIDES: usize = 8;
 /// Share of the scale for which charts that are too small for the grid are enlarged, since the final scale may be a little smaller.
 const SMALLER: f64 = 0.98;
 /// Number of positions per cell, along each axis, to which charts are rounded.
@@ -188,11 +186,8 @@ impl Tight<'_> {
     /// Returns the longer side, without borders, of the smallest page on which charts may extend to `reach`, to the right and up.
     fn side(&self, reach: [f64; 2]) -> f64 {
         let frame = self.options.texture.frame(Region::page(0));
-        // The padding grows with the side, but much less.
-        let first = reach[0].max(reach[1]);
-        (0..SIDES).fold(first, |side, _| {
-            frame.side(reach, self.padding(side) + 2.0 * ROUNDED)
-        })
+        let least = self.padding(0.0);
+        frame.side(reach, [least + 2.0 * ROUNDED, self.padding(1.0) - least])
     }
 
     /// Returns the cells per texel if the longer side of the largest page, without borders, is `side`.

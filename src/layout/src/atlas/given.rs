@@ -56,7 +56,7 @@ pub(super) fn given(
     let corners = outlines.iter().flat_map(Outline::corners);
     let [low, high] = bounds_of(&corners.collect::<Vec<_>>());
     let frame = texture.frame(Region::page(0));
-    let longer = frame.side([high[0] - low[0], high[1] - low[1]], 0.0);
+    let longer = frame.side([high[0] - low[0], high[1] - low[1]], [0.0; 2]);
     let page = FINE * f64::from(texture.raster(raster_side(order.len(), texture)));
     let padding = options.padding_share() * page;
     let scale = (page - padding) / longer;

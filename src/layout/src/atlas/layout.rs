@@ -33,10 +33,9 @@ pub(super) struct Layout {
 
 /// Maximum number of scales tried once one fits, and before.
 const ATTEMPTS: [usize; 2] = [12, 400];
-/// Ratio of a scale that failed to the best one, below which the search ends; and with many charts, for which an attempt costs more
-/// and the fill hardly depends on luck.
-const NEAR: f64 = 1.003;
-const NEAR_IF_MANY: f64 = 1.005;
+/// Ratio of a scale that failed to the best one, below which the search ends. With 1.003 instead, the scales of 46 sets of charts around
+/// islands or in regions are equal within .001 at the mean.
+const NEAR: f64 = 1.005;
 /// Maximum number of words of a search for many charts, once the best scale is within a factor of `FAIR` of one that failed or of the
 /// next. The first scale may leave a fifth of the pages empty.
 const WORDS_IF_MANY: u64 = 150_000_000;
@@ -161,10 +160,10 @@ fn density((scale, attempt): &(f64, Attempt)) -> f64 {
 
 /// Searches for the scale, in cells per mesh unit, with the best fill. Returns it with its layout.
 pub(super) fn best(packing: &Packing, budget_words: u64) -> Option<(f64, Attempt)> {
-    let (near, most_words, hope) = if packing.is_crowded() {
-        (NEAR_IF_MANY, budget_words.min(WORDS_IF_MANY), HOPE_IF_MANY)
+    let (most_words, hope) = if packing.is_crowded() {
+        (budget_words.min(WORDS_IF_MANY), HOPE_IF_MANY)
     } else {
-        (NEAR, budget_words, HOPE)
+        (budget_words, HOPE)
     };
     let demand = Demand::of(packing);
     let mut scale = demand.scale(hope);
@@ -182,7 +181,7 @@ pub(super) fn best(packing: &Packing, budget_words: u64) -> Option<(f64, Attempt
                 {
                     best = Some(new);
                 }
-                next.max(near * scale)
+                next.max(NEAR * scale)
             }
             not_yet => {
                 failed = failed.min(scale);
@@ -192,14 +191,14 @@ pub(super) fn best(packing: &Packing, budget_words: u64) -> Option<(f64, Attempt
                     Err(placed) if packing.taken.is_some() => placed.sqrt().min(SMALLER) * scale,
                     Err(placed) => placed.sqrt() * scale,
                 };
-                next.clamp(0.5 * scale, scale / near)
+                next.clamp(0.5 * scale, scale / NEAR)
             }
         };
         let before = std::mem::replace(&mut scale, next);
         if let Some((good, _)) = best {
             let is_ended = (packing.on_read)(0) == Control::Finish;
             let is_read = work > most_words && failed.min(scale) < good * FAIR;
-            let enough = tried >= ATTEMPTS[0] || is_read || failed < good * near;
+            let enough = tried >= ATTEMPTS[0] || is_read || failed < good * NEAR;
             if enough || is_ended || packing.plan.order.len() <= 1 || scale == before {
                 break;
             }

@@ -190,9 +190,14 @@ impl Frame {
         (self.high[0] - self.low[0]) * (self.high[1] - self.low[1])
     }
 
-    /// Returns the smallest longer side without borders of pages on which charts may extend to `reach`, to the right and up.
-    pub(super) fn side(self, reach: [f64; 2], padding: f64) -> f64 {
-        let of = |axis: usize| (reach[axis] + padding) / self.high[axis] - padding;
+    /// Returns the smallest longer side without borders of pages on which charts may extend to `reach`, to the right and up. The padding
+    /// is `least`, plus `per_side` times that side.
+    pub(super) fn side(self, reach: [f64; 2], [least, per_side]: [f64; 2]) -> f64 {
+        // (reach + padding) / high - padding = side
+        let of = |axis: usize| {
+            let lost = 1.0 - self.high[axis];
+            (reach[axis] + lost * least) / (self.high[axis] - lost * per_side)
+        };
         of(0).max(of(1))
     }
 }

@@ -165,22 +165,16 @@ impl Arrangement {
     }
 }
 
-/// Maximum number of snapshots. With more charts, not every place has one.
-const MOST: usize = 16;
-
-/// Occupancies with all charts before some places of an arrangement, so that a trial need not occupy their cells again.
+/// Occupancies with all charts before each place of an arrangement, so that a trial need not occupy their cells again.
 pub(super) struct Prefixes {
-    /// Number of places between snapshots.
-    every: usize,
     /// Snapshots that were needed so far.
     snapshots: Vec<Occupancy>,
 }
 
 impl Prefixes {
-    /// Creates the snapshots of an arrangement of `n_charts` charts from an empty occupancy.
-    pub(super) fn new(empty: Occupancy, n_charts: usize) -> Self {
+    /// Creates the snapshots of an arrangement from an empty occupancy.
+    pub(super) fn new(empty: Occupancy) -> Self {
         Self {
-            every: n_charts.div_ceil(MOST).max(1),
             snapshots: vec![empty],
         }
     }
@@ -193,21 +187,17 @@ impl Prefixes {
         poses: &[Arc<Poses>],
         place: usize,
     ) {
-        let nearest = place / self.every;
-        while let n = self.snapshots.len()
-            && n <= nearest
-        {
+        for n in self.snapshots.len()..=place {
             let mut next = self.snapshots[n - 1].clone();
-            state.take(poses, &mut next, (n - 1) * self.every..n * self.every);
+            state.take(poses, &mut next, n - 1..n);
             self.snapshots.push(next);
         }
-        occupancy.restore(&self.snapshots[nearest]);
-        state.take(poses, occupancy, nearest * self.every..place);
+        occupancy.restore(&self.snapshots[place]);
     }
 
     /// Removes the snapshots that are outdated once the charts from a place on have changed.
     pub(super) fn change(&mut self, place: usize) {
-        self.snapshots.truncate(place / self.every + 1);
+        self.snapshots.truncate(place + 1);
     }
 }
 

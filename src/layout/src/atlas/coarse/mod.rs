@@ -21,11 +21,9 @@ use arrangement::{Arrangement, Poses};
 pub(in crate::atlas) const RASTER: u32 = 96;
 /// Value that replaces [`RASTER`] with more than [`FEW`] charts per page, as each of them then has fewer cells.
 const FINE_RASTER: u32 = 256;
-/// Maximum number of charts per page on the raster of [`RASTER`] cells.
+/// Maximum number of charts per page on the raster of [`RASTER`] cells, and of those whose order is searched, where several small
+/// charts count as one. With more charts, a trial takes too long, and the first layout is only squeezed.
 const FEW: usize = 64;
-/// Maximum number of charts per page whose order is searched; several small charts count as one. With more charts, a trial takes
-/// too long, and the first layout is only squeezed.
-const CROWD: usize = 64;
 /// A chart is small if the half perimeter of its rectangle is at most this share of that side: it finds a place between the others.
 const SMALL: f64 = 0.12;
 /// Sides of the squares in which all charts are first placed, in sides of the page; tried in this order until the charts fit.
@@ -264,7 +262,7 @@ impl CoarseLayout {
 
     /// Returns `true` if there are too many charts to search their order.
     pub fn is_crowded(&self) -> bool {
-        self.n_charts() > CROWD * self.raster.texture.pages as usize
+        self.n_charts() > FEW * self.raster.texture.pages as usize
     }
 
     /// Returns the longer side of the largest page, in cells.

@@ -14,8 +14,6 @@ use unwrapd_method::numerics::random::Random;
 const TEMPERATURES: [f64; 2] = [0.25, 0.05];
 /// Cost of a trial for each large chart besides the words it reads, in words.
 const WORDS_PER_CHART: u64 = 375;
-/// Cost of a trial that was made before, in words.
-const WORDS_IF_KNOWN: u64 = 100;
 /// Factor of the number of trials in a row, all made before, after which a search ends: `IN_VAIN · n · max(n, poses)` for n large
 /// charts. By then, almost surely nothing is left to try.
 const IN_VAIN: usize = 40;
@@ -143,7 +141,7 @@ impl CoarseLayout {
             largest
         };
         let mut occupancy = self.raster.occupancy(most);
-        let mut prefixes = Prefixes::new(occupancy.clone(), large);
+        let mut prefixes = Prefixes::new(occupancy.clone());
         let mut state = self.first.clone();
         if large < all
             && state
@@ -172,7 +170,6 @@ impl CoarseLayout {
             }
             let first = trial.copy_pose(place, &self.kind);
             if !known.insert(trial.key(&self.kind)) {
-                occupancy.work += WORDS_IF_KNOWN;
                 in_vain += 1;
                 continue;
             }
