@@ -119,3 +119,30 @@ fn islands_that_are_not_in_the_way_stay() {
         assert!(far < 1e-2, "{far}");
     }
 }
+
+#[test]
+fn islands_regain_their_size_after_a_fast_drag() {
+    for n in [3, 8, 20] {
+        let islands = islands(n);
+        let mut live = live(&islands);
+        let from = center(&islands[0].0);
+        let first = rested(&mut live, from);
+        for corner in [[0.8, 0.8], [0.2, 0.8], [0.8, 0.2], [0.2, 0.2]] {
+            dragged(&mut live, corner, 0.0);
+        }
+        let last = rested(&mut live, from);
+        assert!(last > 0.995 * first, "{n} islands: {first} > {last}");
+    }
+}
+
+/// Holds the first island at a place until the others no longer grow. Returns their scale.
+fn rested(live: &mut LiveLayout, at: [f64; 2]) -> f64 {
+    let mut scale = dragged(live, at, 0.0).scale;
+    loop {
+        let next = dragged(live, at, 0.0).scale;
+        if next <= scale {
+            return scale;
+        }
+        scale = next;
+    }
+}

@@ -1,7 +1,8 @@
 //! Layouts that follow islands while they are dragged.
 //!
 //! The islands around are pushed aside where they are. If they do not all find room, the page grows, which is the same as shrinking
-//! these islands, and shrinks again when it can. If they are in each other's way, they are all placed anew.
+//! these islands, and shrinks again when it can. If they are in each other's way, they are all placed anew, or begin again where they
+//! lay at first. So they do once the islands that are held rest, if they are still too small.
 use std::sync::Arc;
 
 use super::coarse::{FINE, RASTER};
@@ -33,6 +34,16 @@ pub struct LiveLayout {
     side: f64,
     /// Side of the last page on which all islands around were placed anew.
     side_anew: f64,
+    /// Islands as they lay at first.
+    first: Squeezed,
+    motion: Motion,
+}
+
+/// Motion of the islands that are held since room was made for them.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Motion {
+    Moved,
+    AtRest,
 }
 
 /// Island that is held.
@@ -105,8 +116,11 @@ impl LiveLayout {
         let fixed = fixed.map(|outline| FixedBody::new(outline, page, padding + ROOM));
         let posed = plan.order.iter().map(chart);
         let posed = posed.map(|outline| (pose(outline), frame(outline)));
+        let squeezed = Squeezed::new(posed, fixed.collect(), page / scale, padding);
         Ok(Self {
-            squeezed: Squeezed::new(posed, fixed.collect(), page / scale, padding),
+            first: squeezed.clone(),
+            squeezed,
+            motion: Motion::Moved,
             bodies: bodies.collect(),
             options,
             held: held.into_iter().map(Held::new).collect(),
@@ -120,7 +134,11 @@ impl LiveLayout {
     /// Moves the center of a held island, named by its index, and turns it by an angle, in radians, from where it lay at first.
     pub fn drag(&mut self, island: usize, middle: [f64; 2], angle: f64) {
         let held = &mut self.held[island];
+        if (held.middle, held.angle) == (middle, angle) {
+            return;
+        }
         (held.middle, held.angle) = (middle, angle);
+        self.motion = Motion::Moved;
         let mut fixed = self.squeezed.fixed.to_vec();
         fixed[island] = fixed[island].moved(middle, angle);
         self.squeezed.fixed = fixed.into();
@@ -131,8 +149,12 @@ impl LiveLayout {
     pub fn make_room(&mut self) -> Followers {
         let mut pushed = self.squeezed.clone();
         let mut is_apart = pushed.follow(&self.bodies, self.side);
-        if (!is_apart || pushed.side > CROWDED * self.side_anew)
-            && let Some(anew) = self.placed_anew()
+        let is_stuck = self.motion == Motion::AtRest
+            && pushed.side > self.side
+            && pushed.side >= self.squeezed.side;
+        self.motion = Motion::AtRest;
+        if (!is_apart || is_stuck || pushed.side > CROWDED * self.side_anew)
+            && let Some(anew) = self.anew()
         {
             self.side_anew = anew.side;
             if !is_apart || CROWDED * anew.side < pushed.side {
@@ -146,6 +168,19 @@ impl LiveLayout {
             Room::Missing
         };
         self.followers(room)
+    }
+
+    /// Returns the fuller of two layouts that do not begin where the islands lie: they are placed one after the other, or pushed aside
+    /// from where they lay at first. Returns `None` if neither has room.
+    fn anew(&self) -> Option<Squeezed> {
+        let mut first = Squeezed {
+            fixed: self.squeezed.fixed.clone(),
+            ..self.first.clone()
+        };
+        let is_apart = first.follow(&self.bodies, self.side);
+        let both = [is_apart.then_some(first), self.placed_anew()];
+        let by_side = |a: &Squeezed, b: &Squeezed| a.side.total_cmp(&b.side);
+        both.into_iter().flatten().min_by(by_side)
     }
 
     /// Returns a layout in which all islands around are placed one after the other; `None` if one finds no place.
