@@ -201,7 +201,7 @@ impl Problem<'_> {
         packing.taken = Some(&taken);
         let sizes = self.obstacles.iter().map(|it| it.outline.size);
         packing.free -= sizes.map(|size| size * size).sum::<f64>();
-        let (scale, attempt) = self.placed(&packing, options)?;
+        let (scale, attempt) = placed(&packing, options)?;
         let cell = texture.grid_side() / f64::from(cells);
         let longer = f64::from(texture.resolution.longer());
         Some(Layout {
@@ -284,23 +284,23 @@ impl Problem<'_> {
         };
         Squeezed::new(plan.order.iter().map(posed), fixed, page, padding)
     }
+}
 
-    /// Returns the scale, in cells per mesh unit, and a place for each chart; `None` if a chart finds no place.
-    fn placed(&self, packing: &Packing, options: &AtlasOptions) -> Option<(f64, Attempt)> {
-        let cells = f64::from(packing.cells);
-        if packing.plan.order.is_empty() {
-            // The unit of what stays is that of a page.
-            return Some((cells, packing.attempt(cells, &mut 0).ok()?));
+/// Returns the scale, in cells per mesh unit, and a place for each chart; `None` if a chart finds no place.
+fn placed(packing: &Packing, options: &AtlasOptions) -> Option<(f64, Attempt)> {
+    let cells = f64::from(packing.cells);
+    if packing.plan.order.is_empty() {
+        // The unit of what stays is that of a page.
+        return Some((cells, packing.attempt(cells, &mut 0).ok()?));
+    }
+    match options.scale {
+        Scale::Largest => {
+            let found = best(packing, options.budget_words)?;
+            Some(grown(packing, found, options))
         }
-        match options.scale {
-            Scale::Largest => {
-                let found = best(packing, options.budget_words)?;
-                Some(grown(packing, found, options))
-            }
-            Scale::TexelsPerUnit(texels) => {
-                let scale = texels * cells / f64::from(options.texture.resolution.longer());
-                Some((scale, packing.attempt(scale, &mut 0).ok()?))
-            }
+        Scale::TexelsPerUnit(texels) => {
+            let scale = texels * cells / f64::from(options.texture.resolution.longer());
+            Some((scale, packing.attempt(scale, &mut 0).ok()?))
         }
     }
 }
