@@ -197,6 +197,44 @@ fn islands_stay_where_they_are() {
     );
 }
 
+/// A single chart grows into the room that an island leaves; beside one that covers the page there is none.
+#[test]
+fn one_chart_takes_what_an_island_leaves() {
+    let square: Chart = (
+        vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
+        vec![[0, 1, 2], [0, 2, 3]],
+    );
+    let options = options(texture(1024, 1024, 1));
+    let beside = |width: f64| {
+        let stay = Stay {
+            map: ChartMap {
+                uv: &[[0.0, 0.0], [width, 0.0], [width, 1.0], [0.0, 1.0]],
+                triangles: &square.1,
+            },
+            island: 0,
+        };
+        let constraints = Constraints {
+            stays: &[stay],
+            ..Constraints::default()
+        };
+        packed(std::slice::from_ref(&square), &constraints, &options)
+    };
+    let atlas = beside(0.5).expect("a layout");
+    let [left, right] = bounds(&uvs(&atlas, 0));
+    assert!(
+        0.5 < left[0] && 0.47 < right[0] - left[0],
+        "{left:?} {right:?}"
+    );
+    assert_eq!(beside(1.0).expect_err("no room"), ConstraintError::NoRoom);
+}
+
+fn bounds(points: &[[f64; 2]]) -> [[f64; 2]; 2] {
+    let by = |start: f64, of: fn(f64, f64) -> f64| {
+        [0, 1].map(|axis| points.iter().fold(start, |most, p| of(most, p[axis])))
+    };
+    [by(f64::INFINITY, f64::min), by(f64::NEG_INFINITY, f64::max)]
+}
+
 #[test]
 fn without_constraints_pages_are_about_as_full() {
     for n in [2, 9, 30] {

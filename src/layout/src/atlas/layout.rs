@@ -199,7 +199,8 @@ pub(super) fn best(packing: &Packing, budget_words: u64) -> Option<(f64, Attempt
             let is_ended = (packing.on_read)(0) == Control::Finish;
             let is_read = work > most_words && failed.min(scale) < good * FAIR;
             let enough = tried >= ATTEMPTS[0] || is_read || failed < good * NEAR;
-            if enough || is_ended || packing.plan.order.len() <= 1 || scale == before {
+            let is_alone = packing.plan.order.len() <= 1 && packing.taken.is_none();
+            if enough || is_ended || is_alone || scale == before {
                 break;
             }
             if scale >= failed || scale <= good {

@@ -27,6 +27,8 @@ use unwrapd_method::solver::Control;
 
 /// Free cells around pages beyond the reach of charts: the used part of a page may be rounded down.
 const FRAME: u32 = 4;
+/// Smallest share of the pages that is assumed to be free: islands that stay may cover each other.
+const LEAST_FREE: f64 = 1e-3;
 /// Maximum number of cells along the side of the raster for a few charts that are then squeezed. On a raster that is four times as fine,
 /// the search takes four times as long, and the squeezed layouts are no fuller.
 const SQUEEZED_CELLS: u32 = 256;
@@ -197,10 +199,11 @@ impl Problem<'_> {
             taken: None,
             free: f64::from(texture.pages) * texture.share(),
         };
-        let taken = self.taken(&packing);
-        packing.taken = Some(&taken);
+        let occupied = self.taken(&packing);
+        packing.taken = Some(&occupied);
         let sizes = self.obstacles.iter().map(|it| it.outline.size);
-        packing.free -= sizes.map(|size| size * size).sum::<f64>();
+        let taken: f64 = sizes.map(|size| size * size).sum();
+        packing.free = (packing.free - taken).max(LEAST_FREE * packing.free);
         let (scale, attempt) = placed(&packing, options)?;
         let cell = texture.grid_side() / f64::from(cells);
         let longer = f64::from(texture.resolution.longer());
