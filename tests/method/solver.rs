@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use unwrapd_method::barrier::{Barrier, BarrierKind};
 use unwrapd_method::energy::{DensityKind, RestShape, Triangles};
 use unwrapd_method::solver::{
-    Control, Iterate, Objective, Projection, Settings, Status, best_scale, minimize,
+    Control, Iterate, Objective, Projection, RigidMotions, Settings, Status, best_scale, minimize,
 };
 
 use crate::taylor::assert_taylor;
@@ -238,6 +238,22 @@ fn fixed_vertices_stay_and_the_rest_moves() {
         "{summary:?}"
     );
     assert!(x != before);
+}
+
+#[test]
+fn a_hessian_that_nothing_holds_is_regularized_all_the_same() {
+    // Said to be held, but free: its Hessian is singular.
+    let grid = grid(8);
+    let (energy, kind) = (DensityKind::SymmetricDirichlet, BarrierKind::None);
+    let mut objective = grid.objective(&grid.flat_rest(), &energy, kind);
+    objective.set_rigid_motions(RigidMotions::Held);
+    let mut x = grid.start();
+    let summary = minimize(&mut objective, &mut x, &Settings::normal(), &NO_WATCH);
+    assert_eq!(summary.status, Status::Converged);
+    assert!(
+        (summary.energy_last / 128.0 - 1.0).abs() < 1e-5,
+        "{summary:?}"
+    );
 }
 
 #[test]

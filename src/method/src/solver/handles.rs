@@ -158,6 +158,26 @@ impl Handles {
         Ok(())
     }
 
+    /// Returns the handles without the vertices that are not `kept`, for `dim` coordinates per position; all paths
+    /// are straight.
+    #[must_use]
+    pub fn kept(&self, dim: usize, is_kept: impl Fn(&u32) -> bool) -> Self {
+        let groups = self.groups();
+        let kept = (0..self.vertices.len()).filter(|&i| is_kept(&self.vertices[i]));
+        let kept: Vec<usize> = kept.collect();
+        Self {
+            vertices: kept.iter().map(|&i| self.vertices[i]).collect(),
+            targets: (kept
+                .iter()
+                .flat_map(|&i| &self.targets[dim * i..dim * (i + 1)]))
+            .copied()
+            .collect(),
+            groups: kept.iter().map(|&i| groups[i]).collect(),
+            bends: Vec::new(),
+            ..self.clone()
+        }
+    }
+
     /// Returns the number of groups: the largest group number plus one.
     pub fn n_groups(&self) -> usize {
         let groups = self.groups();

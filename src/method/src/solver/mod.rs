@@ -36,6 +36,7 @@ pub use interactive::{InteractiveContinuation, Stage};
 pub use levenberg::{LevenbergSettings, levenberg};
 pub use newton::minimize;
 pub use objective::Objective;
+pub use quadratic_model::RigidMotions;
 pub use scale::best_scale;
 pub use settings::{
     Continued, Control, Iterate, LeastProgress, Projection, Settings, Status, Summary, Watch,

@@ -1,6 +1,6 @@
 //! The function to minimize, with the workspace of its minimization.
 
-use super::quadratic_model::QuadraticModel;
+use super::quadratic_model::{QuadraticModel, RigidMotions};
 use super::settings::{Control, Iterate, Summary, Taken, Watch};
 use crate::energy::{Positional, Term};
 use crate::numerics::block::{BlockPattern, Slots};
@@ -69,6 +69,19 @@ impl Objective {
     /// Fixes these vertices, and no others, in place.
     pub fn fix(&mut self, vertices: &[u32]) {
         self.model.hold(vertices);
+    }
+
+    /// Sets which rigid motions the fixed vertices leave; free ones unless set. Where they leave none, the Hessian needs
+    /// hardly any regularization, and thin bodies converge as fast as others. If it turns out to be singular all the
+    /// same, it is regularized from then on.
+    pub fn set_rigid_motions(&mut self, motions: RigidMotions) {
+        self.model.set_rigid_motions(motions);
+    }
+
+    /// Regularizes the Hessian from the next [`linearize`](Self::linearize) on as if rigid motions were free; returns
+    /// `false` if it is so already.
+    pub(super) fn regularize(&mut self) -> bool {
+        self.model.regularize()
     }
 
     /// Pulls at these points and no others. If each lies within one element, its pairs of vertices are in the pattern

@@ -134,8 +134,8 @@ pub(super) fn newton_direction(
     )
 }
 
-/// Factors the Hessian at `x` by `factored`, removing more and more of its negative curvature until that succeeds.
-/// Returns `None` if it fails even with all of it removed, which happens only when derivatives overflow.
+/// Factors the Hessian at `x` by `factored`, removing more and more of its negative curvature until that succeeds, and
+/// regularizing it at last. Returns `None` if even that fails, which happens only when derivatives overflow.
 pub(super) fn once_definite<T>(
     objective: &mut Objective,
     x: &[f64],
@@ -149,7 +149,7 @@ pub(super) fn once_definite<T>(
         if let Ok(found) = factored(objective) {
             return Some(found);
         }
-        if !relaxation.after_indefinite() {
+        if !relaxation.after_indefinite() && !objective.regularize() {
             return None;
         }
     }
