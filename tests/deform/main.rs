@@ -10,6 +10,7 @@ mod deform;
 mod dragged;
 mod elsewhere;
 mod handles;
+mod harmonic_start;
 mod outline;
 mod own_energy;
 mod picture_warp;
@@ -34,6 +35,7 @@ mod taylor;
 #[allow(dead_code)]
 mod terms;
 mod texture_mapping;
+mod thin;
 mod threads;
 mod turns;
 mod units;

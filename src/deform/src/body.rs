@@ -3,7 +3,7 @@
 use super::problem_error::ProblemError;
 use serde::{Deserialize, Serialize};
 use unwrapd_maps::mesh::{
-    ElementError, PlanarMesh, TetMesh, UsedVertices, boundary_edges, validate,
+    ElementError, PlanarMesh, TetMesh, UsedVertices, boundary_edges, boundary_triangles, validate,
 };
 use unwrapd_method::energy::{RestShape, Row, voronoi_areas};
 use unwrapd_method::numerics::principal_axes::PrincipalAxes;
@@ -231,6 +231,16 @@ impl Body {
             }
         }
         chosen.iter().map(|&v| group[v as usize]).collect()
+    }
+}
+
+impl BodyElements {
+    /// Returns the vertices of the boundary of elements over `n_vertices` vertices, most of them several times.
+    pub(super) fn boundary_vertices(&self, n_vertices: usize) -> Vec<u32> {
+        match self {
+            Self::Triangles { corners, .. } => boundary_edges(n_vertices, corners).into_flattened(),
+            Self::Tetrahedra { corners, .. } => boundary_triangles(corners).into_flattened(),
+        }
     }
 }
 

@@ -15,6 +15,7 @@ pub mod cage;
 mod editor;
 mod handle_path;
 mod handles;
+mod harmonic_start;
 mod missing;
 mod normalized;
 pub mod outline;

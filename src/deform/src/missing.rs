@@ -338,6 +338,18 @@ where
         Ok(())
     }
 
+    /// Continues for at most this many iterations, or to a minimum if the handles arrive within them.
+    pub fn try_out(&mut self, trial: &mut Trial, most: usize) -> Result<(), ProblemError> {
+        let settings = self.settings;
+        self.settings.max_iterations = most.min(settings.max_iterations);
+        self.go_on(trial, LeastProgress::ANY)?;
+        self.settings = settings;
+        if self.continuation.summary().status == Status::IterationLimit {
+            self.go_on(trial, LeastProgress::ANY)?;
+        }
+        Ok(())
+    }
+
     /// Returns whether it may continue at a slower pace.
     pub fn is_paused(&self) -> bool {
         self.continuation.is_paused()

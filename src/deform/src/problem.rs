@@ -6,13 +6,15 @@ use super::handles::{Aim, Bound, Handle, Turned, bind};
 use super::problem_error::ProblemError;
 use super::untangle::{bad_elements, untangled};
 use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
 use std::fmt;
 use unwrapd_api::options::options;
 use unwrapd_maps::mesh::UnionFind;
 use unwrapd_maps::plane::are_disjoint;
 use unwrapd_method::barrier::{Barrier, BarrierKind};
 use unwrapd_method::energy::{EnergyKind, Term};
-use unwrapd_method::solver::{Handles, LevenbergSettings};
+use unwrapd_method::numerics::vec3;
+use unwrapd_method::solver::{Handles, LevenbergSettings, RigidMotions};
 
 /// A validated problem with its mesh.
 #[derive(Clone, Debug)]
@@ -183,18 +185,24 @@ impl Problem {
         Ok(self)
     }
 
-    /// Untangles elements of the start at or below ε, moving as little as possible; does nothing without a barrier.
-    /// Handles may move too; their paths then start from there.
+    /// Untangles elements of the start at or below ε, moving as little as possible; does nothing if neither the energy
+    /// nor the barrier forbids inversions.
+    ///
+    /// Handles that are exactly at their first targets stay there; others may move, and their paths then start from
+    /// there.
+    ///
+    /// # Errors
+    /// If no start without inversions is found.
     pub fn untangle_start(&mut self) -> Result<(), ProblemError> {
-        if self.barrier.kind == BarrierKind::None {
+        if !self.forbids_inversion() {
             return Ok(());
         }
-        let epsilon = self.barrier.epsilon;
+        let epsilon = self.floor();
         let bad = bad_elements(&self.body, &self.start, epsilon);
         let Some(&element) = bad.first() else {
             return Ok(());
         };
-        let Some(start) = untangled(&self.body, &self.start, &[], epsilon) else {
+        let Some(start) = untangled(&self.body, &self.start, &self.arrived(), epsilon) else {
             return Err(ProblemError::InfeasibleStart {
                 element,
                 determinant: self.body.determinants_at(&self.start)[element],
@@ -204,6 +212,28 @@ impl Problem {
         self.start = start;
         self.untangled = bad.len();
         Ok(())
+    }
+
+    /// Returns the bound that determinants must exceed in a valid map.
+    pub(super) fn floor(&self) -> f64 {
+        match self.barrier.kind {
+            BarrierKind::None => 0.0,
+            _ => self.barrier.epsilon,
+        }
+    }
+
+    /// Returns the held vertices that are exactly at their first targets.
+    pub(super) fn arrived(&self) -> Vec<u32> {
+        let Some(first) = self.stations.first() else {
+            return Vec::new();
+        };
+        let dim = self.body.dim();
+        let place = |v: u32| &self.start[dim * v as usize..dim * (v as usize + 1)];
+        let targets = first.targets.chunks_exact(dim);
+        let held = first.vertices.iter().zip(targets);
+        held.filter(|(v, target)| place(**v) == *target)
+            .map(|(v, _)| *v)
+            .collect()
     }
 
     /// Returns whether the energy or the barrier keeps every element from inverting.
@@ -276,8 +306,71 @@ impl Problem {
     }
 }
 
+// Rigid motions that the handles leave.
+
+/// Least sine of the angle at which held vertices count as off a line: a part whose held vertices are nearer to one is
+/// as good as free to turn about it.
+const OFF_A_LINE: f64 = 1e-6;
+
+impl Problem {
+    /// Returns the rigid motions that the held vertices leave to parts of the body. Elements that share no more than a
+    /// hinge, a vertex or in space an edge, belong to different parts here.
+    pub(super) fn rigid_motions(&self) -> RigidMotions {
+        let dim = self.body.dim();
+        let mut is_held = vec![false; self.body.n_vertices()];
+        for &v in self.stations.first().into_iter().flat_map(|h| &h.vertices) {
+            is_held[v as usize] = true;
+        }
+        let (part, n_parts) = rigid_parts(&self.body);
+        let mut held: Vec<Vec<[f64; 3]>> = vec![Vec::new(); n_parts];
+        for (element, part) in self.body.corners().into_iter().zip(part) {
+            for &v in element.iter().filter(|&&v| is_held[v as usize]) {
+                let place = &self.start[dim * v as usize..dim * (v as usize + 1)];
+                let in_space = std::array::from_fn(|k| place.get(k).copied().unwrap_or(0.0));
+                held[part as usize].push(in_space);
+            }
+        }
+        if held.iter().all(|places| spans(places, dim - 1)) {
+            RigidMotions::Held
+        } else {
+            RigidMotions::Free
+        }
+    }
+}
+
+/// Returns for each element the number of its part, connected by common edges or in space triangles, and the number of
+/// parts.
+fn rigid_parts(body: &Body) -> (Vec<u32>, usize) {
+    let corners = body.corners();
+    let mut sets = UnionFind::new(corners.len());
+    let mut first_at: HashMap<Vec<u32>, u32> = HashMap::new();
+    for (element, corners) in (0..).zip(&corners) {
+        for opposite in *corners {
+            let mut facet: Vec<u32> = corners.iter().copied().filter(|v| v != opposite).collect();
+            facet.sort_unstable();
+            let first = *first_at.entry(facet).or_insert(element);
+            sets.unite(first, element);
+        }
+    }
+    sets.labels()
+}
+
+/// Returns whether places are not all on one point, or, where `rank` is 2, on one line.
+fn spans(places: &[[f64; 3]], rank: usize) -> bool {
+    let Some((&first, others)) = places.split_first() else {
+        return false;
+    };
+    let arms = || others.iter().map(|&place| vec3::sub(place, first));
+    let longest = arms().max_by(|a, b| vec3::norm(*a).total_cmp(&vec3::norm(*b)));
+    let Some(longest) = longest.filter(|&arm| vec3::norm(arm) > 0.0) else {
+        return false;
+    };
+    let off = |arm: [f64; 3]| vec3::norm(vec3::cross(arm, vec3::unit(longest)));
+    rank < 2 || arms().any(|arm| off(arm) > OFF_A_LINE * vec3::norm(longest))
+}
+
 /// Returns the part number of each vertex, and the number of parts.
-fn parts(body: &Body) -> (Vec<u32>, usize) {
+pub(super) fn parts(body: &Body) -> (Vec<u32>, usize) {
     let mut sets = UnionFind::new(body.n_vertices());
     for element in body.corners() {
         for &v in &element[1..] {

@@ -48,7 +48,8 @@ impl Problem {
     /// Minimizes the energy with the handles at their targets; each station is settled before the next
     /// ([`follow`](unwrapd_method::solver::follow)). With a barrier no iterate has an inversion.
     ///
-    /// Handles that change places block each other. If they do not arrive on straight paths, up to eight sets of bent
+    /// A boundary that is held as a whole and does not follow soon starts at its targets, from the harmonic map,
+    /// untangled. Handles that change places block each other. If they do not arrive on straight paths, up to eight sets of bent
     /// paths from the start and the [flow](unwrapd_method::solver::follow_softly()) are tried. If no attempt reaches all
     /// targets, each handle that can be reached alone is, and [`unreached`](Self::unreached) names the rest. With
     /// [`search`](Self::search) all bent paths are tried, and the map with the lowest energy is the solution.
@@ -162,16 +163,20 @@ impl Problem {
     pub(super) fn objective(&self) -> Result<Objective, ProblemError> {
         let terms = self.terms(self.barrier)?;
         let n_vertices = self.body.n_vertices();
-        let Some(handles) = self.stations.first().filter(|h| !h.points.is_empty()) else {
-            return Ok(Objective::of_terms(n_vertices, terms));
+        let mut objective = match self.stations.first().filter(|h| !h.points.is_empty()) {
+            None => Objective::of_terms(n_vertices, terms),
+            Some(handles) => {
+                let points = Positional {
+                    dim: self.body.dim(),
+                    rows: handles.points.clone(),
+                    targets: handles.point_targets.clone(),
+                    alpha: 0.0,
+                };
+                Objective::constrained(n_vertices, terms, points)
+            }
         };
-        let points = Positional {
-            dim: self.body.dim(),
-            rows: handles.points.clone(),
-            targets: handles.point_targets.clone(),
-            alpha: 0.0,
-        };
-        Ok(Objective::constrained(n_vertices, terms, points))
+        objective.set_rigid_motions(self.rigid_motions());
+        Ok(objective)
     }
 
     pub(super) fn terms(&self, barrier: Barrier) -> Result<Vec<Box<dyn Term>>, ProblemError> {

@@ -1,4 +1,5 @@
-//! Untangling of a start with inverted elements, moving as little of it as possible.
+//! Untangling of a start with inverted elements: held vertices stay exactly in place, the others move as little as
+//! possible.
 //!
 //! The vertices around inverted elements move to a minimum of an energy that is finite where elements are inverted
 //! ([`FoldoverFree`]); all others stay fixed. If that does not help, wider rings of vertices may move, at last all.
@@ -23,21 +24,29 @@ const WIDENING: usize = 3;
 /// Most changes of ε before more vertices may move.
 const ROUNDS: usize = 60;
 
-/// Newton steps in a round, and at the end.
-const STEPS: usize = 20;
+/// Least share of its inversion that the worst element of a patch loses in each round; more vertices may move if it
+/// loses less. A patch that can be untangled takes one or two rounds, one that its surroundings keep tangled would use
+/// up all of them. Once all vertices may move, there is nothing to give up for.
+const LEAST_GAIN: f64 = 0.1;
+
+/// Newton steps in a round, and at the end. A round that ends before its minimum lets ε fall too early: with 20 steps a
+/// sheet laid along a spiral of 1.6 turns stayed tangled that takes four rounds with 60.
+const STEPS: usize = 60;
 const LAST_STEPS: usize = 50;
 
 /// Regularized determinant of the worst element in the first round: a tenth of an ordinary element's.
 const FIRST: f64 = 0.1;
 
-/// λ and the largest ε. An element that has shrunk to a point costs λ/ε, at least 4, one at rest less than 1 + λ, 3: if
-/// the former were smaller, a body that nothing holds would vanish.
+/// λ and, where some of the boundary is free, the largest ε. An element that has shrunk to a point costs λ/ε, at least
+/// 4, one at rest less than 1 + λ, 3: if the former were smaller, a body that nothing holds would vanish. A fixed
+/// boundary keeps the size within, and a bound would only make the first energies steep.
 const SIZE: f64 = 2.0;
 const LARGEST: f64 = 0.5;
 
 /// Smallest and largest share of the energy that a round is taken to have gained, so that ε falls even after no gain,
-/// and not all at once after a complete one.
-const GAINS: [f64; 2] = [0.1, 0.9];
+/// and not all at once after a complete one. The paper's least gain is a tenth; after a round of Newton steps, which
+/// come nearer to the minimum than those of a quasi-Newton method, a half needs a quarter of the rounds.
+const GAINS: [f64; 2] = [0.5, 0.9];
 
 /// Returns the indices of elements that are inverted, empty, or of a determinant of at most `floor` with the vertices
 /// at `x`.
@@ -64,22 +73,30 @@ fn place<const D: usize>(x: &[f64], vertex: u32) -> [f64; D] {
 /// Finds positions near `x` with every determinant above `floor` and the vertices `held` fixed; returns `None` if it
 /// fails.
 ///
-/// Vertices outside the rings around bad elements that had to move stay bit for bit.
+/// Vertices outside the rings around bad elements that had to move stay bit for bit, and so do the held ones.
 pub(super) fn untangled(body: &Body, x: &[f64], held: &[u32], floor: f64) -> Option<Vec<f64>> {
     if !x.iter().all(|x| x.is_finite()) {
         return None;
     }
     let bad = bad_elements(body, x, floor);
-    // Free wider and wider rings around the bad elements.
+    // Free wider and wider rings around the bad elements; all vertices once most would move.
     let mut rings = RINGS;
     loop {
         let mut is_free = around(body, &bad, rings);
-        let is_all = is_free.iter().all(|&free| free);
+        let is_all = 2 * is_free.iter().filter(|&&free| free).count() > is_free.len();
+        if is_all {
+            is_free.fill(true);
+        }
         for &v in held {
             is_free[v as usize] = false;
         }
         let mut moved = x.to_vec();
-        Patch::new(body, &is_free).untangle(&mut moved);
+        let least_gain = if is_all {
+            f64::NEG_INFINITY
+        } else {
+            LEAST_GAIN
+        };
+        Patch::new(body, x, &is_free).untangle(&mut moved, least_gain);
         if bad_elements(body, &moved, floor).is_empty() {
             return Some(moved);
         }
@@ -116,17 +133,20 @@ fn around(body: &Body, elements: &[usize], rings: usize) -> Vec<bool> {
     is_near
 }
 
-/// The elements around vertices that may move, with their own numbering of vertices.
+/// The elements around vertices that may move, with their own numbering of vertices. Its rest shapes are scaled so that
+/// it has its present size.
 struct Patch {
     /// Index in the body of each vertex.
     vertices: Vec<u32>,
     /// Vertices that stay fixed, in this numbering.
     fixed: Vec<u32>,
+    /// Largest ε.
+    largest: f64,
     elements: BodyElements,
 }
 
 impl Patch {
-    fn new(body: &Body, is_free: &[bool]) -> Self {
+    fn new(body: &Body, x: &[f64], is_free: &[bool]) -> Self {
         let corners = body.corners();
         let has_free = |element: &&[u32]| element.iter().any(|&v| is_free[v as usize]);
         let kept: Vec<usize> = (0..corners.len())
@@ -134,28 +154,35 @@ impl Patch {
             .collect();
         let used = kept.iter().flat_map(|&e| corners[e].iter().copied());
         let vertices = UsedVertices::new(used);
+        let unit = present_unit(body, x, &kept);
         let elements = match &body.elements {
             BodyElements::Triangles { corners, rest } => BodyElements::Triangles {
                 corners: part(&kept, corners, &vertices),
-                rest: kept.iter().map(|&e| rest[e]).collect(),
+                rest: kept.iter().map(|&e| rest[e].in_unit(unit)).collect(),
             },
             BodyElements::Tetrahedra { corners, rest } => BodyElements::Tetrahedra {
                 corners: part(&kept, corners, &vertices),
-                rest: kept.iter().map(|&e| rest[e]).collect(),
+                rest: kept.iter().map(|&e| rest[e].in_unit(unit)).collect(),
             },
         };
         let vertices = vertices.into_vec();
+        let is_fixed = |v: &u32| !is_free[vertices[*v as usize] as usize];
+        let boundary = elements.boundary_vertices(vertices.len());
         Self {
-            fixed: (0..vertices.len() as u32)
-                .filter(|v: &u32| !is_free[vertices[*v as usize] as usize])
-                .collect(),
+            largest: if boundary.iter().all(is_fixed) {
+                f64::INFINITY
+            } else {
+                LARGEST
+            },
+            fixed: (0..vertices.len() as u32).filter(is_fixed).collect(),
             vertices,
             elements,
         }
     }
 
-    /// Moves the free vertices in `x` until all elements of the patch are positive, if it can.
-    fn untangle(&self, x: &mut [f64]) {
+    /// Moves the free vertices in `x` until all elements of the patch are positive, if it can. Gives up if the worst
+    /// element loses less than the share `least_gain` of its inversion in a round.
+    fn untangle(&self, x: &mut [f64], least_gain: f64) {
         let mut own: Vec<f64> = self.coordinates().map(|i| x[i]).collect();
         let mut objective = Objective::new(self.vertices.len(), self.term(0.0));
         objective.fix(&self.fixed);
@@ -169,10 +196,14 @@ impl Patch {
                 break;
             }
             // With this ε the worst element's regularized determinant is `worst`.
-            let epsilon = (2.0 * (worst * (worst - smallest)).sqrt()).min(LARGEST);
+            let epsilon = (2.0 * (worst * (worst - smallest)).sqrt()).min(self.largest);
             objective.exchange(vec![self.term(epsilon)]);
             let gain = descend(&mut objective, &mut own, STEPS).clamp(GAINS[0], GAINS[1]);
-            worst = (1.0 - gain) * density(epsilon).regularized(objective.smallest(&own));
+            let reached = objective.smallest(&own);
+            if reached < (1.0 - least_gain) * smallest {
+                break;
+            }
+            worst = (1.0 - gain) * density(epsilon).regularized(reached);
         }
         for (i, own) in self.coordinates().zip(own) {
             x[i] = own;
@@ -199,6 +230,21 @@ impl Patch {
                 Box::new(Tetrahedra::new(corners, rest, density, NoBarrier))
             }
         }
+    }
+}
+
+/// Returns the unit of length in which these elements at `x` have in total the signed size that they have at rest; 1 if
+/// their size is not positive.
+///
+/// The energy prefers elements of their size at rest. Where vertices all around are held, the total size is that which
+/// they enclose, whatever the others do.
+fn present_unit(body: &Body, x: &[f64], elements: &[usize]) -> f64 {
+    let total = |sizes: Vec<f64>| elements.iter().map(|&e| sizes[e]).sum::<f64>();
+    let ratio = total(body.determinants_at(x)) / total(body.determinants());
+    if ratio > 0.0 {
+        ratio.powf(-1.0 / body.dim() as f64)
+    } else {
+        1.0
     }
 }
 
