@@ -8,6 +8,7 @@ use unwrapd_method::energy::{DensityKind, DisplacementKind, EnergyKind, RestShap
 use unwrapd_method::numerics::square::{Square, times, transposed};
 use unwrapd_method::solver::{Control, Handles, Iterate, Path, Settings, Status};
 
+use crate::bodies::sheet;
 use crate::pulled::{bar, bent_strip, problem, strip, twisted_bar};
 
 const ENERGIES: [EnergyKind; 10] = [
@@ -188,15 +189,16 @@ fn an_arap_map_scales_with_the_unit() {
 
 #[test]
 fn targets_out_of_reach_end_in_a_valid_map() {
-    // Three neighbors in a row are to come to one line: their triangles would be empty.
-    let body = Body::from(&strip(4, 1.0));
-    let targets = vec![0.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0, 0.25];
+    // The ring around a vertex is to be mirrored: the triangles around the vertex would be inverted.
+    let body = Body::from(&sheet(4));
+    let ring = [6, 7, 11, 13, 17, 18];
+    let mirrored = ring.map(|v: usize| [4.0 - body.rest[2 * v], body.rest[2 * v + 1]]);
     let problem = problem(
         body,
         DensityKind::Arap.into(),
         BarrierKind::InverseSpline,
-        &[0, 1, 3, 4],
-        targets,
+        &ring.map(|v| v as u32),
+        mirrored.concat(),
     );
     let solution = problem
         .solve(&Settings::follow(), &go_on)

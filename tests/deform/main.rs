@@ -9,6 +9,7 @@ mod coarse_cage;
 mod deform;
 mod dragged;
 mod elsewhere;
+mod feasibility;
 mod handles;
 mod harmonic_start;
 mod outline;

@@ -13,6 +13,7 @@ mod body;
 pub mod boundary_barrier;
 pub mod cage;
 mod editor;
+mod feasibility;
 mod handle_path;
 mod handles;
 mod harmonic_start;

@@ -18,6 +18,10 @@ use unwrapd_method::solver::{
 const MOST: usize = 1000;
 const MOST_EACH: usize = 300;
 
+/// Most iterations of an approach to targets that are known to be out of reach: a few dozen lead next to the obstacle,
+/// more only crush the elements there.
+const MOST_APPROACHING: usize = 30;
+
 /// Distance from their targets, in edges of a mean element, within which handles are moved there together.
 const NEAR: f64 = 2.0;
 
@@ -98,6 +102,15 @@ where
         self.reach(trial, vec![self.away.clone()])
     }
 
+    /// Moves the missing handles toward their targets on a short straight path, and returns where they came.
+    pub fn approach(mut self, trial: &mut Trial) -> Result<Solution, ProblemError> {
+        let set = self.away.clone();
+        if !set.is_empty() {
+            self.try_path(trial, &set, 0.0, MOST_APPROACHING)?;
+        }
+        Ok(self.into_solution(trial))
+    }
+
     /// Returns the map as a solution.
     pub fn into_solution(self, trial: &Trial) -> Solution {
         let status = if self.is_stopped {
@@ -143,21 +156,34 @@ where
             if self.is_stopped {
                 break;
             }
-            // Keep the map of each attempt, even where the parts did not arrive.
-            let station = self.only(set, side);
-            let x = std::mem::take(&mut self.x);
-            let mut attempt = PathAttempt::<D>::new(trial, x, vec![station], most)?;
-            attempt.go_on(trial, LeastProgress::BRISK)?;
-            let has_arrived = attempt.has_arrived();
-            self.is_stopped = attempt.is_stopped();
-            self.energy = attempt.energy();
-            self.x = attempt.into_map();
-            if has_arrived {
-                self.away.retain(|part| !set.contains(part));
+            if self.try_path(trial, set, side, most)? {
                 return Ok(true);
             }
         }
         Ok(false)
+    }
+
+    /// Tries to bring these parts to their targets on paths with the bend `side` to the left; returns whether they
+    /// arrive. Keeps the map even if they do not.
+    fn try_path(
+        &mut self,
+        trial: &mut Trial,
+        set: &[usize],
+        side: f64,
+        most: usize,
+    ) -> Result<bool, ProblemError> {
+        let station = self.only(set, side);
+        let x = std::mem::take(&mut self.x);
+        let mut attempt = PathAttempt::<D>::new(trial, x, vec![station], most)?;
+        attempt.go_on(trial, LeastProgress::BRISK)?;
+        let has_arrived = attempt.has_arrived();
+        self.is_stopped = attempt.is_stopped();
+        self.energy = attempt.energy();
+        self.x = attempt.into_map();
+        if has_arrived {
+            self.away.retain(|part| !set.contains(part));
+        }
+        Ok(has_arrived)
     }
 
     /// Returns the handles of these parts with their targets, on paths with the bend `side` to the left, and all others

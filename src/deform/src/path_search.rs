@@ -5,11 +5,12 @@ use super::normalized::Frame;
 use super::problem::Problem;
 use super::problem_error::ProblemError;
 use super::solve::Solution;
+use std::collections::HashSet;
 use unwrapd_method::energy::{Positional, Row};
 use unwrapd_method::numerics::rotation::Rotation;
 use unwrapd_method::numerics::square::{Matrix, Square};
 use unwrapd_method::solver::{
-    Continued, Handles, LeastProgress, RigidMotions, Settings, SoftTargets, Summary, Watch,
+    Continued, Handles, LeastProgress, RigidMotions, Settings, SoftTargets, Status, Summary, Watch,
     follow_softly,
 };
 
@@ -30,11 +31,20 @@ impl Problem {
     /// boundary is held, then paths bent to one side and the other, then soft targets, then other bends. The first that lead to all targets are taken; with
     /// [`search`](Self::search) all bends are tried. A path on which handles creep is abandoned, and only the one that
     /// led farthest is continued. Last, missing handles are tried alone.
+    ///
+    /// Vertices that are known to be out of reach do not hold back the others: these come first, then the former go as
+    /// near as a short straight path leads.
     pub(super) fn solve_ways(
         &self,
+        out_of_reach: &[u32],
         settings: &Settings,
         watch: &dyn Watch,
     ) -> Result<Solution, ProblemError> {
+        if !out_of_reach.is_empty() {
+            let others = self.without(out_of_reach);
+            let solution = others.solve_ways(&[], settings, watch)?;
+            return self.approached(solution, settings, watch);
+        }
         let objective = self.objective()?;
         let mut start = self.start.clone();
         if start == self.body.rest && self.stations.len() == 1 {
@@ -51,6 +61,47 @@ impl Problem {
             tried::<2>(trial, &start)
         } else {
             tried::<3>(trial, &start)
+        }
+    }
+
+    /// Returns the problem without the handles at these vertices.
+    pub(super) fn without(&self, vertices: &[u32]) -> Self {
+        let left_out: HashSet<u32> = vertices.iter().copied().collect();
+        let is_kept = |v: &u32| !left_out.contains(v);
+        let mut problem = self.clone();
+        for handles in &mut problem.stations {
+            *handles = handles.kept(self.body.dim(), is_kept);
+        }
+        for aim in &mut problem.aims {
+            aim.vertices.retain(is_kept);
+        }
+        problem
+    }
+
+    /// Moves the vertices that a solution has left out toward their targets, as far as a short straight path leads.
+    fn approached(
+        &self,
+        solution: Solution,
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> Result<Solution, ProblemError> {
+        if solution.summary.status == Status::Stopped {
+            return Ok(solution);
+        }
+        let mut trial = Trial {
+            total: solution.summary,
+            problem: self,
+            objective: self.objective()?,
+            settings: *settings,
+            watch,
+        };
+        let energy = solution.summary.energy_last;
+        if self.body.dim() == 2 {
+            let missing = Missing::<2>::new(self, &self.start, solution.x, energy);
+            missing.approach(&mut trial)
+        } else {
+            let missing = Missing::<3>::new(self, &self.start, solution.x, energy);
+            missing.approach(&mut trial)
         }
     }
 }

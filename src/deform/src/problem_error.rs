@@ -92,6 +92,30 @@ pub enum ProblemError {
         /// ε.
         epsilon: f64,
     },
+    /// The targets of an element's held corners leave it inverted or empty.
+    #[error("the targets of its held corners leave element {element} inverted or empty")]
+    HeldElement {
+        /// Index of the element.
+        element: usize,
+    },
+    /// The targets of a held boundary enclose no positive signed size.
+    #[error(
+        "the targets of the boundary enclose a signed size of {size:e}, but a map without inversions needs a positive one"
+    )]
+    BoundarySize {
+        /// The signed area or volume within the boundary.
+        size: f64,
+    },
+    /// The targets of a held border turn too little.
+    #[error(
+        "the targets of the boundary make {turns} turns, but a map without inversions needs at least {needed}"
+    )]
+    BoundaryTurning {
+        /// Full turns of the border to the left.
+        turns: i64,
+        /// The Euler characteristic of the part within.
+        needed: i64,
+    },
     /// A number is not in its range.
     #[error("`{name}` must be {range}")]
     BadParameter {
@@ -152,6 +176,9 @@ impl ProblemError {
                 "contradictory_handles"
             }
             Self::InfeasibleStart { .. } => "infeasible_start",
+            Self::HeldElement { .. } => "held_element_inverted",
+            Self::BoundarySize { .. } => "boundary_inverted",
+            Self::BoundaryTurning { .. } => "boundary_turns_too_little",
             Self::BadParameter { .. } => "bad_parameter",
             Self::Formula(_) => "invalid_formula",
             Self::PlanarEnergy => "planar_energy",

@@ -172,7 +172,7 @@ pub(super) fn pull(
         search: how.search,
         ..pulled(body, start, handles, how.model)?
     };
-    let solution = problem.solve(&Settings::follow(), watch)?;
+    let solution = problem.approach(&Settings::follow(), watch)?;
     let unreached = holds.named(problem.unreached(&solution), unit);
     // Move the vertices that arrived onto their targets, exactly.
     let mut vertices = solution.x.as_chunks::<2>().0.to_vec();

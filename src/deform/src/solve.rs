@@ -54,11 +54,51 @@ impl Problem {
     /// targets, each handle that can be reached alone is, and [`unreached`](Self::unreached) names the rest. With
     /// [`search`](Self::search) all bent paths are tried, and the map with the lowest energy is the solution.
     /// Iterations and factorizations are those of all attempts.
+    ///
+    /// # Errors
+    /// If handles do not fit the body, or if their targets contradict every map without inversions.
     pub fn solve(&self, settings: &Settings, watch: &dyn Watch) -> Result<Solution, ProblemError> {
-        let solution =
-            self.solve_in_units(watch, &|problem, watch| problem.solve_ways(settings, watch))?;
+        self.check_handles()?;
+        let out_of_reach = self.uncovered();
+        if out_of_reach.is_empty() {
+            self.check_targets()?;
+        } else {
+            self.without(&out_of_reach).check_targets()?;
+        }
+        self.solve_without(&out_of_reach, settings, watch)
+    }
+
+    /// Like [`solve`](Self::solve), also for targets that contradict every map without inversions: handles then come as
+    /// near as they can.
+    pub(super) fn approach(
+        &self,
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> Result<Solution, ProblemError> {
+        self.check_handles()?;
+        self.solve_without(&self.uncovered(), settings, watch)
+    }
+
+    /// Solves the problem; vertices that are known to be `out_of_reach` hold back no others.
+    fn solve_without(
+        &self,
+        out_of_reach: &[u32],
+        settings: &Settings,
+        watch: &dyn Watch,
+    ) -> Result<Solution, ProblemError> {
+        let solution = self.solve_in_units(watch, &|problem, watch| {
+            problem.solve_ways(out_of_reach, settings, watch)
+        })?;
         let exact = self.rounding();
         Ok(self.checked(solution, exact))
+    }
+
+    /// Checks that the handles fit each other and the body.
+    fn check_handles(&self) -> Result<(), ProblemError> {
+        for handles in &self.stations {
+            handles.check(self.body.dim(), self.start.len())?;
+        }
+        Ok(())
     }
 
     /// Solves the problem by the paper's iteration.
@@ -67,6 +107,7 @@ impl Problem {
         settings: &LevenbergSettings,
         watch: &dyn Watch,
     ) -> Result<Solution, ProblemError> {
+        self.check_handles()?;
         let solution = self.solve_in_units(watch, &|problem, watch| {
             problem.iterate_softly(settings, watch)
         })?;
@@ -80,9 +121,6 @@ impl Problem {
         watch: &dyn Watch,
         solve: &dyn Fn(&Self, &dyn Watch) -> Result<Solution, ProblemError>,
     ) -> Result<Solution, ProblemError> {
-        for handles in &self.stations {
-            handles.check(self.body.dim(), self.start.len())?;
-        }
         let solution = match self.units {
             Units::Given => solve(self, watch)?,
             Units::Normalized => {

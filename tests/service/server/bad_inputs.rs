@@ -269,6 +269,12 @@ async fn problems_that_cannot_be_solved_have_codes() {
         ),
         bad(
             "solve",
+            problem("[1.5, 0.5]", "[-1.5, 0.5]"),
+            "",
+            "held_element_inverted",
+        ),
+        bad(
+            "solve",
             problem("[0, 3, 2]", "[0, 3]"),
             "",
             "unpaired_handles",

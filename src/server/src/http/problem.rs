@@ -255,7 +255,7 @@ codes! {
 // Codes of invalid inputs. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Codes with their meanings.
-pub(super) const CAUSES: [(&str, &str); 64] = [
+pub(super) const CAUSES: [(&str, &str); 67] = [
     // Handles.
     ("malformed_handles", "The list of handles cannot be parsed"),
     ("no_handle", "There is no handle"),
@@ -425,6 +425,18 @@ pub(super) const CAUSES: [(&str, &str); 64] = [
     (
         "infeasible_start",
         "An element of the start is inverted or too small, and untangling failed",
+    ),
+    (
+        "held_element_inverted",
+        "The targets of its held corners leave an element inverted or empty",
+    ),
+    (
+        "boundary_inverted",
+        "The targets of the boundary enclose no positive signed size",
+    ),
+    (
+        "boundary_turns_too_little",
+        "The targets of the boundary turn less often than a map without inversions needs",
     ),
     (
         "planar_energy",
