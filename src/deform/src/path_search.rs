@@ -28,9 +28,9 @@ const FEW: f64 = 0.25;
 
 impl Problem {
     /// Finds the best map within a bounded effort. Straight paths come first, or a start at the targets where the whole
-    /// boundary is held, then paths bent to one side and the other, then soft targets, then other bends. The first that lead to all targets are taken; with
-    /// [`search`](Self::search) all bends are tried. A path on which handles creep is abandoned, and only the one that
-    /// led farthest is continued. Last, missing handles are tried alone.
+    /// boundary is held, then paths bent to one side and the other, then soft targets, then other bends. The first that
+    /// lead to all targets are taken; with [`search`](Self::search) all bends are tried. A path on which handles creep is
+    /// abandoned, and only the one that led farthest is continued. Last, missing handles are tried alone.
     ///
     /// Vertices that are known to be out of reach do not hold back the others: these come first, then the former go as
     /// near as a short straight path leads.
