@@ -269,7 +269,7 @@ async fn problems_that_cannot_be_solved_have_codes() {
         ),
         bad(
             "solve",
-            problem("[1.5, 0.5]", "[-1.5, 0.5]"),
+            problem("[0, 1]", "[0, 0]"),
             "",
             "held_element_inverted",
         ),
