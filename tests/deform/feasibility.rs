@@ -121,7 +121,7 @@ fn a_boundary_without_a_positive_size_is_refused() {
 
 #[test]
 fn a_border_that_turns_too_little_is_refused() {
-    // A figure of eight of positive area, one loop of which is larger than the other: it makes no turn.
+    // A figure of eight with one loop larger than the other has a positive area, but its turning is zero.
     let disk = rings(3, true);
     let eight = |[x, y]: [f64; 2]| {
         let angle = y.atan2(x);

@@ -43,7 +43,7 @@ fn a_lone_strip_stays_whole() {
     }
 }
 
-/// What costs nothing is cut for any gain.
+/// Without a price of seams, every cut that gains anything is made.
 #[test]
 fn a_lone_strip_is_cut_if_seams_are_free() {
     let free = Cutting {
@@ -54,7 +54,7 @@ fn a_lone_strip_is_cut_if_seams_are_free() {
     assert!(unwrapped.charts.len() > 1);
 }
 
-/// Many cards, one of which is long, stay one chart each.
+/// Each of many cards stays one chart, even if one card is long.
 #[test]
 fn cards_stay_whole() {
     let lengths = [10, 3, 4, 5, 3, 4];

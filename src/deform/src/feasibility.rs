@@ -193,8 +193,8 @@ struct HeldPart<const D: usize> {
     n_elements: usize,
 }
 
-/// Returns the parts with a held boundary of a planar body; none if its triangles are no oriented surface, which those
-/// of a surface in space need not be.
+/// Returns the parts of a planar body whose boundary is held. The list is empty if the triangles form no oriented surface,
+/// as those of a surface in space may not.
 fn held_borders(body: &Body, triangles: &[[u32; 3]], held: &HeldPlaces<2>) -> Vec<HeldPart<2>> {
     let edges = Edges::new(body.n_vertices(), triangles);
     let is_surface = edges.iter().all(|halfedges| match *halfedges {

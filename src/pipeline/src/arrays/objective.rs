@@ -66,7 +66,7 @@ pub struct Objective {
 }
 
 impl Objective {
-    /// Creates the objective for charts of a surface of so many components; `seam_weight` multiplies the cost of seams.
+    /// Creates the objective for charts of a surface with `n_components` components; `seam_weight` multiplies the cost of seams.
     pub fn new(
         charts: &[MappedChart],
         n_components: usize,

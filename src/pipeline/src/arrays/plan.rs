@@ -134,7 +134,7 @@ impl Plan {
         })
     }
 
-    /// Returns the terms of cuts that only make the atlas fuller, for a mesh of so many components; `None` if no chart is
+    /// Returns the terms of cuts that only make the atlas fuller, for a mesh with `n_components` components; `None` if no chart is
     /// cut for that.
     pub fn cut_terms(&self, n_components: usize) -> Option<CutTerms> {
         self.compaction.map(|seam_weight| CutTerms {
