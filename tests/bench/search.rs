@@ -1,8 +1,9 @@
-//! The search for where to cut, beside the cutters of today.
+//! The search for where to cut, beside the cutters.
 //!
 //! `cargo bench --bench search -- [--bound E] FILE.obj…` prints for each file and way: charts, seam length over the root of
-//! the area, processor seconds on one thread, and how many faces were mapped for each face of the file. Ways: `today`, without
-//! cuts for fill and symmetry; `pieces`, the search from pieces; `charts`, the search from today's charts.
+//! the area, processor seconds on one thread, and how many faces were mapped and predicted for each face of the file. Ways:
+//! `cutters`, without cuts for fill and symmetry; `pieces`, the search from pieces; `charts`, the search from the charts of the
+//! cutters, with the effort of the program and without a limit.
 
 #[expect(dead_code, reason = "only processor time is wanted")]
 mod clock;
@@ -16,7 +17,7 @@ use std::sync::Arc;
 use unwrapd_layout::charts::{
     Bound, Bounded, MappedChart, Symmetry, Unobserved, charts_under_bound, seam_length,
 };
-use unwrapd_layout::search::{Counts, from_charts, from_pieces};
+use unwrapd_layout::search::{Effort, Terms, from_charts, from_pieces};
 use unwrapd_maps::embed::Options;
 use unwrapd_maps::mesh::Surface;
 use unwrapd_method::energy::SymmetricDirichlet;
@@ -59,23 +60,34 @@ fn report(file: &str, bound: &Bound) {
     };
     let price = NO_CUTS_FOR_FILL;
     let clock = Clock::start();
-    let today = charts_under_bound(&surface, bound, price, &options, Symmetry::Off, &Unobserved);
-    line(file, "today", &today, &clock, None);
+    let cut = charts_under_bound(&surface, bound, price, &options, Symmetry::Off, &Unobserved);
+    line(file, "cutters", &cut, &clock, Effort::UNBOUNDED);
     let clock = Clock::start();
     let (charts, counts) = from_pieces(&surface, bound, &options, &Unobserved);
-    line(file, "pieces", &charts, &clock, Some(counts));
-    let clock = Clock::start();
-    let (charts, counts) = from_charts(&surface, &today, bound, &options, &Unobserved);
-    line(file, "charts", &charts, &clock, Some(counts));
+    line(file, "pieces", &charts, &clock, counts.effort);
+    let faces = surface.triangles.len();
+    let efforts = [
+        ("charts", Effort::for_surface(faces, faces)),
+        ("charts, unbounded", Effort::UNBOUNDED),
+    ];
+    for (way, effort) in efforts {
+        let clock = Clock::start();
+        let cut = cut.clone();
+        let terms = Terms {
+            effort,
+            ..Terms::default()
+        };
+        let (charts, counts) = from_charts(&surface, cut, bound, &terms, &options, &Unobserved);
+        line(file, way, &charts, &clock, counts.effort);
+    }
 }
 
-fn line(file: &str, way: &str, charts: &[MappedChart], clock: &Clock, counts: Option<Counts>) {
+fn line(file: &str, way: &str, charts: &[MappedChart], clock: &Clock, effort: Effort) {
     let area: f64 = charts.iter().map(MappedChart::surface_area).sum();
     let faces: usize = charts.iter().map(|map| map.chart.corners.len()).sum();
     let per_face = |n: usize| n as f64 / faces as f64;
-    let counts = counts.unwrap_or_default();
-    let mapped = per_face(counts.mapped_faces);
-    let predicted = per_face(counts.predicted_faces);
+    let mapped = per_face(effort.mapped_faces);
+    let predicted = per_face(effort.predicted_faces);
     println!(
         "{file} {way}: {} charts, seam {:.3}, {:.2} s, {mapped:.0} maps and {predicted:.0} predictions per face",
         charts.len(),

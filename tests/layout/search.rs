@@ -6,7 +6,7 @@ use std::sync::Arc;
 use unwrapd_layout::charts::{
     Bound, Bounded, Cut, Folds, MappedChart, Unobserved, charts, map_chart, seam_length,
 };
-use unwrapd_layout::search::{from_charts, from_pieces};
+use unwrapd_layout::search::{Effort, Terms, from_charts, from_pieces};
 use unwrapd_maps::certificate::{Claims, certify};
 use unwrapd_maps::embed::Options;
 use unwrapd_maps::mesh::Surface;
@@ -40,6 +40,13 @@ fn divided(mesh: &Mesh, mean: f64) -> Vec<MappedChart> {
     let (charts, _) = from_pieces(&surface, &bound(mean), &options(), &Unobserved);
     check(&surface, &charts);
     charts
+}
+
+/// Mapped charts whose normals lie within a cone: more than are needed.
+fn cut(surface: &Surface) -> Vec<MappedChart> {
+    (charts(surface, Cut::Fast).into_iter())
+        .flat_map(|chart| map_chart(chart, &options(), Folds::Cut, &Unobserved))
+        .collect()
 }
 
 /// Every face is in one chart, and no map has flips or overlaps.
@@ -208,16 +215,94 @@ fn the_bound_is_kept_and_its_slack_is_spent() {
 fn given_charts_get_shorter_seams() {
     let mesh = elbow(12, 8);
     let surface = surface(&mesh);
-    let options = options();
-    let start: Vec<MappedChart> = (charts(&surface, Cut::Fast).into_iter())
-        .flat_map(|chart| map_chart(chart, &options, Folds::Cut, &Unobserved))
-        .collect();
-    let (found, counts) = from_charts(&surface, &start, &bound(4.1), &options, &Unobserved);
+    let start = cut(&surface);
+    let (found, counts) = from_charts(
+        &surface,
+        start.clone(),
+        &bound(4.1),
+        &Terms::default(),
+        &options(),
+        &Unobserved,
+    );
     check(&surface, &found);
     assert!(counts.glued > 0);
     assert!(found.len() < start.len());
     assert!(seam(&found) < seam(&start));
     assert!(energy(&found) <= 4.1, "{}", energy(&found));
+}
+
+/// A unit square, and at a right angle to it a square that widens from a stretch of one of its sides.
+fn hinged(width: f32) -> Mesh {
+    let [low, high] = [0.5 - width / 2.0, 0.5 + width / 2.0];
+    let flat = [
+        [0.0, 0.0],
+        [1.0, 0.0],
+        [1.0, low],
+        [1.0, high],
+        [1.0, 1.0],
+        [0.0, 1.0],
+    ];
+    let upright = [[1.0, 0.3], [1.0, 1.3], [0.0, 1.3], [0.0, 0.3]];
+    let mut positions: Vec<[f32; 3]> = flat.map(|[x, y]| [x, y, 0.0]).to_vec();
+    positions.extend(upright.map(|[y, z]| [1.0, y, z]));
+    Mesh {
+        name: "hinged squares".into(),
+        positions,
+        triangles: vec![
+            [0, 1, 2],
+            [0, 2, 3],
+            [0, 3, 4],
+            [0, 4, 5],
+            [2, 6, 3],
+            [3, 6, 7],
+            [3, 7, 8],
+            [3, 8, 9],
+        ],
+    }
+}
+
+/// Two charts become one where that saves more seam than it costs fill of the page.
+#[test]
+fn a_short_hinge_is_not_worth_a_chart_that_is_too_long_for_the_page() {
+    for (width, n) in [(0.1, 2), (0.9, 1)] {
+        let mesh = hinged(width);
+        let surface = surface(&mesh);
+        let (found, _) = from_charts(
+            &surface,
+            cut(&surface),
+            &bound(4.1),
+            &Terms::default(),
+            &options(),
+            &Unobserved,
+        );
+        check(&surface, &found);
+        assert_eq!(found.len(), n, "a hinge of {width}");
+    }
+}
+
+/// A search that may do nothing, or whose bound is spent, returns what it was given.
+#[test]
+fn charts_stay_without_effort_and_beyond_the_bound() {
+    let mesh = elbow(12, 8);
+    let surface = surface(&mesh);
+    let cut = cut(&surface);
+    let idle = Terms {
+        effort: Effort::for_surface(0, 1),
+        ..Terms::default()
+    };
+    for (terms, mean) in [(idle, 4.1), (Terms::default(), energy(&cut) - 1e-6)] {
+        let (found, counts) = from_charts(
+            &surface,
+            cut.clone(),
+            &bound(mean),
+            &terms,
+            &options(),
+            &Unobserved,
+        );
+        assert_eq!(found.len(), cut.len());
+        assert_eq!(seam(&found), seam(&cut));
+        assert_eq!(counts.maps, 0);
+    }
 }
 
 /// Scale and order change numbers at the size of rounding, not the cut.

@@ -235,7 +235,7 @@ impl MappedChart {
     }
 
     /// What the faces are like on the surface.
-    pub(super) fn rest_shapes(&self) -> RestShapes {
+    pub(crate) fn rest_shapes(&self) -> RestShapes {
         rest_shapes(&self.chart.positions, &self.chart.disk.triangles)
     }
 

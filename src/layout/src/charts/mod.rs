@@ -67,6 +67,7 @@ pub use opened::charts;
 pub use rough::smoothed_where_rough;
 pub use symmetry::plane::MirrorPlane;
 
+pub(crate) use bound::distortion::excess_and_area;
 pub(crate) use observer::Watching;
 pub(crate) use unfold::overlaps::overlaps;
 pub(crate) use unfold::push_apart::pushed_apart;

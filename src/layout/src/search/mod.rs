@@ -1,46 +1,50 @@
-//! One search for where to cut a surface, which grows beside the cutters of [`charts`](crate::charts).
+//! One search for where to cut a surface, which improves what the cutters of [`charts`](crate::charts) make.
 //!
-//! A *net* is a set of faces with its slits and its map. The search minimizes
+//! A *net* is a set of faces with its slits and its map. The search lowers
 //!
 //! ```text
-//! S + n/10   subject to   ∫ (E − 4) ≤ bound
+//! ln(1/2 + S + n/10) + w (1 − F)   subject to   ∫ (E − 4) ≤ bound
 //! ```
 //!
 //! S is the length of the seams, n the number of nets and E the symmetric Dirichlet energy of their maps, in units in which
-//! the surface has area 1: what the [cost of a layout](unwrapd_maps::measure::cost) asks of its seams. It knows no classes
-//! of surfaces. Distortion has a price λ that falls from strict to loose, so what the bound allows is spent where it saves
-//! the most seam. At each price
+//! the surface has area 1. F bounds the fill of a square page: what charts usually fill, or less if one net alone sets the scale; w is its weight. This
+//! is the [cost of a layout](unwrapd_maps::measure::cost) as far as it is known before packing. The search knows no classes of
+//! surfaces. Distortion has a price λ that falls from strict to loose, so what the bound allows is spent where it saves the most seam.
 //!
-//! 1. neighbors are *glued*, best first (`glue`): with no cut between them, which unites tubes; with the slits that both have;
-//!    or at a hinge, one stretch of their border, which makes the nets of polyhedra;
-//! 2. slits are *given back*, whole or by half (`reopen`).
+//! A move opens the faces of one net, or of two neighbors, in another way (`moves`):
+//!
+//! - Neighbors are *glued*: with no cut between them, which unites tubes; with the slits that both have; or at a hinge, one
+//!   stretch of their border, which makes the nets of polyhedra.
+//! - Slits of a net are *given back*, whole or by half.
 //!
 //! To each of these ways, slits are added while they pay (`opening`), by a prediction of the distortion that needs no map
 //! (`prediction`). Only ways that promise to pay are mapped (`net`), from the maps of the parts where these can be laid
-//! together (`laid_together`). A map that flips or overlaps, and cannot be pushed apart, rejects the way.
+//! together (`laid_together`). A map that flips or overlaps, and cannot be pushed apart, rejects the way. Moves wait in one queue, the
+//! one that gains most for its work first, until the effort is spent (`effort`).
 //!
 //! On panels the excess counts 16 times, in the map, the prediction and the bound (`panels`): they stay straight, and what is round
 //! beside them takes the distortion. The bound on this weighted mean is one on the plain mean as well.
 //!
-//! The search starts from facets, joined while they stay nearly developable (`pieces`), or from given charts.
+//! The search starts from given charts, or from facets, joined while they stay nearly developable (`pieces`).
 //!
 //! Every face is in exactly one net, and every net is a disk, possibly with holes, whose map has neither flips nor overlaps.
-//! Not done here: cuts for fill, symmetry, other starts for surfaces of many faces, on which predictions take long.
+//! Not done here: cuts for fill, symmetry, a bound on the stretch.
 mod cut_mesh;
-mod glue;
+mod effort;
 mod laid_together;
 mod metric;
+mod moves;
 mod net;
 mod nets;
 mod opening;
 mod panels;
 mod pieces;
 mod prediction;
-mod reopen;
 mod sets;
 mod state;
 
-use crate::charts::{Bound, MappedChart, Observer};
+use crate::charts::{Bound, MappedChart, Observer, excess_and_area};
+pub use effort::Effort;
 use metric::Metric;
 use net::Net;
 use nets::Nets;
@@ -48,19 +52,38 @@ use panels::{PANEL_FACTOR, panels};
 pub use state::Counts;
 use state::Search;
 use unwrapd_maps::embed;
+use unwrapd_maps::measure::cost::GIVEN_PAGE;
 use unwrapd_maps::mesh::Surface;
 
 /// Prices of the excess, one pass each, from pieces: strict ones make nets of what is flat, loose ones spend the bound. Steps
 /// of 2 instead of 4 give 4 to 7 % less seam for 1.3 times the time.
 const FROM_PIECES: [f64; 5] = [128.0, 32.0, 8.0, 2.0, 0.5];
-/// Prices of the excess from charts that are nearly as distorted as they may be. Steps of 2 give the same seam for half as
-/// much time again; without 32, 46 charts of an asset of small flat parts stay instead of 39.
-const FROM_CHARTS: [f64; 4] = [32.0, 8.0, 2.0, 0.5];
+/// Prices of the excess from charts that are cut already. A third price of 0.5 leaves each less of the effort: seams and charts cost
+/// 5 % more on ten machine parts and game assets (`cargo bench --bench search`).
+const FROM_CHARTS: [f64; 2] = [8.0, 2.0];
+
+/// Terms of a search.
+#[derive(Clone, Copy, Debug)]
+pub struct Terms {
+    /// The most work that may be done.
+    pub effort: Effort,
+    /// Weight of the fill of a square page beside the cost of the seams: 1 over the weight of a seam.
+    pub fill_weight: f64,
+}
+
+impl Default for Terms {
+    fn default() -> Self {
+        Self {
+            effort: Effort::UNBOUNDED,
+            fill_weight: GIVEN_PAGE,
+        }
+    }
+}
 
 /// Divides a surface into charts that keep a bound on the mean energy, starting from pieces that are nearly developable.
 ///
 /// Returns the charts and the work that it took. The bound is exceeded only if the pieces exceed it: then nothing is glued that
-/// adds to the excess.
+/// adds to the excess. The fill of the page does not count.
 pub fn from_pieces(
     surface: &Surface,
     bound: &Bound,
@@ -69,29 +92,70 @@ pub fn from_pieces(
 ) -> (Vec<MappedChart>, Counts) {
     let metric = weighted(surface);
     let nets = Nets::new(&metric, Vec::new());
-    let mut search = Search::new(nets, bound.budget(), options, observer);
+    let terms = Terms {
+        fill_weight: 0.0,
+        ..Terms::default()
+    };
+    let mut search = Search::new(nets, bound.budget(), &terms, options, observer);
     search.start(FROM_PIECES[0]);
     search.run(&FROM_PIECES);
-    finished(&search)
+    let nets = search.nets.list.values();
+    let charts = nets.filter_map(|net| net.mapped_chart(&metric));
+    (charts.collect(), search.counts)
 }
 
 /// Glues given charts and gives slits back as long as the charts keep a bound on the mean energy.
 ///
-/// The charts hold every face of the surface once. Returns charts whose seams cost at most as much, and the work that it
-/// took; charts over the bound stay as they are.
+/// The charts hold every face of the surface once. Of the effort the search takes the share of the bound that the charts leave
+/// unspent, since the rest of them has little to gain. Returns charts whose seams cost at most as much, and the work that it took;
+/// charts over the bound, and those that no move changed, stay as they are. So do all if the stretch is bounded, which the search
+/// does not measure.
 pub fn from_charts(
     surface: &Surface,
-    charts: &[MappedChart],
+    charts: Vec<MappedChart>,
     bound: &Bound,
+    terms: &Terms,
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> (Vec<MappedChart>, Counts) {
+    let budget = bound.budget();
+    // If what is left is too little for the smallest chart, even without panels, the search needs no arrays.
+    let smallest = charts.iter().map(|map| map.chart.corners.len()).min();
+    let effort = terms.effort.share(share_left(mean_excess(&charts), budget));
+    if bound.stretch.is_some() || smallest.is_none_or(|faces| effort.most < faces as f64) {
+        return (charts, Counts::new(effort));
+    }
     let metric = weighted(surface);
     let nets = charts.iter().map(|chart| Net::of_chart(&metric, chart));
     let nets = Nets::new(&metric, nets.collect());
-    let mut search = Search::new(nets, bound.budget(), options, observer);
+    let terms = Terms {
+        effort: terms.effort.share(share_left(nets.excess(), budget)),
+        ..*terms
+    };
+    let mut search = Search::new(nets, budget, &terms, options, observer);
     search.run(&FROM_CHARTS);
-    finished(&search)
+    // Nets are numbered in the order of the charts; changed ones have later numbers.
+    let found = search.nets.list.iter();
+    let found = found.filter_map(|(&number, net)| match charts.get(number as usize) {
+        Some(chart) => Some(chart.clone()),
+        None => net.mapped_chart(&metric),
+    });
+    (found.collect(), search.counts)
+}
+
+/// Returns the share of a bound on the mean excess that is left.
+fn share_left(excess: f64, budget: f64) -> f64 {
+    (1.0 - excess / budget.max(f64::MIN_POSITIVE)).max(0.0)
+}
+
+/// Returns the excess of charts over an energy of 4, per area.
+fn mean_excess(charts: &[MappedChart]) -> f64 {
+    let mut sum = [0.0; 2];
+    for chart in charts {
+        let [excess, area] = excess_and_area(chart, &chart.rest_shapes());
+        sum = [sum[0] + excess, sum[1] + area];
+    }
+    sum[0] / sum[1].max(f64::MIN_POSITIVE)
 }
 
 /// Measures a surface; the excess on its panels counts [several times](PANEL_FACTOR).
@@ -102,10 +166,4 @@ fn weighted(surface: &Surface) -> Metric<'_> {
         *weight *= PANEL_FACTOR;
     }
     metric
-}
-
-fn finished(search: &Search) -> (Vec<MappedChart>, Counts) {
-    let nets = search.nets.list.values();
-    let charts = nets.filter_map(|net| net.mapped_chart(search.nets.metric));
-    (charts.collect(), search.counts)
 }

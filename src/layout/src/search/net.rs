@@ -6,6 +6,7 @@ use super::opening::Opening;
 use crate::charts::{Chart, MappedChart, Observer, Watching, overlaps, pushed_apart};
 use unwrapd_maps::embed::{self, Embedding};
 use unwrapd_maps::mesh::{CUT, Disk, next};
+use unwrapd_method::numerics::support::{Directions, Support};
 use unwrapd_method::solver::Summary;
 
 /// Excess at which a face cannot be called more distorted: one squeezed to nothing in floating point would outweigh all others.
@@ -22,9 +23,13 @@ pub struct Net {
     pub length: f64,
     /// Sum of the excess over 4 times the weight of each face.
     pub excess: f64,
+    /// Area of the smallest square around the map.
+    pub page: f64,
     /// Corners of each face in the plane.
     pub uv: Vec<[[f64; 2]; 3]>,
     summary: Summary,
+    /// Seconds of the observer's clock that its map took.
+    pub seconds: f64,
 }
 
 impl Net {
@@ -43,7 +48,9 @@ impl Net {
         Self {
             excess: excess(metric, &faces, &uv),
             length: metric.length_of(&slits),
+            page: page(&uv),
             summary,
+            seconds: 0.0,
             faces,
             slits,
             uv,
@@ -52,14 +59,8 @@ impl Net {
 
     /// Creates the net of one face at rest.
     pub fn of_face(metric: &Metric, face: u32) -> Self {
-        Self {
-            faces: vec![face],
-            slits: Vec::new(),
-            length: 0.0,
-            excess: 0.0,
-            uv: vec![metric.face_at_rest(face)],
-            summary: Summary::at_start(0.0),
-        }
+        let uv = vec![metric.face_at_rest(face)];
+        Self::new(metric, vec![face], Vec::new(), uv, Summary::at_start(0.0))
     }
 
     /// Maps an opening of some faces; returns `None` if no map without flips and overlaps is found.
@@ -163,7 +164,7 @@ impl Net {
                 uv,
                 summary: self.summary,
             },
-            seconds: 0.0,
+            seconds: self.seconds,
         };
         Some(map.facing_front())
     }
@@ -244,6 +245,16 @@ fn slits(metric: &Metric, faces: &[u32], uv: &[[[f64; 2]; 3]]) -> Vec<u32> {
     }
     slits.sort_unstable();
     slits
+}
+
+/// Returns the area of the smallest square around a map.
+fn page(uv: &[[[f64; 2]; 3]]) -> f64 {
+    let directions = Directions::default();
+    let mut support = Support::EMPTY;
+    for &p in uv.as_flattened() {
+        support.add(p, &directions);
+    }
+    support.square()
 }
 
 fn doubled_area(&[a, b, c]: &[[f64; 2]; 3]) -> f64 {

@@ -5,6 +5,10 @@ use super::net::Net;
 use std::collections::{BTreeMap, BTreeSet};
 use unwrapd_maps::mesh::CUT;
 
+/// Share of a square page that charts fill of which none sets the scale: the median of the layouts of the common suite, the hard
+/// and the noisy meshes (`tests/README.md`).
+const USUAL_FILL: f64 = 0.75;
+
 /// Nets that together hold every face of a surface once.
 pub struct Nets<'a> {
     pub metric: &'a Metric<'a>,
@@ -73,6 +77,13 @@ impl<'a> Nets<'a> {
     /// Returns the total excess.
     pub fn excess(&self) -> f64 {
         self.list.values().map(|net| net.excess).sum()
+    }
+
+    /// Returns an upper bound on the share of a square page that some nets fill: together they have area 1, and one that is
+    /// longer than it is wide may alone set the scale.
+    pub fn fill<'n>(nets: impl Iterator<Item = &'n Net>) -> f64 {
+        let largest = nets.map(|net| net.page).fold(0.0, f64::max);
+        USUAL_FILL.min(1.0 / largest)
     }
 
     /// Returns the length of the borders between nets and of their slits.

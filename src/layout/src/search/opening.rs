@@ -1,6 +1,7 @@
 //! Ways to cut a set of faces open, by the predicted price.
 
 use super::cut_mesh::CutMesh;
+use super::effort::Effort;
 use super::metric::Metric;
 use super::prediction::{Grounded, Prediction};
 use super::sets::union;
@@ -39,8 +40,6 @@ pub struct Ways {
     starts: Vec<(f64, Vec<u32>)>,
     /// Predicted openings, the cheapest last.
     openings: Vec<Opening>,
-    /// Faces of all predictions that were made.
-    predicted_faces: usize,
 }
 
 impl Ways {
@@ -54,7 +53,6 @@ impl Ways {
         Self {
             starts,
             openings: Vec::new(),
-            predicted_faces: 0,
         }
     }
 
@@ -65,12 +63,13 @@ impl Ways {
         faces: &[u32],
         lambda: f64,
         most: f64,
+        effort: &mut Effort,
     ) -> Option<&Opening> {
         let bar = |openings: &[Opening]| openings.last().map_or(most, |it| it.price(lambda));
         while let Some((_, slits)) =
             (self.starts).pop_if(|(length, _)| *length < bar(&self.openings))
         {
-            let opening = self.opened_further(metric, faces, slits, lambda, most);
+            let opening = opened_further(metric, faces, slits, lambda, most, effort);
             if let Some(opening) = opening.filter(|opening| opening.price(lambda) < most)
                 && self.openings.iter().all(|it| it.slits != opening.slits)
             {
@@ -88,61 +87,56 @@ impl Ways {
     pub fn take(&mut self) -> Option<Opening> {
         self.openings.pop()
     }
+}
 
-    /// Returns the number of faces that were predicted since it was asked last.
-    pub fn predicted_faces(&mut self) -> usize {
-        std::mem::take(&mut self.predicted_faces)
+/// Adds slits while they pay; returns `None` if the faces cannot be laid flat so.
+fn opened_further(
+    metric: &Metric,
+    faces: &[u32],
+    mut slits: Vec<u32>,
+    lambda: f64,
+    most_length: f64,
+    effort: &mut Effort,
+) -> Option<Opening> {
+    let mut mesh = CutMesh::new(metric, faces, &slits);
+    if mesh.loops.is_empty() {
+        let first = first_slit(&mesh)?;
+        slits = union(&slits, &mesh.edges(&first));
+        mesh = CutMesh::new(metric, faces, &slits);
     }
-
-    /// Adds slits while they pay; returns `None` if the faces cannot be laid flat so.
-    fn opened_further(
-        &mut self,
-        metric: &Metric,
-        faces: &[u32],
-        mut slits: Vec<u32>,
-        lambda: f64,
-        most_length: f64,
-    ) -> Option<Opening> {
-        let mut mesh = CutMesh::new(metric, faces, &slits);
-        if mesh.loops.is_empty() {
-            let first = first_slit(&mesh)?;
-            slits = union(&slits, &mesh.edges(&first));
-            mesh = CutMesh::new(metric, faces, &slits);
+    effort.predicted_faces += faces.len();
+    let mut prediction = Prediction::new(&mesh)?;
+    let neighbors = Neighbors::new(&mesh.sheet);
+    loop {
+        let length = metric.length_of(&slits);
+        if length > most_length || effort.is_spent() {
+            return None;
         }
-        self.predicted_faces += faces.len();
-        let mut prediction = Prediction::new(&mesh)?;
-        let neighbors = Neighbors::new(&mesh.sheet);
-        loop {
-            let length = metric.length_of(&slits);
-            if length > most_length {
-                return None;
+        let mut best: Option<(Vec<u32>, Grounded)> = None;
+        let mut cost = lambda * prediction.excess();
+        for path in paths(&mesh, &neighbors, &prediction) {
+            let edges = mesh.edges(&path);
+            let added = metric.length_of(&edges);
+            if added >= cost {
+                continue;
             }
-            let mut best: Option<(Vec<u32>, Grounded)> = None;
-            let mut cost = lambda * prediction.excess();
-            for path in paths(&mesh, &neighbors, &prediction) {
-                let edges = mesh.edges(&path);
-                let added = metric.length_of(&edges);
-                if added >= cost {
-                    continue;
-                }
-                self.predicted_faces += faces.len();
-                let trial = prediction.grounded(path.iter().flat_map(|&h| mesh.sheet.ends(h)));
-                let price = added + lambda * trial.excess;
-                if price < cost - GAIN {
-                    cost = price;
-                    best = Some((edges, trial));
-                }
+            effort.predicted_faces += faces.len();
+            let trial = prediction.grounded(path.iter().flat_map(|&h| mesh.sheet.ends(h)));
+            let price = added + lambda * trial.excess;
+            if price < cost - GAIN {
+                cost = price;
+                best = Some((edges, trial));
             }
-            let Some((edges, grounded)) = best else {
-                return Some(Opening {
-                    length,
-                    excess: prediction.excess(),
-                    slits,
-                });
-            };
-            slits = union(&slits, &edges);
-            prediction.accept(grounded);
         }
+        let Some((edges, grounded)) = best else {
+            return Some(Opening {
+                length,
+                excess: prediction.excess(),
+                slits,
+            });
+        };
+        slits = union(&slits, &edges);
+        prediction.accept(grounded);
     }
 }
 

@@ -258,8 +258,13 @@ impl Search<'_> {
     fn opened(&mut self, faces: &[u32], lambda: f64) -> Option<Net> {
         let metric = self.nets.metric;
         let mut ways = Ways::new(metric, [Vec::new()]);
-        ways.cheapest(metric, faces, lambda, f64::INFINITY);
-        self.counts.predicted_faces += ways.predicted_faces();
+        ways.cheapest(
+            metric,
+            faces,
+            lambda,
+            f64::INFINITY,
+            &mut self.counts.effort,
+        );
         let way = ways.take()?;
         self.map(faces, &way)
     }

@@ -1,5 +1,7 @@
-//! The search: glue, give slits back, and let distortion get cheaper.
+//! The search: make moves, and let distortion get cheaper.
 
+use super::Terms;
+use super::effort::Effort;
 use super::net::Net;
 use super::nets::Nets;
 use super::opening::Opening;
@@ -7,13 +9,16 @@ use super::sets::union;
 use crate::charts::Observer;
 use std::collections::HashMap;
 use unwrapd_maps::embed;
-use unwrapd_maps::measure::cost::PER_CHART;
+use unwrapd_maps::measure::cost::{FIRST_SEAM, PER_CHART};
+use unwrapd_method::solver::Control;
 
 /// A surface in nets, and what the search knows.
 pub struct Search<'a> {
     pub nets: Nets<'a>,
     /// Excess that the nets may have together.
     pub budget: f64,
+    /// Weight of the fill of a square page beside the cost of the seams.
+    fill_weight: f64,
     /// Length of seam that a chart costs.
     pub per_chart: f64,
     pub options: &'a embed::Options,
@@ -24,24 +29,37 @@ pub struct Search<'a> {
 }
 
 /// Work of a search.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Counts {
-    /// Unions whose openings were predicted.
-    pub unions: usize,
+    /// Faces mapped and predicted.
+    pub effort: Effort,
+    /// Moves whose openings were predicted.
+    pub predicted: usize,
     /// Maps.
     pub maps: usize,
-    /// Faces of all maps.
-    pub mapped_faces: usize,
-    /// Faces of all predictions.
-    pub predicted_faces: usize,
     /// Maps that flipped or overlapped.
     pub failed: usize,
     /// Unions made.
     pub glued: usize,
     /// Nets opened in a cheaper way.
     pub reopened: usize,
-    /// Unions that would have broken the bound.
+    /// Maps that would have broken the bound.
     pub refused: usize,
+}
+
+impl Counts {
+    /// Creates counts of nothing, with the most that may be done.
+    pub fn new(effort: Effort) -> Self {
+        Self {
+            effort,
+            predicted: 0,
+            maps: 0,
+            failed: 0,
+            glued: 0,
+            reopened: 0,
+            refused: 0,
+        }
+    }
 }
 
 impl<'a> Search<'a> {
@@ -49,26 +67,30 @@ impl<'a> Search<'a> {
     pub fn new(
         nets: Nets<'a>,
         budget: f64,
+        terms: &Terms,
         options: &'a embed::Options,
         observer: &'a dyn Observer,
     ) -> Self {
         Self {
             nets,
             budget,
+            fill_weight: terms.fill_weight,
             per_chart: PER_CHART,
             options,
             observer,
             known: HashMap::new(),
-            counts: Counts::default(),
+            counts: Counts::new(terms.effort),
         }
     }
 
-    /// Runs the moves at falling prices of the excess, and keeps the cheapest of the states after each.
+    /// Makes the moves at falling prices of the excess, and keeps the cheapest of the states after each. Each price may take an
+    /// equal part of the effort, and what the earlier ones left.
     pub fn run(&mut self, prices: &[f64]) {
         let mut cheapest = (self.cost(), self.nets.list.clone());
-        for &lambda in prices {
-            self.glue(lambda);
-            self.give_back(lambda);
+        let most = self.counts.effort.most;
+        for (k, &lambda) in (1..).zip(prices) {
+            self.counts.effort.most = most * f64::from(k) / prices.len() as f64;
+            self.make_moves(lambda);
             let cost = self.cost();
             if cost < cheapest.0 {
                 cheapest = (cost, self.nets.list.clone());
@@ -77,9 +99,31 @@ impl<'a> Search<'a> {
         self.nets.list = cheapest.1;
     }
 
-    /// Returns the length of the seams and what the charts cost beside them.
+    /// Returns the [cost](unwrapd_maps::measure::cost) of the nets on a square page.
     fn cost(&self) -> f64 {
-        self.nets.seam() + self.per_chart * self.nets.list.len() as f64
+        self.seam_and_charts().ln() - self.fill_weight * Nets::fill(self.nets.list.values())
+    }
+
+    /// Returns ½ + S + n/10.
+    fn seam_and_charts(&self) -> f64 {
+        FIRST_SEAM + self.nets.seam() + self.per_chart * self.nets.list.len() as f64
+    }
+
+    /// Returns the length of seam that costs as much as the fill that is lost if a net replaces others.
+    pub fn fill_lost(&self, nets: &[u32], by: &Net) -> f64 {
+        let others = self
+            .nets
+            .list
+            .iter()
+            .filter(|(number, _)| !nets.contains(number));
+        let after = Nets::fill(others.map(|(_, net)| net).chain([by]));
+        let lost = Nets::fill(self.nets.list.values()) - after;
+        self.fill_weight * lost * self.seam_and_charts()
+    }
+
+    /// Returns whether the search has to end: no effort is left, or it was told to finish.
+    pub fn must_end(&self) -> bool {
+        self.counts.effort.is_spent() || self.observer.control() == Control::Finish
     }
 
     /// Maps an opening of some faces, or returns what is known of it.
@@ -109,8 +153,12 @@ impl<'a> Search<'a> {
             return net.clone();
         }
         self.counts.maps += 1;
-        self.counts.mapped_faces += faces.len();
-        let net = map();
+        self.counts.effort.mapped_faces += faces.len();
+        let begin = self.observer.elapsed();
+        let mut net = map();
+        if let Some(net) = &mut net {
+            net.seconds = (self.observer.elapsed().saturating_sub(begin)).as_secs_f64();
+        }
         self.counts.failed += usize::from(net.is_none());
         self.known.insert(key, net.clone());
         net

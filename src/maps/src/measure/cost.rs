@@ -27,7 +27,7 @@ use crate::mesh::UnionFind;
 use serde::Serialize;
 
 /// Seam length at which the price of a further seam begins to fall, in square roots of the area.
-const FIRST_SEAM: f64 = 0.5;
+pub const FIRST_SEAM: f64 = 0.5;
 /// Seam length that costs as much as a further chart, in square roots of the area.
 pub const PER_CHART: f64 = 0.1;
 /// Weight of the fill of a given page.
