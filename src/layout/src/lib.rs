@@ -3,7 +3,7 @@
 //! | module | contents |
 //! |---|---|
 //! | [`charts`] | where to cut: surfaces divided and mapped, charts split where their maps overlap or are distorted |
-//! | [`search`] | where to cut, by one search over one objective; grows beside [`charts`] and is not used by the program yet |
+//! | [`search`] | where to cut, by one search over one objective, which starts from the charts of [`charts`] |
 //! | [`atlas`] | orientation, packing, pages, rounding to the integer grid |
 //!
 //! Charts come from the top down: a disk is slit until it keeps a bound on the distortion, instead of growing or merging regions. Slits

@@ -11,6 +11,8 @@ use unwrapd_layout::charts::{
     Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, charts, charts_under_bound,
     given_back, map_chart, map_chart_from,
 };
+use unwrapd_layout::search::{Effort, Terms, from_charts};
+use unwrapd_maps::measure::cost::GIVEN_PAGE;
 use unwrapd_maps::mesh::{CornerUvs, Resolution, Surface};
 
 /// Texture of UVs for which no texture is known.
@@ -24,11 +26,14 @@ pub fn mapped_charts(
     tracker: &Tracker,
 ) -> Vec<Vec<MappedChart>> {
     if plan.refinement == Refinement::UnderBound {
-        tracker.charts(0, surfaces.iter().map(|s| s.triangles.len()).sum());
+        let of_all = surfaces.iter().map(|s| s.triangles.len()).sum();
+        tracker.charts(0, of_all);
         let charts = (surfaces.par_iter().enumerate())
             .map(|(index, surface)| {
-                let portion = Portion::of_surface(tracker, index, surface.triangles.len());
-                let charts = under_bound(surface, plan, &portion);
+                let faces = surface.triangles.len();
+                let portion = Portion::of_surface(tracker, index, faces);
+                let effort = Effort::for_surface(faces, of_all);
+                let charts = under_bound(surface, plan, effort, &portion);
                 portion.all_mapped(charts.len());
                 charts
             })
@@ -61,13 +66,27 @@ pub fn mapped_charts(
 ///
 /// The bound on the stretch yields first, then the one on the mean: if the number of charts decides, a bound on the
 /// stretch gives the same charts as none.
-fn under_bound(surface: &Surface, plan: &Plan, observer: &dyn Observer) -> Vec<MappedChart> {
+fn under_bound(
+    surface: &Surface,
+    plan: &Plan,
+    effort: Effort,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
     let most = plan.most_charts.map_or(usize::MAX, |n| n as usize);
     let mut bound = plan.bound;
     let options = &plan.embedding;
     let seam_price = plan.compaction.unwrap_or(1.0);
     let under = |bound: &Bound| {
-        charts_under_bound(surface, bound, seam_price, options, plan.symmetry, observer)
+        let cut = charts_under_bound(surface, bound, seam_price, options, plan.symmetry, observer);
+        if seam_price < 1.0 {
+            // Seams are wanted for the fill of the page, of which the search sees little.
+            return cut;
+        }
+        let terms = Terms {
+            effort,
+            fill_weight: GIVEN_PAGE / seam_price,
+        };
+        from_charts(surface, cut, bound, &terms, options, observer).0
     };
     let mut fewest = under(&bound);
     while fewest.len() > most {
