@@ -20,6 +20,7 @@ pub struct ConjugateGradients {
     swept: Vec<f64>,
     direction: Vec<f64>,
     image: Vec<f64>,
+    tolerance: f64,
 }
 
 impl ConjugateGradients {
@@ -30,11 +31,18 @@ impl ConjugateGradients {
             swept: vec![0.0; n],
             direction: vec![0.0; n],
             image: vec![0.0; n],
+            tolerance: TOLERANCE,
         }
     }
 
-    /// Replaces b in `x` by the solution of Ax = b up to a relative residual of 1e-4. A is given by its pattern and the
-    /// values of its lower triangle.
+    /// Sets the relative residual of solutions, in the norm of the preconditioner; 1e-4 unless set.
+    #[must_use]
+    pub fn with_tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance, ..self }
+    }
+
+    /// Replaces b in `x` by the solution of Ax = b up to the tolerance. A is given by its pattern and the values of its
+    /// lower triangle.
     ///
     /// # Errors
     /// If it finds a direction along which A is not positive; `x` is then the last iterate.
@@ -51,7 +59,7 @@ impl ConjugateGradients {
         matrix.sweep(&self.residual, &mut self.swept)?;
         self.direction.copy_from_slice(&self.swept);
         let mut size = dot(&self.residual, &self.swept);
-        let enough = TOLERANCE * TOLERANCE * size;
+        let enough = self.tolerance * self.tolerance * size;
         for _ in 0..MOST_ITERATIONS {
             if size <= enough {
                 break;

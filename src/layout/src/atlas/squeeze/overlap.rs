@@ -114,6 +114,9 @@ impl Scene<'_> {
 const TOLERANCE: f64 = 0.04;
 /// Number of unknowns of a body: two shifts, and an angle times its radius.
 const DOF: usize = 3;
+/// Relative residual of a step. Steps a hundred times as exact make layouts no fuller, and take a fourteenth of the time of packing;
+/// with ten times this residual, layouts are emptier by .0002 at the mean of 71 sets of charts.
+const RESIDUAL: f64 = 1e-2;
 /// Added to the diagonal, so that bodies that touch nothing stay.
 const LEAST: f64 = 1e-12;
 
@@ -252,6 +255,7 @@ impl Equations {
         let (pattern, values) = SymmetricPattern::from_entries(n, entries);
         let mut x = self.right.concat();
         ConjugateGradients::new(n)
+            .with_tolerance(RESIDUAL)
             .solve(&pattern, &values, &mut x)
             .ok()?;
         Some(x.chunks_exact(DOF).map(|x| [x[0], x[1], x[2]]).collect())
