@@ -104,6 +104,15 @@ fn assert_near(uv: [f64; 2], expected: [f64; 2]) {
 }
 
 #[test]
+fn a_part_without_uvs_is_refused_with_the_number_of_its_triangles() {
+    let mut text = String::from_utf8(squares(&FOUR).bytes).expect("text");
+    text += "\no bare\nf 1 2 3\n";
+    let error = refused(&Upload::single("partly.obj", text.into_bytes()), Vec::new());
+    assert_eq!(error.code(), "no_uvs");
+    assert!(error.to_string().starts_with("1 of 9 triangles"), "{error}");
+}
+
+#[test]
 fn islands_stay_bit_for_bit_and_others_are_packed_around_them() {
     let input = spot(Resolution::square(1024), 1);
     let ids = island_ids(&input);

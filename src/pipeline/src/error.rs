@@ -53,6 +53,18 @@ pub enum PipelineError {
         /// Requested UV set.
         texcoord: u32,
     },
+    /// Some parts of a group lack the requested UV set.
+    #[error("{missing} of {triangles} triangles of {group} have no UV set {texcoord}")]
+    PartlyNoUvs {
+        /// Label of the group.
+        group: String,
+        /// Requested UV set.
+        texcoord: u32,
+        /// Number of triangles without it.
+        missing: usize,
+        /// Number of triangles of the group.
+        triangles: usize,
+    },
     /// No cage can be built around the surfaces.
     #[error(transparent)]
     Cage(#[from] CageError),
@@ -112,7 +124,7 @@ impl PipelineError {
             Self::Seams(_) => "invalid_seams",
             Self::UnknownMaterial(_) => "unknown_material",
             Self::NoTriangles | Self::NoArea { .. } => "no_triangles",
-            Self::NoUvs { .. } => "no_uvs",
+            Self::NoUvs { .. } | Self::PartlyNoUvs { .. } => "no_uvs",
             Self::Cage(error) => error.code(),
             Self::Problem(error) => error.code(),
             Self::TextureTooSmall(_) => "texture_too_small",
@@ -147,6 +159,7 @@ impl PipelineError {
             | Self::Seams(_)
             | Self::UnknownMaterial(_)
             | Self::NoUvs { .. }
+            | Self::PartlyNoUvs { .. }
             | Self::Document(_)
             | Self::Edit(_)
             | Self::Outline(_)

@@ -218,13 +218,26 @@ pub fn corner_uvs(
     group: &Group,
     texcoord: u32,
 ) -> Result<Vec<CornerUvs>, PipelineError> {
-    let mut all = Vec::new();
+    let (mut all, mut missing) = (Vec::new(), 0);
     for &index in &group.primitives {
-        let uvs = document.corner_uvs(index, texcoord)?;
-        all.extend(uvs.ok_or_else(|| PipelineError::NoUvs {
-            group: group.label.clone(),
-            texcoord,
-        })?);
+        match document.corner_uvs(index, texcoord)? {
+            Some(uvs) => all.extend(uvs),
+            None => missing += document.primitives()[index].triangles.len(),
+        }
+    }
+    if missing > 0 {
+        let group = group.label.clone();
+        let triangles = all.len() + missing;
+        return Err(if all.is_empty() {
+            PipelineError::NoUvs { group, texcoord }
+        } else {
+            PipelineError::PartlyNoUvs {
+                group,
+                texcoord,
+                missing,
+                triangles,
+            }
+        });
     }
     if document.v_axis() == VAxis::Down {
         for uv in all.as_flattened_mut() {
