@@ -38,6 +38,7 @@ export interface AtlasOptions extends Layout {
   barrier?: string;
   barrierStrength?: number;
   barrierSupport?: number;
+  barrierContinuation?: boolean;
   pin?: 0 | 2;
   quantizationSafe?: 12 | 14 | 16;
   timeBudget?: number;

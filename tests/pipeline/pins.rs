@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use unwrapd_layout::charts::Cut;
-use unwrapd_maps::embed::{Embedding, Options, Pins, is_positive, parameterize};
+use unwrapd_maps::embed::{Embedding, Options, Pins, default_beta, is_positive, parameterize};
 use unwrapd_maps::mesh::Disk;
 use unwrapd_method::barrier::BarrierKind;
 use unwrapd_method::energy::DensityKind;
@@ -121,6 +121,38 @@ fn a_developable_surface_is_laid_flat() {
         let ratios = pairs.map(|pair| distance(&embedding, pair) / length(pair));
         // The triangles are chords of the cylinder.
         assert!(ratios.iter().all(|r| (r - 1.0).abs() < 0.01), "{ratios:?}");
+    }
+}
+
+/// A barrier that is strong beside a small energy would keep triangles near their rest sizes, which costs conformality.
+#[test]
+fn conformal_maps_are_as_conformal_as_those_without_a_barrier() {
+    let (disk, positions) = sheet(|[x, y, _]| {
+        let (dx, dy) = (x - 6.0, y - 4.0);
+        [x, y, 6.0 * (-(dx * dx + dy * dy) / 8.0).exp()]
+    });
+    let energy_of = |options: &Options| {
+        let embedding = parameterize(&disk, &positions, options, &Memory::default());
+        assert!(is_positive(&disk.triangles, &embedding.uv));
+        embedding.summary.energy_last
+    };
+    let strong = options(&DensityKind::Lscm);
+    let free = energy_of(&Options {
+        barrier: BarrierKind::None,
+        ..strong.clone()
+    });
+    assert!(energy_of(&strong) > 1.2 * free);
+    let weak = Options {
+        beta: default_beta(&*strong.density),
+        ..strong.clone()
+    };
+    let weakened = Options {
+        barrier_continuation: true,
+        ..strong
+    };
+    for options in [weak, weakened] {
+        let energy = energy_of(&options);
+        assert!(energy < 1.01 * free, "{energy} {free}");
     }
 }
 

@@ -5,7 +5,7 @@ use super::normalized::{Frame, MapQuality, Restored};
 use super::problem::{Problem, Units};
 use super::problem_error::ProblemError;
 use serde::{Deserialize, Serialize};
-use unwrapd_method::barrier::Barrier;
+use unwrapd_method::barrier::{Barrier, LEAST_GAIN, weaker_strengths};
 use unwrapd_method::energy::{Positional, Term};
 use unwrapd_method::solver::{
     Continued, LevenbergSettings, Objective, Settings, Status, Summary, Watch, levenberg,
@@ -240,15 +240,6 @@ impl Problem {
 
 // Continuation to a weaker barrier, and the barrier's bias.
 
-/// Factor of β per step.
-const STEP: f64 = 0.1;
-
-/// Most steps: β is then 1e-10 of its start.
-const MAX_STEPS: usize = 10;
-
-/// Least decrease of the unmodified energy that makes another step worthwhile, as a share of that energy.
-const LEAST_GAIN: f64 = 1e-3;
-
 /// Least decrease when the limit for β → 0 is wanted: about six digits.
 const LEAST_CHANGE: f64 = 1e-6;
 
@@ -292,9 +283,7 @@ impl Problem {
             return Ok(solution);
         }
         let mut best = solution;
-        let mut beta = self.barrier.beta;
-        for _ in 0..MAX_STEPS {
-            beta *= STEP;
+        for beta in weaker_strengths(self.barrier.beta) {
             let mut weaker = self.from(&best);
             weaker.barrier.beta = beta;
             let next = weaker.solve(settings, watch)?;

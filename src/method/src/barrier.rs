@@ -18,6 +18,22 @@ pub fn epsilon(smallest_rest_area: f64, smallest_start_area: f64) -> f64 {
     (1e-5 * smallest_rest_area).min(0.1 * smallest_start_area)
 }
 
+// Continuation to weaker barriers.
+
+/// Factor of β per step. A larger one takes more minimizations for the same range.
+const STEP: f64 = 0.1;
+
+/// Most steps: β is then 1e-10 of its start.
+const MAX_STEPS: i32 = 10;
+
+/// Least decrease of the energy without the barrier that makes another step worthwhile, as a share of that energy.
+pub const LEAST_GAIN: f64 = 1e-3;
+
+/// Iterates over ever weaker strengths below `beta`, for minimizations that each start from the last map.
+pub fn weaker_strengths(beta: f64) -> impl Iterator<Item = f64> {
+    (1..=MAX_STEPS).map(move |step| beta * STEP.powi(step))
+}
+
 // Choice and parameters of a barrier.
 
 /// Barrier that is added to the energy.

@@ -204,10 +204,13 @@ options! {
         /// Barrier that keeps every triangle from inverting. With none, for comparison, flipped
         /// triangles are written and the result is not certified.
         pub barrier: BarrierKind = BarrierKind::InverseSpline;
-        /// Barrier strength β.
-        pub barrier_strength: f64 = 0.01, in 1e-9..=1e9, value "BETA";
+        /// Barrier strength β. The default is 0.01, and 1e-8 for conformal energies (lscm, mips):
+        /// at their minimum triangles are far from the rest sizes that the barrier prefers.
+        pub barrier_strength: Option<f64>, in 1e-9..=1e9, value "BETA";
         /// Support s of the inverse-spline barrier, relative to the rest area of an element.
         pub barrier_support: f64 = 1.0, in 1e-6..=1e6, value "S";
+        /// Lower the barrier strength as long as the energy without the barrier falls.
+        pub barrier_continuation: bool;
         /// Vertices of each chart to hold fixed, on the boundary and far apart: 0 or 2.
         /// Least-squares conformal maps (`energy` lscm) need 2, which requires `cut` disk.
         pub pin: u32 = 0, value "N", schema(maximum = 2);

@@ -35,6 +35,7 @@ class UnwrapOptions(Layout, total=False):
     barrier: str | None
     barrier_strength: float | None
     barrier_support: float | None
+    barrier_continuation: bool | None
     pin: Literal[0, 2] | None
     quantization_safe: Literal[12, 14, 16] | None
     time_budget: float | None

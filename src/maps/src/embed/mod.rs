@@ -26,7 +26,7 @@ pub use decimate::Simplification;
 pub use parameterize::{
     InvalidStart, hierarchical_start, optimize, parameterize, start, tutte_start,
 };
-pub use problem::{Embedding, Options, Pins, map_term};
+pub use problem::{Embedding, Options, Pins, default_beta, map_term};
 pub use rest::{RestShapes, is_needle, rest_shapes};
 pub use star::{Corners, Star};
 pub use tutte::is_positive;

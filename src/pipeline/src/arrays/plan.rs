@@ -151,11 +151,13 @@ impl Plan {
 }
 
 fn embedding(mapping: &Mapping) -> Result<embed::Options, PipelineError> {
+    let density = mapping.density().map_err(PipelineError::InvalidOptions)?;
     Ok(embed::Options {
-        density: mapping.density().map_err(PipelineError::InvalidOptions)?,
         barrier: mapping.barrier,
-        beta: mapping.barrier_strength,
+        beta: (mapping.barrier_strength).unwrap_or_else(|| embed::default_beta(&*density)),
         s: mapping.barrier_support,
+        barrier_continuation: mapping.barrier_continuation,
+        density,
         pins: match mapping.pin {
             0 => Pins::None,
             _ => Pins::Two,

@@ -66,11 +66,16 @@ fn check(options: &Options) -> Result<(), String> {
     check_barrier(
         options.mapping.barrier,
         [
-            options.mapping.barrier_strength != default.mapping.barrier_strength,
+            options.mapping.barrier_strength.is_some(),
             options.mapping.barrier_support != default.mapping.barrier_support,
         ],
     )?;
     refused([
+        (
+            "barrier_continuation",
+            "a `barrier`",
+            options.mapping.barrier_continuation && options.mapping.barrier == BarrierKind::None,
+        ),
         (
             "max_charts",
             "`cut` auto and a `barrier`",
