@@ -74,6 +74,46 @@ fn errors_are_those_of_the_dimension_that_is_meant() {
 }
 
 #[test]
+fn names_have_hyphens_or_underscores() {
+    for name in [
+        "frozen-arap",
+        "symmetric-dirichlet",
+        "st-venant-kirchhoff",
+        "neo-hookean",
+        "uniform-laplacian",
+    ] {
+        let hyphens: EnergyKind = read(name);
+        assert_eq!(serde_json::to_value(&hyphens).expect("JSON"), name);
+        assert_eq!(read(&name.replace('-', "_")), hyphens);
+    }
+    for name in ["inverse-spline", "augmented-log", "neo-hookean"] {
+        let read = |name: &str| {
+            let quoted = serde_json::Value::from(name);
+            serde_json::from_value::<BarrierKind>(quoted).expect("a barrier")
+        };
+        assert_eq!(read(&name.replace('-', "_")), read(name));
+    }
+}
+
+/// The rotations are frozen in each step only, so the minimum is that of ARAP.
+#[test]
+fn frozen_rotations_lead_to_the_same_minimum() {
+    let energies = ["arap", "frozen-arap"].map(|name| {
+        let problem = bent_strip(1.0, read(name), BarrierKind::InverseSpline);
+        let settings = Settings {
+            tolerance: 1e-9,
+            ..Settings::follow()
+        };
+        let solution = problem.solve(&settings, &|_: &Iterate| Control::Continue);
+        solution.expect("a map").quality.energy
+    });
+    assert!(
+        (energies[0] - energies[1]).abs() <= 1e-4 * energies[0],
+        "{energies:?}"
+    );
+}
+
+#[test]
 fn a_session_goes_on_with_a_closure() {
     let body = Body::from(&strip(6, 1.0));
     let handles = [vertex(0, &[0.0, 0.0]), vertex(19, &[7.0, 1.0])];

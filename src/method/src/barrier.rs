@@ -44,15 +44,18 @@ pub fn weaker_strengths(beta: f64) -> impl Iterator<Item = f64> {
 pub enum BarrierKind {
     /// The inverse spline of the paper. No element inverts, and elements of ordinary size do not feel it.
     #[default]
-    #[serde(alias = "spline")]
+    #[serde(alias = "spline", alias = "inverse_spline")]
+    #[cfg_attr(feature = "schema", value(alias = "inverse_spline"))]
     InverseSpline,
     /// The augmented logarithm.
-    #[serde(alias = "auglog")]
+    #[serde(alias = "auglog", alias = "augmented_log")]
+    #[cfg_attr(feature = "schema", value(alias = "augmented_log"))]
     AugmentedLog,
     /// The logarithm.
     Log,
     /// The volume term of a neo-Hookean material.
-    #[serde(alias = "neohookean")]
+    #[serde(alias = "neohookean", alias = "neo_hookean")]
+    #[cfg_attr(feature = "schema", value(alias = "neo_hookean"))]
     NeoHookean,
     /// No barrier, for comparison. An energy that is finite everywhere may invert elements.
     None,

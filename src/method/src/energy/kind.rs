@@ -13,8 +13,9 @@ use serde::de::value::Error;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Amips, Arap, Density, FormulaError, Green, Lscm, Mips, NeoHookean, OwnEnergy, Quadratic,
-    RestShape, StVenantKirchhoff, SymmetricDirichlet, biharmonic, dirichlet, uniform_biharmonic,
+    Amips, Arap, Density, FormulaError, FrozenArap, Green, Lscm, Mips, NeoHookean, OwnEnergy,
+    Quadratic, RestShape, StVenantKirchhoff, SymmetricDirichlet, biharmonic, dirichlet,
+    uniform_biharmonic,
 };
 
 /// Lamé parameters λ and μ of an ordinary solid with Poisson's ratio ⅓, in its own unit.
@@ -32,6 +33,9 @@ pub enum DensityKind {
     /// As rigid as possible (ARAP).
     #[default]
     Arap,
+    /// ARAP with the rotations frozen in each step, as the paper solves it: the same minima, more steps.
+    #[serde(alias = "frozen_arap")]
+    FrozenArap,
     /// Squared norm of Green's strain. A deformation does not weight it by size.
     Green,
     /// Least-squares conformal (LSCM); in the plane only.
@@ -44,8 +48,10 @@ pub enum DensityKind {
     /// Advanced MIPS with exponent factor 1.
     Amips,
     /// St. Venant–Kirchhoff with Lamé parameters λ = 1, μ = ½.
+    #[serde(alias = "st_venant_kirchhoff")]
     StVenantKirchhoff,
     /// Neo-Hookean with Lamé parameters λ = 1, μ = ½.
+    #[serde(alias = "neo_hookean")]
     NeoHookean,
     /// One's own: a formula of the singular values.
     #[cfg_attr(feature = "schema", value(skip))]
@@ -98,6 +104,7 @@ impl DensityKind {
         let [lambda, mu] = LAME;
         Ok(match self {
             Self::Arap => Arc::new(Arap),
+            Self::FrozenArap => Arc::new(FrozenArap),
             Self::Green => Arc::new(Green),
             Self::Lscm => Arc::new(Lscm),
             Self::SymmetricDirichlet => Arc::new(SymmetricDirichlet),
@@ -117,6 +124,7 @@ impl DensityKind {
         let [lambda, mu] = LAME;
         Ok(match self {
             Self::Arap => Arc::new(Arap),
+            Self::FrozenArap => Arc::new(FrozenArap),
             Self::Green => Arc::new(Green),
             Self::Lscm => return Err(DimensionError::PlanarOnly),
             Self::SymmetricDirichlet => Arc::new(SymmetricDirichlet),
