@@ -8,12 +8,13 @@ use super::files::{
     read_upload, upload,
 };
 use super::progress::Display;
+use unwrapd_api::START;
 use unwrapd_api::options::help_of;
 use unwrapd_deform::warp::parse_handles;
 use unwrapd_deform::{ProblemFile, Units, parse_body_handles};
 use unwrapd_pipeline::{
     BodyFormat, CommandOptions, DeformOptions, Deformed, PullReport, SolveOptions, WarpOptions,
-    deform_file, solve_file, warp_file,
+    deform_file, solve_file, start_file_of_text, warp_file,
 };
 
 /// Deforms a planar or tetrahedral mesh, or surfaces in a cage of tetrahedra, by handles. No
@@ -25,8 +26,12 @@ pub(super) struct Args {
     /// .obj, .off, .ply or .stl. `-` is standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
-    #[arg(long, value_name = "FILE", help = help_of::<DeformOptions>("handles"))]
-    handles: PathBuf,
+    #[arg(long, value_name = "FILE", required_unless_present = "start", help = help_of::<DeformOptions>("handles"))]
+    handles: Option<PathBuf>,
+    /// Positions to start from, one vertex per line, as an output .txt has them. Inverted elements
+    /// are untangled. The energy is minimized from there; handles are optional then
+    #[arg(long, value_name = "FILE", conflicts_with = "cage")]
+    start: Option<PathBuf>,
     /// Output file: .txt (positions, 17 digits), .obj, .off, .msh, .mesh, .tet or .vtu. For glTF,
     /// PLY and STL also .glb or .gltf, with everything else in the file preserved. With --cage:
     /// .glb, .gltf or .obj. `-` is standard output
@@ -49,10 +54,20 @@ pub(super) fn run(args: &Args) -> Result<(), CommandFailure> {
         ..args.options.clone()
     };
     options.check().map_err(CommandFailure::of_options)?;
-    let outputs = records.outputs(&args.output, &[&args.input, &args.handles])?;
-    options.handles = parse_body_handles(&read_file(&args.handles)?)?;
-    let upload = read_upload(&args.input)?;
+    let further = [&args.handles, &args.start].into_iter().flatten();
+    let inputs: Vec<&Path> = (std::iter::once(&args.input).chain(further))
+        .map(PathBuf::as_path)
+        .collect();
+    let outputs = records.outputs(&args.output, &inputs)?;
+    if let Some(handles) = &args.handles {
+        options.handles = parse_body_handles(&read_file(handles)?)?;
+    }
+    let mut upload = read_upload(&args.input)?;
     let outputs = outputs.with_resources_of(&upload);
+    if let Some(start) = &args.start {
+        let start = start_file_of_text(&read_file(start)?)?;
+        upload.resources.insert(START.to_owned(), start);
+    }
     let display = records.display(format);
     let deformed = deform_file(&upload, &options, &display);
     display.finish()?;

@@ -440,6 +440,34 @@ fn a_problem_file_is_solved_by_both_methods() {
     assert_status(&unknown, 2);
 }
 
+/// A square drawn out to twice its width returns to its shape from there.
+#[test]
+fn without_handles_a_body_is_minimized_from_its_start() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4\nf 1 4 3\n";
+    std::fs::write(path("a.obj"), mesh).expect("a mesh");
+    std::fs::write(path("start.txt"), "0 0\n2 0\n0 1\n2 1\n").expect("positions");
+    let (mesh, start, output) = (path("a.obj"), path("start.txt"), path("o.txt"));
+    let deformed = unwrapd(&["deform", &mesh, "--start", &start, "-o", &output]);
+    assert_status(&deformed, 0);
+    let text = std::fs::read_to_string(&output).expect("positions");
+    let x: Vec<f64> = (text.split_ascii_whitespace())
+        .map(|word| word.parse().expect("a number"))
+        .collect();
+    for [a, b] in [[0, 1], [0, 2], [1, 3], [2, 3]] {
+        let length = (x[2 * a] - x[2 * b]).hypot(x[2 * a + 1] - x[2 * b + 1]);
+        assert!((length - 1.0).abs() < 1e-3, "{text}");
+    }
+    // Without a start there is nothing to do without handles.
+    assert_status(&unwrapd(&["deform", &mesh, "-o", &output, "--force"]), 2);
+    std::fs::write(path("start.txt"), "0 0\n2 0\n").expect("positions");
+    assert_status(
+        &unwrapd(&["deform", &mesh, "--start", &start, "-o", &output, "--force"]),
+        3,
+    );
+}
+
 #[test]
 fn a_picture_is_warped_and_proven() {
     let folder = tempfile::tempdir().expect("a folder");

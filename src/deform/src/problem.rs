@@ -125,7 +125,7 @@ impl Model {
 }
 
 impl Problem {
-    /// Creates the problem of a body at rest and handles.
+    /// Creates the problem of a body at rest and handles, of which there must be one.
     pub fn new(body: Body, handles: &[Handle], model: &Model) -> Result<Self, ProblemError> {
         let Bound {
             stations,
@@ -140,7 +140,7 @@ impl Problem {
         })
     }
 
-    /// Creates the problem of a body at rest, without handles.
+    /// Creates the problem of a body at rest, without handles: its solution minimizes from the start.
     pub fn at_rest(body: Body, model: &Model) -> Result<Self, ProblemError> {
         let problem = Self {
             start: body.rest.clone(),

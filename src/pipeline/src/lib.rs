@@ -72,5 +72,5 @@ pub use options::{
     MeasureOptions, NamedSeams, Options, PackingMode, Preset, Pulling, RepackOptions, Sets,
     SolveOptions, TexelWeight, VerifyOptions, WarpOptions, Workers,
 };
-pub use start::start_file;
+pub use start::{start_file, start_file_of_text};
 pub use unwrapd_api::{Limits, START, Stage};

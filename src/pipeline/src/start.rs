@@ -23,6 +23,23 @@ pub(super) fn start(upload: &Upload, expected: usize) -> Result<Option<Vec<f64>>
     Ok(Some(start))
 }
 
+/// Parses numbers separated by blanks.
+pub(super) fn numbers(bytes: &[u8]) -> Option<Vec<f64>> {
+    let text = std::str::from_utf8(bytes).ok()?;
+    text.split_ascii_whitespace()
+        .map(|word| word.parse().ok())
+        .collect()
+}
+
+/// Returns the content of a start file for positions as text.
+///
+/// # Errors
+/// If a word is not a number.
+pub fn start_file_of_text(text: &[u8]) -> Result<Vec<u8>, PipelineError> {
+    let malformed = || PipelineError::InvalidOptions("the start is not a list of numbers".into());
+    Ok(start_file(&numbers(text).ok_or_else(malformed)?))
+}
+
 /// Returns the content of a start file.
 pub fn start_file(coordinates: &[f64]) -> Vec<u8> {
     coordinates.iter().flat_map(|x| x.to_le_bytes()).collect()

@@ -120,7 +120,7 @@ impl PyProblem {
         Ok(columns)
     }
 
-    /// Pulls handles to their targets; returns positions, and the report as JSON.
+    /// Pulls handles to their targets, or minimizes from the start without any; returns positions, and the report as JSON.
     fn solve<'py>(
         &self,
         py: Python<'py>,
@@ -153,6 +153,9 @@ impl PyProblem {
     fn held(&self, py: Python<'_>, handles: &str) -> PyResult<deform::Problem> {
         let handles: Vec<Handle> = serde_json::from_str(handles)
             .map_err(|error| refused(py, ProblemError::MalformedHandles(error.to_string())))?;
+        if handles.is_empty() {
+            return Ok(self.problem.clone());
+        }
         let held = bind(&self.problem.body, &handles).map_err(|error| refused(py, error))?;
         let Held {
             stations,

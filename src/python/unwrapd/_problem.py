@@ -102,12 +102,12 @@ class Problem:
 
     def solve(
         self,
-        handles: Handles,
+        handles: Handles = (),
         *,
         callback: Optional[Callable[[_native.Iterate], Any]] = None,
         **options: Unpack[SolveOptions],
     ) -> Solution:
-        """Pull handles to their targets and minimize the energy, over maps that are all valid.
+        """Pull handles to their targets and minimize the energy, over maps that are all valid; without handles, from the start.
 
         Parameters
         ----------

@@ -44,16 +44,19 @@ impl<const D: usize> Continuation<D>
 where
     Matrix<D>: Square<D> + Rotation<D>,
 {
-    /// Starts from the map `x` through these stations, at least one.
+    /// Starts from the map `x` through these stations. Without any, it minimizes with nothing held.
     ///
     /// # Errors
     /// If handles do not fit each other, the map or the objective.
     pub fn new(
         objective: &mut Objective,
         x: &[f64],
-        stations: Vec<Handles>,
+        mut stations: Vec<Handles>,
         settings: &Settings,
     ) -> Result<Self, HandlesError> {
+        if stations.is_empty() {
+            stations.push(Handles::default());
+        }
         let constraints = (objective.constraints()).map_or(0, |points| points.rows.len());
         for handles in &stations {
             handles.check(D, x.len())?;
@@ -66,8 +69,7 @@ where
             }
         }
         let relaxation = Relaxation::new(settings.projection);
-        let first = stations.first().cloned().unwrap_or_default();
-        let load_steps = LoadSteps::new(objective, x, &first, relaxation)?;
+        let load_steps = LoadSteps::new(objective, x, &stations[0], relaxation)?;
         Ok(Self {
             before: Summary::at_start(objective.value(x)),
             station: 0,
@@ -85,7 +87,7 @@ where
 
     /// Returns the share of the path that is done, from 0 to 1; all stations count equally.
     pub fn share(&self) -> f64 {
-        (self.station as f64 + self.load_steps.s) / self.stations.len().max(1) as f64
+        (self.station as f64 + self.load_steps.s) / self.stations.len() as f64
     }
 
     /// Returns the totals so far and the status.

@@ -6,10 +6,10 @@ use super::source::Source;
 use crate::arrays::unwrap::in_pool;
 use crate::observer::Observer;
 use crate::options::{CommandOptions, DeformOptions, SolveOptions};
-use crate::start::start;
+use crate::start::{numbers, start};
 use crate::tracker::Tracker;
 use crate::{PipelineError, limits};
-use unwrapd_api::{Limits, Stage};
+use unwrapd_api::{Limits, START, Stage};
 use unwrapd_deform::{Problem, ProblemError, ProblemFile, Solution};
 use unwrapd_files::document::{DocumentError, Upload};
 use unwrapd_files::io::{ElementFormat, Elements};
@@ -94,25 +94,19 @@ fn member<'a>(upload: &'a Upload, path: &str) -> Result<&'a [u8], PipelineError>
     Ok(bytes)
 }
 
-/// Parses numbers separated by blanks.
-fn numbers(bytes: &[u8]) -> Option<Vec<f64>> {
-    let text = std::str::from_utf8(bytes).ok()?;
-    text.split_ascii_whitespace()
-        .map(|word| word.parse().ok())
-        .collect()
-}
-
 // Deformation of files by handles: meshes, pictures, drawings, and surfaces in a cage.
 
 /// Deforms a planar or tetrahedral mesh, a picture's outline, a drawing, or surfaces in a cage by handles. With a
-/// barrier no element is inverted in any iterate.
+/// barrier no element is inverted in any iterate. A mesh that comes with a start needs no handles: its energy is
+/// minimized from there.
 pub fn deform_file(
     upload: &Upload,
     options: &DeformOptions,
     observer: &dyn Observer,
 ) -> Result<Deformed, PipelineError> {
     options.check()?;
-    if options.handles.is_empty() {
+    let has_start = options.cage.is_none() && upload.resources.contains_key(START);
+    if options.handles.is_empty() && !has_start {
         return Err(ProblemError::NoHandle.into());
     }
     let tracker = Tracker::new(observer, options.caller.budget(options.budget));
@@ -134,7 +128,12 @@ fn deform_body(
     let source = Source::read(upload, options.triangles, &options.caller.limits)?;
     let format = options.format.unwrap_or_else(|| source.format(upload));
     source.check(format, options.frames)?;
-    let mut problem = Problem::new(source.body()?, &options.handles, &options.model)?;
+    let body = source.body()?;
+    let mut problem = if options.handles.is_empty() {
+        Problem::at_rest(body, &options.model)?
+    } else {
+        Problem::new(body, &options.handles, &options.model)?
+    };
     problem.search = options.pulling.search;
     if let Some(start) = start(upload, problem.start.len())? {
         problem.start = start;
