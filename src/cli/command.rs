@@ -10,8 +10,8 @@ use clap_mangen::Man;
 
 use super::console::{self, CommandFailure};
 use super::{
-    batch, check, config, deform, drain, edit_uv, keys, measure, queue, serve, unwrap, webhook,
-    worker,
+    batch, check, config, deform, drain, edit_uv, keys, measure, queue, serve, untangle, unwrap,
+    webhook, worker,
 };
 use unwrapd_api::options::as_typed;
 
@@ -102,6 +102,12 @@ pub(super) enum CliCommand {
     Deform(Box<deform::Args>),
     /// Solve a problem file: pull handles to targets without inverting an element
     Solve(deform::SolveArgs),
+    /// Untangle a folded mesh: move vertices until no element is inverted
+    ///
+    /// Elements are those of the file, of triangles in the plane or of tetrahedra; neighbors are
+    /// wound alike whatever the order of their corners. The boundary stays unless it is free. Exit
+    /// status 3 means that no such mesh was found, or that the boundary allows none.
+    Untangle(untangle::UntangleArgs),
     /// Warp a picture by handles without folding it
     Warp(deform::WarpArgs),
     /// Run the HTTP service

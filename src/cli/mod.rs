@@ -24,6 +24,7 @@ mod progress;
 mod queue;
 mod serve;
 mod store_args;
+mod untangle;
 mod unwrap;
 mod webhook;
 mod worker;
@@ -82,6 +83,7 @@ fn run_typed(
         CliCommand::TextureMap(args) => edit_uv::texture_map(&args),
         CliCommand::Deform(args) => deform::run(&args),
         CliCommand::Solve(args) => deform::solve(&args),
+        CliCommand::Untangle(args) => untangle::run(&args),
         CliCommand::Warp(args) => deform::warp(&args),
         CliCommand::Batch(args) => batch::run(&args, own(program)?),
         CliCommand::Submit(args) => batch::submit(&args),

@@ -31,6 +31,7 @@ mod rough;
 #[allow(dead_code)]
 mod simple_polygons;
 mod symmetry;
+mod untangle;
 mod unwrapped_polygons;
 #[path = "../support/uv_meshes.rs"]
 #[allow(dead_code)]

@@ -468,6 +468,35 @@ fn without_handles_a_body_is_minimized_from_its_start() {
     );
 }
 
+/// A folded mesh is written without inversions, and what cannot be is refused.
+#[test]
+fn a_folded_mesh_is_untangled() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let square = |middle: &str| {
+        let border = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+        format!("{border}v {middle} 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n")
+    };
+    let (mesh, output, report) = (path("a.obj"), path("o.txt"), path("r.json"));
+    std::fs::write(&mesh, square("3 0.5")).expect("a mesh");
+    let run = unwrapd(&["untangle", &mesh, "-o", &output, "--report", &report]);
+    assert_status(&run, 0);
+    let text = std::fs::read_to_string(&output).expect("positions");
+    let middle: Vec<f64> = (text.lines().next_back().expect("a vertex"))
+        .split_ascii_whitespace()
+        .map(|word| word.parse().expect("a number"))
+        .collect();
+    assert!(middle.iter().all(|x| (0.01..0.99).contains(x)), "{text}");
+    let text = std::fs::read(&report).expect("a report");
+    let report: serde_json::Value = serde_json::from_slice(&text).expect("JSON");
+    assert_eq!(report["inverted_before"], 1);
+    assert_eq!(report["moved"], 1);
+    // The border crosses itself: no place of the middle helps.
+    let crossed = square("0.5 0.5").replacen("v 1 1 0\nv 0 1 0", "v 0 1 0\nv 1.2 1 0", 1);
+    std::fs::write(&mesh, crossed).expect("a mesh");
+    assert_status(&unwrapd(&["untangle", &mesh, "-o", &output, "--force"]), 3);
+}
+
 #[test]
 fn a_picture_is_warped_and_proven() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -92,6 +92,28 @@ pub enum ProblemError {
         /// ε.
         epsilon: f64,
     },
+    /// Neighboring elements cannot be wound alike.
+    #[error(
+        "elements {elements:?} cannot be wound alike: three meet there, or the mesh has one side only"
+    )]
+    NotOrientable {
+        /// Indices of two neighbors.
+        elements: [usize; 2],
+    },
+    /// The mesh of the rest shapes is folded itself.
+    #[error("element {element} of the rest mesh is inverted or empty")]
+    InvertedRest {
+        /// Index of the element.
+        element: usize,
+    },
+    /// The mesh of the rest shapes does not match the mesh.
+    #[error("the rest mesh has {found} vertices, but the mesh has {expected}")]
+    WrongRest {
+        /// Number of vertices found.
+        found: usize,
+        /// Number of vertices expected.
+        expected: usize,
+    },
     /// The targets of an element's held corners leave it inverted or empty.
     #[error("the targets of its held corners leave element {element} inverted or empty")]
     HeldElement {
@@ -176,6 +198,8 @@ impl ProblemError {
                 "contradictory_handles"
             }
             Self::InfeasibleStart { .. } => "infeasible_start",
+            Self::NotOrientable { .. } => "not_orientable",
+            Self::InvertedRest { .. } => "folded_mesh",
             Self::HeldElement { .. } => "held_element_inverted",
             Self::BoundarySize { .. } => "boundary_inverted",
             Self::BoundaryTurning { .. } => "boundary_turns_too_little",
@@ -185,7 +209,7 @@ impl ProblemError {
             Self::PlanarBijectivity => "planar_bijectivity",
             Self::OverlappingStart => "overlapping_start",
             Self::OutsideDomain => "outside_domain",
-            Self::WrongStart { .. } => "wrong_start",
+            Self::WrongStart { .. } | Self::WrongRest { .. } => "wrong_start",
         }
     }
 }

@@ -4,4 +4,5 @@ pub(super) mod live;
 pub(super) mod solution;
 pub(super) mod solve;
 pub(super) mod source;
+pub(super) mod untangle;
 pub(super) mod warp;

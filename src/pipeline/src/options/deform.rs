@@ -278,6 +278,19 @@ impl BodyFormat {
         }
     }
 
+    /// Returns the file of elements whose vertices have `dim` coordinates.
+    pub(crate) fn write_elements(self, elements: &Elements, dim: usize) -> Vec<u8> {
+        let text = match self.file().and_then(ElementFormat::of) {
+            Some(format) => format.write(elements),
+            None if dim == 2 => {
+                let vertices = elements.vertices.iter().map(|p| [p[0], p[1]]);
+                text_positions::<2>(&vertices.collect::<Vec<_>>())
+            }
+            None => text_positions::<3>(&elements.vertices),
+        };
+        text.into_bytes()
+    }
+
     /// Returns the file of a deformed body: `elements` at the positions `x`, which are flattened. VTK files also
     /// contain the distortion of each element.
     pub(crate) fn write(self, elements: &Elements, problem: &Problem, x: &[f64]) -> Vec<u8> {

@@ -255,7 +255,7 @@ codes! {
 // Codes of invalid inputs. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Codes with their meanings.
-pub(super) const CAUSES: [(&str, &str); 67] = [
+pub(super) const CAUSES: [(&str, &str); 68] = [
     // Handles.
     ("malformed_handles", "The list of handles cannot be parsed"),
     ("no_handle", "There is no handle"),
@@ -321,6 +321,10 @@ pub(super) const CAUSES: [(&str, &str); 67] = [
         "The chart has a flipped or degenerate face, and untangling failed",
     ),
     ("nonorientable_chart", "The chart is not orientable"),
+    (
+        "not_orientable",
+        "The elements cannot be wound alike: three meet at a face or edge, or the mesh has one side only",
+    ),
     (
         "missing_resource",
         "The input references a file that was not uploaded",
