@@ -47,8 +47,13 @@ impl Effort {
         Self { most, ..self }
     }
 
+    /// Returns the faces that were mapped, and those that were predicted by the time that they took.
+    pub fn spent(&self) -> f64 {
+        self.mapped_faces as f64 + PREDICTION * self.predicted_faces as f64
+    }
+
     /// Returns whether no work is left.
     pub fn is_spent(&self) -> bool {
-        self.mapped_faces as f64 + PREDICTION * self.predicted_faces as f64 >= self.most
+        self.spent() >= self.most
     }
 }

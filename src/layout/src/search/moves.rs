@@ -198,6 +198,7 @@ impl Search<'_> {
             self.nets.list.remove(net);
         }
         let number = self.nets.add(net);
+        self.go_on();
         self.push_moves(number, 0, lambda, heap);
     }
 
