@@ -231,55 +231,6 @@ fn given_charts_get_shorter_seams() {
     assert!(energy(&found) <= 4.1, "{}", energy(&found));
 }
 
-/// A unit square, and at a right angle to it a square that widens from a stretch of one of its sides.
-fn hinged(width: f32) -> Mesh {
-    let [low, high] = [0.5 - width / 2.0, 0.5 + width / 2.0];
-    let flat = [
-        [0.0, 0.0],
-        [1.0, 0.0],
-        [1.0, low],
-        [1.0, high],
-        [1.0, 1.0],
-        [0.0, 1.0],
-    ];
-    let upright = [[1.0, 0.3], [1.0, 1.3], [0.0, 1.3], [0.0, 0.3]];
-    let mut positions: Vec<[f32; 3]> = flat.map(|[x, y]| [x, y, 0.0]).to_vec();
-    positions.extend(upright.map(|[y, z]| [1.0, y, z]));
-    Mesh {
-        name: "hinged squares".into(),
-        positions,
-        triangles: vec![
-            [0, 1, 2],
-            [0, 2, 3],
-            [0, 3, 4],
-            [0, 4, 5],
-            [2, 6, 3],
-            [3, 6, 7],
-            [3, 7, 8],
-            [3, 8, 9],
-        ],
-    }
-}
-
-/// Two charts become one where that saves more seam than it costs fill of the page.
-#[test]
-fn a_short_hinge_is_not_worth_a_chart_that_is_too_long_for_the_page() {
-    for (width, n) in [(0.1, 2), (0.9, 1)] {
-        let mesh = hinged(width);
-        let surface = surface(&mesh);
-        let (found, _) = from_charts(
-            &surface,
-            cut(&surface),
-            &bound(4.1),
-            &Terms::default(),
-            &options(),
-            &Unobserved,
-        );
-        check(&surface, &found);
-        assert_eq!(found.len(), n, "a hinge of {width}");
-    }
-}
-
 /// A search that may do nothing, or whose bound is spent, returns what it was given.
 #[test]
 fn charts_stay_without_effort_and_beyond_the_bound() {
