@@ -13,7 +13,7 @@ pub(super) struct UntangleArgs {
     /// Mesh: .obj, .off, .msh, .mesh or .tet. `-` is standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// Mesh with the same vertices and elements, none of them inverted, that has their rest shapes
+    /// Mesh that gives the rest shapes: the same vertices and elements, without inversions
     #[arg(long, value_name = "FILE", conflicts_with = "rest")]
     rest_mesh: Option<PathBuf>,
     /// Output file: .txt (positions, 17 digits), .obj, .off, .msh, .mesh, .tet or .vtu. `-` is

@@ -125,7 +125,7 @@ impl Model {
 }
 
 impl Problem {
-    /// Creates the problem of a body at rest and handles, of which there must be one.
+    /// Creates the problem of a body at rest and its handles; at least one is required.
     pub fn new(body: Body, handles: &[Handle], model: &Model) -> Result<Self, ProblemError> {
         let Bound {
             stations,

@@ -1,4 +1,4 @@
-//! The search: make moves, and let distortion get cheaper.
+//! State of the search, and its passes at falling prices of distortion.
 
 use super::Terms;
 use super::effort::Effort;

@@ -79,7 +79,7 @@ fn under_bound(
     let under = |bound: &Bound| {
         let cut = charts_under_bound(surface, bound, seam_price, options, plan.symmetry, observer);
         if seam_price < 1.0 {
-            // Seams are wanted for the fill of the page, of which the search sees little.
+            // Cheap seams are there to fill the page, and the search would close them.
             return cut;
         }
         let terms = Terms {
