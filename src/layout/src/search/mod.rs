@@ -7,9 +7,10 @@
 //! ```
 //!
 //! S is the length of the seams, n the number of nets and E the symmetric Dirichlet energy of their maps, in units in which
-//! the surface has area 1. F bounds the fill of a square page: what charts usually fill, or less if one net alone sets the scale; w is its weight. This
-//! is the [cost of a layout](unwrapd_maps::measure::cost) as far as it is known before packing. The search knows no classes of
-//! surfaces. Distortion has a price λ that falls from strict to loose, so what the bound allows is spent where it saves the most seam.
+//! the surface has area 1. F estimates the fill of a square page, less than usual if one net alone sets the scale; w is its
+//! weight. This is the [cost of a layout](unwrapd_maps::measure::cost) as far as it is known before packing. The search knows
+//! no classes of surfaces. Distortion has a price λ that falls from strict to loose, so what the bound allows is spent where it
+//! saves the most seam.
 //!
 //! A move opens the faces of one net, or of two neighbors, in another way (`moves`):
 //!
