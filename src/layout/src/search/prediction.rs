@@ -25,11 +25,13 @@ const UNCHARGED: f64 = 1e-4;
 const BEST: f64 = 0.5;
 /// Share of the diagonal that keeps a Laplacian of needles positive definite.
 const REGULAR: f64 = 1e-12;
+/// Diagonal of a grounded node over the largest of the others: holds it at 0 to nine digits.
+const GROUND: f64 = 1e9;
 
 /// Predicted distortion of the best map of a cut mesh, and of the mesh with further slits.
 ///
-/// A slit from the outer boundary grounds the vertices along it: u = 0 there. With the Green's function of the mesh, the
-/// column g of a vertex, that is a change of rank one: u ← u − g u(v)/g(v). All slits of a mesh share one factorization.
+/// A slit from the outer boundary grounds the vertices along it: u = 0 there. All slits of a mesh share the analysis of its
+/// Laplacian; grounded vertices get a diagonal so large that they stay at 0.
 pub struct Prediction<'a> {
     mesh: &'a CutMesh<'a>,
     /// For each vertex its node; 0 is the outer boundary, and every other loop is one node.
@@ -40,21 +42,29 @@ pub struct Prediction<'a> {
     charge: Vec<f64>,
     /// Weight of the faces around each node.
     weight: Vec<f64>,
-    /// Factor of the Laplacian without node 0; `None` if nothing is charged.
-    factor: Option<Cholesky>,
+    /// Laplacian without node 0; `None` if nothing is charged.
+    laplacian: Option<Laplacian>,
     is_grounded: Vec<bool>,
     /// Logarithm of the scale at each node.
     log_scale: Vec<f64>,
-    /// Columns of the Green's function at the grounded nodes, each scaled and without its share of the earlier ones.
-    columns: Vec<Vec<f64>>,
     excess: f64,
+}
+
+/// Laplacian whose factor is computed anew with some nodes grounded.
+struct Laplacian {
+    factor: Cholesky,
+    /// Entries in the order of the pattern.
+    values: Vec<f64>,
+    /// For each node but node 0 the place of its diagonal among the entries.
+    diagonal: Vec<usize>,
+    /// Diagonal of a grounded node.
+    ground: f64,
 }
 
 /// Prediction with further nodes grounded.
 pub struct Grounded {
     nodes: Vec<usize>,
     log_scale: Vec<f64>,
-    columns: Vec<Vec<f64>>,
     /// Predicted excess.
     pub excess: f64,
 }
@@ -94,10 +104,9 @@ impl<'a> Prediction<'a> {
             node,
             node_of_loop,
             weight,
-            factor: None,
+            laplacian: None,
             is_grounded,
             log_scale: vec![0.0; charge.len()],
-            columns: Vec::new(),
             excess: 0.0,
             charge,
         };
@@ -135,39 +144,23 @@ impl<'a> Prediction<'a> {
         hole.map(|(k, _)| &*self.mesh.loops[k])
     }
 
-    /// Predicts the distortion if some vertices are grounded as well.
+    /// Predicts the distortion if some vertices are grounded as well. Work: one factorization.
     pub fn grounded(&mut self, vertices: impl IntoIterator<Item = u32>) -> Grounded {
-        let mut trial = Grounded {
-            nodes: Vec::new(),
-            log_scale: self.log_scale.clone(),
-            columns: Vec::new(),
-            excess: self.excess,
-        };
-        let Some(factor) = &mut self.factor else {
-            return trial;
-        };
-        for vertex in vertices {
-            let node = self.node[vertex as usize] as usize;
-            if self.is_grounded[node] || trial.nodes.contains(&node) {
-                continue;
-            }
-            let mut column = vec![0.0; trial.log_scale.len()];
-            column[node] = 1.0;
-            factor.solve(&mut column[1..], 1);
-            for earlier in self.columns.iter().chain(&trial.columns) {
-                subtract(&mut column, earlier[node], earlier);
-            }
-            let size = column[node].max(f64::MIN_POSITIVE).sqrt();
-            for x in &mut column {
-                *x /= size;
-            }
-            let share = trial.log_scale[node] / column[node];
-            subtract(&mut trial.log_scale, share, &column);
-            trial.nodes.push(node);
-            trial.columns.push(column);
+        let nodes = vertices.into_iter().map(|v| self.node[v as usize] as usize);
+        let mut nodes: Vec<usize> = nodes.filter(|&node| !self.is_grounded[node]).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let mut log_scale = self.log_scale.clone();
+        if let Some(laplacian) = &mut self.laplacian {
+            let earlier = (1..self.is_grounded.len()).filter(|&node| self.is_grounded[node]);
+            let solved = laplacian.solved(&self.charge, earlier.chain(nodes.iter().copied()));
+            log_scale = solved.unwrap_or(log_scale);
         }
-        trial.excess = self.excess_of(&trial.log_scale);
-        trial
+        Grounded {
+            excess: self.excess_of(&log_scale),
+            nodes,
+            log_scale,
+        }
     }
 
     /// Takes over a prediction with further nodes grounded.
@@ -175,7 +168,6 @@ impl<'a> Prediction<'a> {
         for node in trial.nodes {
             self.is_grounded[node] = true;
         }
-        self.columns.extend(trial.columns);
         self.log_scale = trial.log_scale;
         self.excess = trial.excess;
     }
@@ -217,14 +209,11 @@ impl<'a> Prediction<'a> {
             let d = diagonal[i as usize + 1];
             (i, i, d + REGULAR * d.abs().max(1.0))
         }));
-        let (pattern, values) = SymmetricPattern::from_entries(n, entries);
-        let mut factor = Cholesky::analyze(&pattern, 1);
-        factor.factor(&values).ok()?;
-        let mut solved = self.charge.clone();
-        factor.solve(&mut solved[1..], 1);
+        let mut laplacian = Laplacian::new(n, entries);
+        let solved = laplacian.solved(&self.charge, [])?;
         self.excess = self.excess_of(&solved);
         self.log_scale = solved;
-        self.factor = Some(factor);
+        self.laplacian = Some(laplacian);
         Some(())
     }
 
@@ -235,10 +224,36 @@ impl<'a> Prediction<'a> {
     }
 }
 
-/// Subtracts a multiple of a vector.
-fn subtract(from: &mut [f64], factor: f64, vector: &[f64]) {
-    for (x, y) in from.iter_mut().zip(vector) {
-        *x -= factor * y;
+impl Laplacian {
+    /// Analyzes the pattern of the entries, which hold every diagonal one.
+    fn new(n: usize, entries: Vec<(u32, u32, f64)>) -> Self {
+        let (pattern, values) = SymmetricPattern::from_entries(n, entries);
+        let diagonal = pattern.col_ptr[..n].to_vec();
+        let largest = diagonal.iter().map(|&k| values[k]).fold(0.0, f64::max);
+        Self {
+            factor: Cholesky::analyze(&pattern, 1),
+            ground: GROUND * largest,
+            values,
+            diagonal,
+        }
+    }
+
+    /// Returns the scales for some charges of the nodes; node 0 and the grounded ones are at 0. `None` if the Laplacian is not
+    /// positive definite.
+    fn solved(
+        &mut self,
+        charge: &[f64],
+        grounded: impl IntoIterator<Item = usize>,
+    ) -> Option<Vec<f64>> {
+        let mut values = self.values.clone();
+        let mut log_scale = charge.to_vec();
+        for node in grounded {
+            values[self.diagonal[node - 1]] = self.ground;
+            log_scale[node] = 0.0;
+        }
+        self.factor.factor(&values).ok()?;
+        self.factor.solve(&mut log_scale[1..], 1);
+        Some(log_scale)
     }
 }
 
