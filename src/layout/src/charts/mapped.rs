@@ -5,7 +5,7 @@ use super::opened::connected_faces;
 use super::parts::{parted, parts};
 use super::symmetry::image::cut_alike;
 use super::unfold::overlaps::{lengths, one_side, overlaps};
-use super::unfold::push_apart::pushed_apart;
+use super::unfold::push_apart::{all_pushed_apart, pushed_apart};
 use super::{Chart, halves};
 use unwrapd_maps::embed::{self, Embedding, RestShapes, rest_shapes};
 use unwrapd_method::barrier::BarrierKind;
@@ -287,8 +287,7 @@ impl MappedChart {
         if let Ok(embedding) = embed::optimize(disk, positions, from, options, &watching)
             && embed::is_positive(&disk.triangles, &embedding.uv)
             && let pairs = overlaps(disk, &embedding.uv)
-            && let (uv, left) = pushed_apart(chart, &embedding.uv, pairs, options, &watch)
-            && left.is_empty()
+            && let Some(uv) = all_pushed_apart(chart, &embedding.uv, &pairs, options, &watch)
         {
             self.embedding = Embedding {
                 uv,

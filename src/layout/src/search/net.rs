@@ -3,7 +3,7 @@
 use super::cut_mesh::CutMesh;
 use super::metric::Metric;
 use super::opening::Opening;
-use crate::charts::{Chart, MappedChart, Observer, Watching, overlaps, pushed_apart};
+use crate::charts::{Chart, MappedChart, Observer, Watching, all_pushed_apart, overlaps};
 use unwrapd_maps::embed::{self, Embedding};
 use unwrapd_maps::mesh::{CUT, Disk, next};
 use unwrapd_method::numerics::support::{Directions, Support};
@@ -99,19 +99,17 @@ impl Net {
             observer,
         };
         let pairs = overlaps(&chart.disk, &embedding.uv);
-        let (uv, left) = pushed_apart(&chart, &embedding.uv, pairs, options, &watching);
+        let uv = all_pushed_apart(&chart, &embedding.uv, &pairs, options, &watching)?;
         let faces = chart.corners.iter().map(|corners| corners[0] / 3).collect();
-        left.is_empty().then(|| {
-            let map = MappedChart {
-                chart,
-                embedding: Embedding {
-                    uv,
-                    summary: embedding.summary,
-                },
-                seconds: 0.0,
-            };
-            Self::of_map(metric, faces, opening.slits.clone(), &map)
-        })
+        let map = MappedChart {
+            chart,
+            embedding: Embedding {
+                uv,
+                summary: embedding.summary,
+            },
+            seconds: 0.0,
+        };
+        Some(Self::of_map(metric, faces, opening.slits.clone(), &map))
     }
 
     /// Creates the net of a map whose faces are those of the chart, in ascending order.

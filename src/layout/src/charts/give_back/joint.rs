@@ -7,7 +7,7 @@ use super::laid::Laid;
 use crate::charts::mapped::MappedChart;
 use crate::charts::unfold::local_minimum::Local;
 use crate::charts::unfold::overlaps::overlaps_with;
-use crate::charts::unfold::push_apart::pushed_apart;
+use crate::charts::unfold::push_apart::all_pushed_apart;
 use unwrapd_maps::embed::{self, RestShapes};
 use unwrapd_maps::plane::keep_apart;
 use unwrapd_method::solver::{Control, Iterate};
@@ -86,9 +86,8 @@ impl Giving<'_> {
         let pairs = overlaps_with(&map.chart.disk, &map.embedding.uv, these);
         let uv = &map.embedding.uv;
         let watch = |_: &Iterate| self.iterated(&map);
-        let (uv, left) = pushed_apart(&map.chart, uv, pairs, self.options, &watch);
-        map.embedding.uv = uv;
-        left.is_empty().then_some(map)
+        map.embedding.uv = all_pushed_apart(&map.chart, uv, &pairs, self.options, &watch)?;
+        Some(map)
     }
 
     /// An iteration around a seam of a chart is done; whether to go on.

@@ -33,37 +33,48 @@ pub fn pushed_apart(
     options: &embed::Options,
     watch: &dyn Watch,
 ) -> (Vec<[f64; 2]>, Vec<[u32; 2]>) {
-    if pairs.is_empty() {
-        return (uv.to_vec(), pairs);
-    }
     let twin = chart.disk.twins();
     let folds = folds(&twin, &pairs);
-    if folds.len() > MOST_FOLDS {
+    if folds.is_empty() || folds.len() > MOST_FOLDS {
         return (uv.to_vec(), pairs);
     }
     let rest = rest_shapes(&chart.positions, &chart.disk.triangles);
     let local = Local::new(chart, &rest, options, watch);
-    let mut pushing = Pushing {
-        settled: Contacts::new(chart, &twin),
-        deepest: DEEPEST * (chart.disk.triangles.len() as f64).sqrt(),
-        uv: local.in_unit(uv),
-        pairs: pairs.clone(),
-        local,
-    };
+    let mut pushing = Pushing::new(local, &twin, uv, &pairs);
     for fold in folds {
         pushing.push_apart(fold);
     }
-    if pushing.settled.is_empty() {
-        return (uv.to_vec(), pairs);
+    match pushing.in_mesh_unit() {
+        Some(pushed) if !pushing.settled.is_empty() => {
+            let left = overlaps(&chart.disk, &pushed);
+            (pushed, left)
+        }
+        _ => (uv.to_vec(), pairs),
     }
-    // In the mesh's unit again, decided again: coordinates are rounded.
-    let pushed = pushing.local.in_mesh_unit(&pushing.uv);
-    if embed::is_positive(&chart.disk.triangles, &pushed) {
-        let left = overlaps(&chart.disk, &pushed);
-        (pushed, left)
-    } else {
-        (uv.to_vec(), pairs)
+}
+
+/// Pushes the slight folds of a map apart as [`pushed_apart`] does, but returns `None` as soon as one is left.
+pub fn all_pushed_apart(
+    chart: &Chart,
+    uv: &[[f64; 2]],
+    pairs: &[[u32; 2]],
+    options: &embed::Options,
+    watch: &dyn Watch,
+) -> Option<Vec<[f64; 2]>> {
+    if pairs.is_empty() {
+        return Some(uv.to_vec());
     }
+    let twin = chart.disk.twins();
+    let folds = folds(&twin, pairs);
+    if folds.len() > MOST_FOLDS {
+        return None;
+    }
+    let rest = rest_shapes(&chart.positions, &chart.disk.triangles);
+    let local = Local::new(chart, &rest, options, watch);
+    let mut pushing = Pushing::new(local, &twin, uv, pairs);
+    let is_apart = folds.into_iter().all(|fold| pushing.push_apart(fold));
+    let pushed = is_apart.then(|| pushing.in_mesh_unit())??;
+    overlaps(&chart.disk, &pushed).is_empty().then_some(pushed)
 }
 
 /// The pairs in groups, the smallest first: faces that overlap or are neighbors are in one fold.
@@ -107,9 +118,26 @@ struct Pushing<'a> {
     deepest: f64,
 }
 
-impl Pushing<'_> {
-    /// Pushes until none of the pairs of a fold is left, and no new one is there; or changes nothing.
-    fn push_apart(&mut self, mut fold: Vec<[u32; 2]>) {
+impl<'a> Pushing<'a> {
+    fn new(local: Local<'a>, twin: &'a [u32], uv: &[[f64; 2]], pairs: &[[u32; 2]]) -> Self {
+        let chart = local.chart;
+        Self {
+            settled: Contacts::new(chart, twin),
+            deepest: DEEPEST * (chart.disk.triangles.len() as f64).sqrt(),
+            uv: local.in_unit(uv),
+            pairs: pairs.to_vec(),
+            local,
+        }
+    }
+
+    /// Returns the map in the mesh's unit; `None` if rounding flips a triangle.
+    fn in_mesh_unit(&self) -> Option<Vec<[f64; 2]>> {
+        let pushed = self.local.in_mesh_unit(&self.uv);
+        embed::is_positive(&self.local.chart.disk.triangles, &pushed).then_some(pushed)
+    }
+
+    /// Pushes until none of the pairs of a fold is left, and no new one is there; or changes nothing and returns false.
+    fn push_apart(&mut self, mut fold: Vec<[u32; 2]>) -> bool {
         let mut others: Option<BTreeSet<[u32; 2]>> = None;
         let before = self.uv.clone();
         let mut contacts = self.settled.none();
@@ -132,12 +160,14 @@ impl Pushing<'_> {
             in_vain += usize::from(fold.len() as f64 > HELPS * least as f64);
             least = least.min(fold.len());
         }
-        if fold.is_empty() {
+        let is_apart = fold.is_empty();
+        if is_apart {
             self.settled.extend(&contacts);
             self.pairs = pairs;
         } else {
             self.uv = before;
         }
+        is_apart
     }
 
     /// Minimizes energy and constraints; returns the faces that have moved.
