@@ -9,10 +9,10 @@ use unwrapd_maps::embed::{self, rest_shapes};
 use unwrapd_maps::mesh::{CUT, UnionFind};
 use unwrapd_method::solver::Watch;
 
-/// A push helps if it leaves at most this share of the overlapping pairs.
+/// A push helps if it leaves at most this share of the overlapping pairs; at the first that does not a fold is given up. Allowing two
+/// or three such pushes changes no layout by more than 1 % but five of 29, in both directions, and takes up to 1.3 times the time
+/// of the search (`cargo bench --bench search`).
 const HELPS: f64 = 0.9;
-/// A fold is given up after this many pushes that do not help.
-const IN_VAIN: usize = 3;
 
 /// The most folds to push apart: a chart with more is cut anyway.
 const MOST_FOLDS: usize = 24;
@@ -142,8 +142,9 @@ impl<'a> Pushing<'a> {
         let before = self.uv.clone();
         let mut contacts = self.settled.none();
         let mut pairs = self.pairs.clone();
-        let (mut least, mut in_vain) = (fold.len(), 0);
-        while !fold.is_empty() && in_vain < IN_VAIN {
+        let mut most = f64::INFINITY;
+        while !fold.is_empty() && fold.len() as f64 <= most {
+            most = HELPS * fold.len() as f64;
             let is_slight = contacts.renew(&self.uv, &fold, self.deepest);
             if !is_slight || contacts.is_empty() {
                 break;
@@ -157,8 +158,6 @@ impl<'a> Pushing<'a> {
             fold = (pairs.iter().copied())
                 .filter(|pair| !others.contains(pair))
                 .collect();
-            in_vain += usize::from(fold.len() as f64 > HELPS * least as f64);
-            least = least.min(fold.len());
         }
         let is_apart = fold.is_empty();
         if is_apart {
