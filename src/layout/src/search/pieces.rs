@@ -17,7 +17,7 @@ const DEVELOPABLE: f64 = 0.25;
 const OPEN: f64 = 1e-9;
 
 /// Labels each face by its facet: coplanar neighbors, and needles with the neighbor at their longest side.
-pub fn facets(metric: &Metric) -> (Vec<u32>, usize) {
+fn facets(metric: &Metric) -> (Vec<u32>, usize) {
     let mut sets = UnionFind::new(metric.corners.len());
     for (edge, &h) in metric.halfedge.iter().enumerate() {
         let t = metric.twin[h as usize];
@@ -69,10 +69,10 @@ impl Ord for Joint {
 }
 
 /// Pieces with the pieces that they were joined from: a forest whose leaves are facets.
-struct Pieces<'a> {
+pub struct Pieces<'a> {
     metric: &'a Metric<'a>,
     /// For each face the piece that holds it.
-    label: Vec<u32>,
+    pub label: Vec<u32>,
     list: Vec<Piece>,
     /// Faces around each vertex.
     around: Vec<Vec<u32>>,
@@ -94,7 +94,7 @@ struct Piece {
 
 impl<'a> Pieces<'a> {
     /// Makes each facet a piece.
-    fn of_facets(metric: &'a Metric<'a>) -> Self {
+    pub fn of_facets(metric: &'a Metric<'a>) -> Self {
         let (label, n) = facets(metric);
         let mut list: Vec<Piece> = Vec::new();
         list.resize_with(n, || Piece {
@@ -143,8 +143,9 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// Joins pieces, the longest contact by perimeter first, while the angle defects inside stay small.
-    fn join(&mut self) {
+    /// Joins pieces, the longest contact by perimeter first, while the sum of the angle defects inside is at most `most_bent` and
+    /// the edges between them may be inside.
+    pub fn join(&mut self, most_bent: f64, may_be_inside: impl Fn(u32) -> bool) {
         let mut heap = BinaryHeap::new();
         for a in 0..self.list.len() as u32 {
             for &b in self.list[a as usize].contacts.keys().filter(|&&b| a < b) {
@@ -156,10 +157,14 @@ impl<'a> Pieces<'a> {
             if !(first.is_current && second.is_current) {
                 continue;
             }
-            let bent = first.bent + second.bent + self.closed(a, b);
-            let contact = self.metric.length_of(&first.contacts[&b]);
+            let edges = &first.contacts[&b];
+            let contact = self.metric.length_of(edges);
             let perimeter = first.perimeter + second.perimeter - 2.0 * contact;
-            if bent > DEVELOPABLE || perimeter < OPEN {
+            if perimeter < OPEN || !edges.iter().all(|&edge| may_be_inside(edge)) {
+                continue;
+            }
+            let bent = first.bent + second.bent + self.closed(a, b);
+            if bent > most_bent {
                 continue;
             }
             let joined = self.joined([a, b], perimeter, bent);
@@ -233,7 +238,7 @@ impl Search<'_> {
     /// Starts from pieces that are nearly developable; one that has no map falls into those that it was joined from.
     pub fn start(&mut self, lambda: f64) {
         let mut pieces = Pieces::of_facets(self.nets.metric);
-        pieces.join();
+        pieces.join(DEVELOPABLE, |_| true);
         let mut pending: Vec<u32> = (0..pieces.list.len() as u32)
             .rev()
             .filter(|&piece| pieces.list[piece as usize].is_current)
