@@ -52,10 +52,11 @@ impl Candidate {
         }
     }
 
-    /// Returns the share of a page that is filled, on the best of the pages.
+    /// Returns the share of a page that is filled: the mean of the page that is asked for and the best of all.
     fn fill(&self) -> f64 {
+        let here = self.layout.fill();
         let elsewhere = self.elsewhere.iter().map(CoarseLayout::fill);
-        elsewhere.fold(self.layout.fill(), f64::max)
+        f64::midpoint(here, elsewhere.fold(here, f64::max))
     }
 
     /// Returns whether the charts may exceed `scale` by the worthwhile factor.

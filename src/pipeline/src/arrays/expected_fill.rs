@@ -40,8 +40,8 @@ impl Extent {
     }
 }
 
-/// Returns the share of the page that a layout of these charts fills, of the best of the pages if there are several, up to a
-/// constant that does not depend on the cuts.
+/// Returns the share of the page that a layout of these charts fills, up to a constant that does not depend on the cuts: the mean of the
+/// square and the best of the pages if there are several.
 pub fn expected_fill(extents: &[Extent], pages: Pages) -> f64 {
     let sum = |of: &dyn Fn(&Extent) -> f64| extents.iter().map(of).sum::<f64>();
     let area = sum(&|e| e.area).max(f64::MIN_POSITIVE);
@@ -50,10 +50,11 @@ pub fn expected_fill(extents: &[Extent], pages: Pages) -> f64 {
         Pages::Any => 4,
     };
     let around = |shape: usize| extents.iter().map(|e| e.pages[shape]).fold(0.0, f64::max);
-    let largest = (0..shapes).map(around).fold(f64::INFINITY, f64::min);
+    let best = (0..shapes).map(around).fold(f64::INFINITY, f64::min);
+    let excess = |largest: f64| (largest / area - LARGEST_PAGE).max(0.0);
     let share = |e: &Extent| e.area / area;
     PER_HULL * sum(&|e| e.hull) / area
-        + PER_EXCESS * (largest / area - LARGEST_PAGE).max(0.0)
+        + PER_EXCESS * f64::midpoint(excess(around(0)), excess(best))
         + PER_ROOT_OF_SQUARES * sum(&|e| share(e).powi(2)).sqrt()
         + PER_SUM_OF_POWERS * sum(&|e| share(e) * share(e).sqrt())
 }

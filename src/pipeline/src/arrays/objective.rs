@@ -13,7 +13,7 @@ const MOST_HALVINGS: u32 = 3;
 pub enum Pages {
     /// The page that is asked for.
     Given,
-    /// The best of the pages 1:1, 2:1, 4:1 and 8:1: the page is square because nothing else was asked for.
+    /// The square and the best of the pages 1:1, 2:1, 4:1 and 8:1, alike: the page is square because nothing else was asked for.
     Any,
 }
 
