@@ -185,6 +185,35 @@ fn a_lamp_shade_is_slit_once() {
     }
 }
 
+/// Charts that break the bound are slit until they keep it, and no further.
+#[test]
+fn charts_beyond_the_bound_are_slit() {
+    for n in [12, 32] {
+        let surface = surface(&lamp_shade(n));
+        let whole: Vec<MappedChart> = (charts(&surface, Cut::Disk).into_iter())
+            .flat_map(|chart| map_chart(chart, &options(), Folds::Cut, &Unobserved))
+            .collect();
+        assert!(energy(&whole) > 4.1 && seam(&whole) < 1e-6);
+        let terms = Terms {
+            effort: Effort::for_surface(surface.triangles.len(), surface.triangles.len()),
+            ..Terms::default()
+        };
+        let (found, _) = from_charts(
+            &surface,
+            whole,
+            &bound(4.1),
+            &terms,
+            &options(),
+            &Unobserved,
+        );
+        check(&surface, &found);
+        assert!(energy(&found) < 4.1, "{}", energy(&found));
+        let slant = 0.6_f64.hypot(2.0);
+        let area: f64 = found.iter().map(MappedChart::surface_area).sum();
+        assert!(seam(&found) < 1.01 * slant / area.sqrt());
+    }
+}
+
 /// A plate with a hole is flat as it is.
 #[test]
 fn a_plate_with_a_hole_stays_whole() {
@@ -233,7 +262,7 @@ fn given_charts_get_shorter_seams() {
 
 /// A search that may do nothing, or whose bound is spent, returns what it was given.
 #[test]
-fn charts_stay_without_effort_and_beyond_the_bound() {
+fn charts_stay_without_effort_and_at_the_bound() {
     let mesh = elbow(12, 8);
     let surface = surface(&mesh);
     let cut = cut(&surface);
@@ -241,7 +270,11 @@ fn charts_stay_without_effort_and_beyond_the_bound() {
         effort: Effort::for_surface(0, 1),
         ..Terms::default()
     };
-    for (terms, mean) in [(idle, 4.1), (Terms::default(), energy(&cut) - 1e-6)] {
+    let usual = Terms {
+        effort: Effort::for_surface(1, 1),
+        ..Terms::default()
+    };
+    for (terms, mean) in [(idle, 4.1), (usual, 4.0 + (energy(&cut) - 4.0) * 1.000_001)] {
         let (found, counts) = from_charts(
             &surface,
             cut.clone(),
@@ -297,6 +330,37 @@ fn panels_stay_straight() {
                 }
             }
         }
+    }
+}
+
+/// The walls of a ring are straight strips, whatever its tessellation. If they counted once, walls and ends would be bent to one chart.
+#[test]
+fn walls_stay_straight() {
+    for n in [8, 24] {
+        let energy = energy(&divided(&ring(n), 4.1));
+        assert!(energy < 4.01, "{energy}");
+    }
+}
+
+/// A tube of radius 1, height 1 and thickness 0.1: `n` squares around each of its walls and ends.
+fn ring(n: u32) -> Mesh {
+    let corners: [[f32; 2]; 4] = [[1.0, 0.0], [1.0, 1.0], [0.9, 1.0], [0.9, 0.0]];
+    let on_circle = |i: u32, [r, z]: [f32; 2]| {
+        let t = TAU * i as f32 / n as f32;
+        [r * t.cos(), r * t.sin(), z]
+    };
+    let mut triangles = Vec::new();
+    for (k, i) in (0..4).flat_map(|k| (0..n).map(move |i| (k, i))) {
+        let at = |k: u32, i: u32| (k % 4) * n + i % n;
+        let [a, b, c, d] = [at(k, i), at(k, i + 1), at(k + 1, i + 1), at(k + 1, i)];
+        triangles.extend([[a, b, c], [a, c, d]]);
+    }
+    Mesh {
+        positions: (corners.into_iter())
+            .flat_map(|corner| (0..n).map(move |i| on_circle(i, corner)))
+            .collect(),
+        triangles,
+        ..Mesh::default()
     }
 }
 

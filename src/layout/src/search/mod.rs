@@ -17,6 +17,7 @@
 //! - Neighbors are *glued*: with no cut between them, which unites tubes; with the slits that both have; or at a hinge, one
 //!   stretch of their border, which makes the nets of polyhedra.
 //! - Slits of a net are *given back*, whole or by half.
+//! - While the bound is broken, nets without slits are slit.
 //!
 //! To each of these ways, slits are added while they pay (`opening`), by a prediction of the distortion that needs no map
 //! (`prediction`). Only ways that promise to pay are mapped (`net`), from the maps of the parts where these can be laid
@@ -44,7 +45,7 @@ mod prediction;
 mod sets;
 mod state;
 
-use crate::charts::{Bound, MappedChart, Observer, excess_and_area};
+use crate::charts::{Bound, Bounded, MappedChart, Observer, excess_and_area, smoothed_where_rough};
 pub use effort::Effort;
 use metric::Metric;
 use net::Net;
@@ -105,12 +106,12 @@ pub fn from_pieces(
     (charts.collect(), search.counts)
 }
 
-/// Glues given charts and gives slits back as long as the charts keep a bound on the mean energy.
+/// Glues given charts and gives slits back as long as the charts keep a bound on the mean energy; slits charts that break it.
 ///
 /// The charts hold every face of the surface once. Of the effort the search takes the share of the bound that the charts leave
-/// unspent, since the rest of them has little to gain. Returns charts whose seams cost at most as much, and the work that it took;
-/// charts over the bound, and those that no move changed, stay as they are. So do all if the stretch is bounded, which the search
-/// does not measure.
+/// unspent, since the rest of them has little to gain, and all of it if they break the bound. Returns the charts, and the work that it
+/// took. If the bound was kept, their seams cost at most as much as before. Charts that no move changed stay as they are; so do all if
+/// the stretch is bounded, which the search does not measure.
 pub fn from_charts(
     surface: &Surface,
     charts: Vec<MappedChart>,
@@ -122,7 +123,11 @@ pub fn from_charts(
     let budget = bound.budget();
     // If what is left is too little for the smallest chart, even without panels, the search needs no arrays.
     let smallest = charts.iter().map(|map| map.chart.corners.len()).min();
-    let effort = terms.effort.share(share_left(mean_excess(&charts), budget));
+    let excess = mean_excess(&charts);
+    let is_broken = excess > bound.mean - 4.0 && !is_of_smoothed(bound, surface);
+    let effort = terms
+        .effort
+        .share(share_of_effort(is_broken, excess, budget));
     if bound.stretch.is_some() || smallest.is_none_or(|faces| effort.most < faces as f64) {
         return (charts, Counts::new(effort));
     }
@@ -130,7 +135,7 @@ pub fn from_charts(
     let nets = charts.iter().map(|chart| Net::of_chart(&metric, chart));
     let nets = Nets::new(&metric, nets.collect());
     let terms = Terms {
-        effort: terms.effort.share(share_left(nets.excess(), budget)),
+        effort: (terms.effort).share(share_of_effort(is_broken, nets.excess(), budget)),
         ..*terms
     };
     let mut search = Search::new(nets, budget, &terms, options, observer);
@@ -144,9 +149,18 @@ pub fn from_charts(
     (found.collect(), search.counts)
 }
 
-/// Returns the share of a bound on the mean excess that is left.
-fn share_left(excess: f64, budget: f64) -> f64 {
-    (1.0 - excess / budget.max(f64::MIN_POSITIVE)).max(0.0)
+/// Returns the share of the effort for charts: what they leave of the bound, or all if they break it.
+fn share_of_effort(is_broken: bool, excess: f64, budget: f64) -> f64 {
+    if is_broken {
+        1.0
+    } else {
+        (1.0 - excess / budget.max(f64::MIN_POSITIVE)).max(0.0)
+    }
+}
+
+/// Returns whether a bound is on the surface that a rough one is a sample of, whose distortion the search does not measure.
+fn is_of_smoothed(bound: &Bound, surface: &Surface) -> bool {
+    bound.of == Bounded::Smoothed && smoothed_where_rough(surface).is_some()
 }
 
 /// Returns the excess of charts over an energy of 4, per area.

@@ -76,7 +76,8 @@ impl Search<'_> {
             self.push_moves(number, number + 1, lambda, &mut heap);
         }
         while let Some(mut it) = heap.pop() {
-            if !it.nets.iter().all(|net| self.nets.list.contains_key(net)) {
+            let is_left = it.nets.iter().all(|net| self.nets.list.contains_key(net));
+            if !is_left || (it.nets.len() == 1 && !self.may_reopen(it.nets[0])) {
                 continue;
             }
             let must_end = self.must_end();
@@ -124,12 +125,17 @@ impl Search<'_> {
 
     /// Adds the moves of a net: to open it in another way, and to glue it to each neighbor whose number is at least `first`.
     fn push_moves(&self, net: u32, first: u32, lambda: f64, heap: &mut BinaryHeap<Move>) {
-        if !self.nets.list[&net].slits.is_empty() {
+        if self.may_reopen(net) {
             heap.push(self.proposed(vec![net], lambda));
         }
         for &other in self.nets.neighbors(net).range(first..) {
             heap.push(self.proposed(vec![net.min(other), net.max(other)], lambda));
         }
+    }
+
+    /// Returns whether a net may be opened in another way: one without slits only if the bound is broken.
+    fn may_reopen(&self, net: u32) -> bool {
+        !self.nets.list[&net].slits.is_empty() || self.is_broken()
     }
 
     /// Creates a move. Its gain is an upper bound: faces have neither slits nor distortion at best.

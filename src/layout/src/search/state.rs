@@ -117,9 +117,17 @@ impl<'a> Search<'a> {
         effort.most = (effort.spent() + self.patience).min(self.most);
     }
 
-    /// Returns the [cost](unwrapd_maps::measure::cost) of the nets on a square page.
-    fn cost(&self) -> f64 {
-        self.seam_and_charts().ln() - self.fill_weight * Nets::fill(self.nets.list.values())
+    /// Returns whether the nets have more excess than they may have.
+    pub fn is_broken(&self) -> bool {
+        self.nets.excess() > self.budget
+    }
+
+    /// Returns the excess beyond the bound, and the [cost](unwrapd_maps::measure::cost) of the nets on a square page. States are
+    /// compared by the first, then by the second.
+    fn cost(&self) -> [f64; 2] {
+        let fill = self.fill_weight * Nets::fill(self.nets.list.values());
+        let beyond = (self.nets.excess() - self.budget).max(0.0);
+        [beyond, self.seam_and_charts().ln() - fill]
     }
 
     /// Returns ½ + S + n/10.
