@@ -14,24 +14,24 @@ use unwrapd_method::numerics::vec3::{cross, dot, norm, sub};
 
 /// The mean angle defect, in radians, from which on the vertices of a component may be noise.
 const ROUGH: f64 = 0.2;
-/// The share of its total curvature that smoothing leaves to noise at most; of a shape it leaves a third and more.
+/// The share of its canceling curvature that smoothing leaves to noise at most; of a shape it leaves a third and more.
 const LEFT: f64 = 1.0 / 6.0;
 
 /// The surface with its rough components smoothed; none if it has no rough one.
 ///
-/// A component is rough if its total curvature, Σ|2π − Σ angles| over inner vertices, is large and vanishes when it is
-/// [smoothed](Surface::smoothed). Those that consist of planes are not, however many corners they have. O(n log n).
+/// A component is rough if much of the curvature at its inner vertices cancels, as that of bumps and dents does, and vanishes when it
+/// is [smoothed](Surface::smoothed). Those that consist of planes are not, however many corners they have. O(n log n).
 pub fn smoothed_where_rough(surface: &Surface) -> Option<Surface> {
     let is_on_border = surface.is_on_border();
-    let before = total_curvatures(surface, &is_on_border);
+    let before = curvatures_of(surface, &is_on_border);
     if !before.iter().any(Curvature::is_large) {
         return None;
     }
     let mut smooth = surface.clone();
     smooth.positions = surface.smoothed(&is_on_border);
-    let after = total_curvatures(&smooth, &is_on_border);
+    let after = curvatures_of(&smooth, &is_on_border);
     let mut is_rough: Vec<bool> = (before.iter().zip(&after))
-        .map(|(before, after)| before.is_large() && after.total < LEFT * before.total)
+        .map(|(before, after)| before.is_large() && after.canceling() < LEFT * before.canceling())
         .collect();
     let component = &surface.adjacency().component;
     if is_rough.contains(&true) {
@@ -52,21 +52,27 @@ pub fn smoothed_where_rough(surface: &Surface) -> Option<Surface> {
     is_rough.contains(&true).then_some(smooth)
 }
 
-/// The total curvature of a component.
+/// The curvature of a component: sums of the angle defects 2π − Σ angles of its inner vertices, in radians.
 #[derive(Clone, Copy, Default)]
 struct Curvature {
-    total: f64,
+    sum: f64,
+    absolute: f64,
     n_vertices: usize,
 }
 
 impl Curvature {
+    /// Returns the part of the curvature that cancels: none on a cone or a convex surface.
+    fn canceling(&self) -> f64 {
+        self.absolute - self.sum.abs()
+    }
+
     fn is_large(&self) -> bool {
-        self.total > ROUGH * self.n_vertices as f64
+        self.canceling() > ROUGH * self.n_vertices as f64
     }
 }
 
-/// Of each component. A vertex that two share counts in one of them.
-fn total_curvatures(surface: &Surface, is_on_border: &[bool]) -> Vec<Curvature> {
+/// Returns the curvature of each component; a vertex that two share counts in one of them.
+fn curvatures_of(surface: &Surface, is_on_border: &[bool]) -> Vec<Curvature> {
     let component = &surface.adjacency().component;
     let mut angles = vec![0.0; surface.positions.len()];
     let mut component_of = vec![None; surface.positions.len()];
@@ -83,7 +89,8 @@ fn total_curvatures(surface: &Surface, is_on_border: &[bool]) -> Vec<Curvature> 
     for ((angle, of), is_on_border) in angles.iter().zip(component_of).zip(is_on_border) {
         if let (Some(of), false) = (of, is_on_border) {
             let curvature: &mut Curvature = &mut curvatures[of as usize];
-            curvature.total += (TAU - angle).abs();
+            curvature.sum += TAU - angle;
+            curvature.absolute += (TAU - angle).abs();
             curvature.n_vertices += 1;
         }
     }
