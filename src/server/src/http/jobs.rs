@@ -11,9 +11,9 @@ use serde::{Deserialize, Serialize};
 
 use super::app::{App, Shared, json};
 use super::extract::{MAX_WAIT_SECONDS, Parameters, PathId, existing, missing, preferred_wait};
+use super::input::{self, Defaults, JobFile};
 use super::problem::{Code, Problem};
 use super::submission::{SubmissionHeaders, metadata};
-use super::upload;
 use super::view::{JobPage, JobView, job_path};
 use crate::jobs::access::{Caller, Owner, Visibility};
 use crate::jobs::{
@@ -22,6 +22,12 @@ use crate::jobs::{
 };
 use crate::webhooks;
 use unwrapd_api::Kind;
+
+/// What a new job takes of an earlier one unless the query says otherwise.
+const DEFAULTS: Defaults = Defaults {
+    kind: Kind::Unwrap,
+    file: JobFile::Input,
+};
 
 /// Create a job of any kind.
 ///
@@ -33,6 +39,9 @@ use unwrapd_api::Kind;
 ///
 /// A ZIP can bring an input together with the files that it references. It is the body, or the part
 /// of the input, and has exactly one file that the kind reads.
+///
+/// Instead of an upload, the query parameter `job` takes the files of an earlier job, to compute them
+/// again with other options; `file` says which. All options are query parameters then.
 ///
 /// `unwrap`, `repack`, `measure`, `verify`, `edit_uv` and `texture_map` read glTF, OBJ, OFF, PLY
 /// and STL. `deform` also reads Gmsh, Medit and TET meshes, and PNG and SVG outlines. `warp` reads
@@ -59,6 +68,8 @@ use unwrapd_api::Kind;
         ("Prefer" = Option<String>, Header, description = "`wait=N`: answer when the job has ended, but after N seconds at the latest"),
         ("kind" = Option<Kind>, Query, description = "Kind of job; the default is `unwrap`"),
         ("filename" = Option<String>, Query, description = "File name of a raw body"),
+        ("job" = Option<String>, Query, format = "uuid", description = "The job to take the input from; it may still run, but not be cancelled. There is no body then"),
+        ("file" = Option<JobFile>, Query, description = "With `job`: the files to take; the default is `input`"),
         ("priority" = Option<i32>, Query, minimum = -100, maximum = 100, description = "Of the waiting jobs of one owner, those of higher priority start first; the default is 0"),
         ("metadata" = Option<String>, Query, description = "JSON object of at most 4096 bytes and 64 members, which is repeated wherever the job is shown. `listJobs` finds jobs by it"),
         ("accept" = Option<String>, Query, description = "Gates that the result has to meet, as a list with commas: `certified`, `max_charts=N`, `max_distortion=E` (mean symmetric Dirichlet energy of the worst atlas; `max_symmetric_dirichlet` is the same), `max_stretch=S` (99th percentile), `max_seconds=T`, `written`. `accepted` of the job says whether it does"),
@@ -68,7 +79,10 @@ use unwrapd_api::Kind;
         (status = 202, description = "The accepted job", body = JobView, headers(("Location" = String, description = "Path of the job"))),
         (status = 200, description = "The job, which ended while the request waited", body = JobView, headers(("Location" = String, description = "Path of the job"))),
         (status = 400, description = "`invalid_request`, `invalid_options`, `missing_mesh`", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "`job_not_found`: of `job`", body = Problem, content_type = "application/problem+json"),
         (status = 408, description = "`request_timeout`: the body paused for too long, or took too long", body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "`not_finished`, `no_result`: `job` was cancelled, or has no result", body = Problem, content_type = "application/problem+json"),
+        (status = 410, description = "`job_expired`: of `job`", body = Problem, content_type = "application/problem+json"),
         (status = 413, description = "`upload_too_large`", body = Problem, content_type = "application/problem+json"),
         (status = 415, description = "`unsupported_media_type`", body = Problem, content_type = "application/problem+json"),
         (status = 422, description = "`unknown_format`, `invalid_archive`, `invalid_gltf`, `bad_parameter`, `idempotency_key_reused`", body = Problem, content_type = "application/problem+json"),
@@ -85,7 +99,7 @@ pub(super) async fn create_job(
 ) -> Result<Response, Problem> {
     // Receive the upload, and check its headers and its webhook.
     let submission_headers = SubmissionHeaders::read(&headers)?;
-    let received = upload::receive(&app, None, request).await?;
+    let received = input::receive(&app, &caller, request, DEFAULTS).await?;
     if let Some(webhook) = &received.handling.webhook {
         check_webhook(&app, webhook)?;
     }

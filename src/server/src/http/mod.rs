@@ -11,6 +11,7 @@ mod contents;
 mod download;
 mod exposition;
 mod extract;
+mod input;
 mod jobs;
 mod limits;
 mod observation;

@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 use utoipa::openapi::{ContentBuilder, Ref, RefOr, Response, ResponseBuilder, Schema};
 use utoipa::{IntoResponses, ToSchema};
 
+use super::input::JobFile;
 use super::problem::Code;
-use super::sessions::JobFile;
 use crate::jobs::{Event, Order};
 use unwrapd_api::{Catalog, Kind};
 

@@ -4,29 +4,27 @@ use std::sync::Arc;
 
 use axum::extract::ws::rejection::WebSocketUpgradeRejection;
 use axum::extract::ws::{CloseFrame, Message, Utf8Bytes, WebSocket, WebSocketUpgrade, close_code};
-use axum::extract::{FromRequestParts, Path, Query, Request, State};
+use axum::extract::{FromRequestParts, Path, Request, State};
 use axum::http::request::Parts;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use futures_util::stream::{SplitSink, SplitStream};
 use futures_util::{SinkExt, StreamExt};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_json::Value;
-use tokio::io::AsyncWriteExt;
 use tokio::sync::broadcast::error::RecvError;
 
 use super::app::{App, Shared, json};
-use super::extract::{existing, job_not_found};
+use super::input::{self, Defaults, JobFile};
 use super::jobs::located;
 use super::problem::{Code, Problem};
 use super::socket::{KEEP_ALIVE, MOST_MESSAGE_BYTES, goodbye, refusal};
-use super::submission::{Received, UploadQuery, complete_options};
-use super::upload::{self, accepts};
+use super::upload::accepts;
 use super::view::JobView;
 use crate::jobs::access::Caller;
-use crate::jobs::{Handling, Job, JobId, Scratch, State as JobState, Submitted};
+use crate::jobs::{JobId, Submitted};
 use crate::sessions::{Baked, NewSession, OpenSession, SessionEnd, Unopened};
-use unwrapd_api::{Failure, InputFile, Kind};
+use unwrapd_api::{Failure, Kind};
 
 /// A live session.
 #[derive(Serialize, utoipa::ToSchema)]
@@ -98,6 +96,12 @@ fn view(app: &App, session: &OpenSession) -> SessionView {
     }
 }
 
+/// What a session takes of a job unless the query says otherwise: the UVs that it made, to be edited.
+const DEFAULTS: Defaults = Defaults {
+    kind: Kind::EditUv,
+    file: JobFile::Result,
+};
+
 /// Extractor of the session in the path, if it is visible to the caller.
 pub(super) struct PathSession(pub Arc<OpenSession>);
 
@@ -150,7 +154,7 @@ pub(super) async fn open_session(
     caller: Caller,
     request: Request,
 ) -> Result<Response, Problem> {
-    let received = received(&app, &caller, request).await?;
+    let received = input::receive(&app, &caller, request, DEFAULTS).await?;
     let opened = NewSession {
         owner: caller.owner().clone(),
         kind: received.kind,
@@ -251,126 +255,6 @@ pub(super) async fn bake_session(
         Submitted::New(job) | Submitted::Replay(job) => job,
     };
     Ok(located(&app, StatusCode::ACCEPTED, &job))
-}
-
-// Input of a session: an upload, or files of a job.
-
-/// File of a job that a session opens.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, utoipa::ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum JobFile {
-    /// The result of the job.
-    #[default]
-    Result,
-    /// The input of the job.
-    Input,
-}
-
-/// Query that names a job instead of an upload.
-#[derive(Deserialize)]
-struct FromJob {
-    job: Option<String>,
-    #[serde(default)]
-    file: JobFile,
-}
-
-/// Receives the input and the options of a session.
-pub(super) async fn received(
-    app: &Arc<App>,
-    caller: &Caller,
-    request: Request,
-) -> Result<Received, Problem> {
-    // Receive an upload unless the query names a job.
-    let Query(named) = Query::<FromJob>::try_from_uri(request.uri())
-        .map_err(|error| Problem::new(Code::InvalidRequest, error.body_text()))?;
-    let Some(job) = named.job else {
-        return upload::receive(app, None, request).await;
-    };
-    // Read the options from the query.
-    accepts(app)?;
-    let mut query = UploadQuery::read(request.uri())?;
-    query.options.shift_remove("job");
-    query.options.shift_remove("file");
-    let kind = query.kind.unwrap_or(Kind::EditUv);
-    let options = complete_options(app.jobs.settings().catalog, kind, query.options)?;
-    // Copy the files of the job into a new folder.
-    let id = job.parse().map_err(|_| job_not_found())?;
-    let job = existing(app, &caller.visibility(), id).await?;
-    let path = (app.jobs.settings().scratch).join(format!("upload-{}", JobId::fresh()));
-    let folder = Scratch::make(path)?;
-    let mut files = Vec::new();
-    for (number, file) in wanted(&job, named.file)?.into_iter().enumerate() {
-        let place = folder.path().join(format!("file-{number}"));
-        let mut content = match file {
-            Wanted::Input(file) => app.jobs.read_input(&job, file, 0..file.bytes).await?,
-            Wanted::Output(file) => app.jobs.read(&job, file, 0..file.bytes).await?,
-        };
-        let mut copy = tokio::fs::File::create(&place).await?;
-        while let Some(bytes) = content.next().await {
-            copy.write_all(&bytes?).await?;
-        }
-        copy.flush().await?;
-        files.push((file.listed(), place));
-    }
-    Ok(Received {
-        folder,
-        kind,
-        options,
-        files,
-        handling: Handling::default(),
-    })
-}
-
-/// A file of a job.
-enum Wanted<'a> {
-    Input(&'a InputFile),
-    Output(&'a unwrapd_api::OutputFile),
-}
-
-impl Wanted<'_> {
-    fn listed(&self) -> InputFile {
-        match self {
-            Self::Input(file) => (*file).clone(),
-            Self::Output(file) => InputFile {
-                name: file.name.clone(),
-                bytes: file.bytes,
-                sha256: file.sha256.clone(),
-            },
-        }
-    }
-}
-
-/// Returns the files of a job that a session takes, the mesh first.
-fn wanted(job: &Job, file: JobFile) -> Result<Vec<Wanted<'_>>, Problem> {
-    if file == JobFile::Input {
-        return Ok(job.input.iter().map(Wanted::Input).collect());
-    }
-    // Check that there is a result.
-    match job.state {
-        JobState::Succeeded => {}
-        JobState::Queued | JobState::Running => {
-            return Err(Problem::new(Code::NotFinished, "wait for its end"));
-        }
-        JobState::Failed | JobState::Cancelled => {
-            let verb = if job.state == JobState::Failed {
-                "has"
-            } else {
-                "has been"
-            };
-            let detail = format!("the job {verb} {}", job.state.word());
-            return Err(Problem::new(Code::NoResult, detail));
-        }
-    }
-    // Take the result with the files that belong to it.
-    let Some(result) = job.output("result") else {
-        return Err(Problem::new(Code::NoResult, "the job makes no file"));
-    };
-    let others = job
-        .output
-        .iter()
-        .filter(|file| file.role.starts_with("files/"));
-    let all = std::iter::once(result).chain(others);
-    Ok(all.map(Wanted::Output).collect())
 }
 
 // The WebSocket of a session.

@@ -180,12 +180,14 @@ async fn lists_sessions_and_results_are_each_owners_own() {
         assert_eq!(list(path, name, &admin).await, [id(one)]);
         assert!(list(path, name, &bob).await.is_empty());
     }
-    // A session is not made of another's job.
-    let of = |id: &str| format!("/v1/sessions?job={id}&kind=edit_uv");
-    let anothers = seen(ask(&server, "POST", &of(id(&made)), Some(&bob)).await).await;
-    let nobodys = seen(ask(&server, "POST", &of(UNKNOWN), Some(&bob)).await).await;
-    assert_eq!(anothers, nobodys);
-    assert_eq!(anothers.0, 404);
+    // Neither a session nor a job is made of another's job.
+    for path in ["/v1/sessions?kind=edit_uv&job=", "/v1/jobs?job="] {
+        let of = |id: &str| format!("{path}{id}");
+        let anothers = seen(ask(&server, "POST", &of(id(&made)), Some(&bob)).await).await;
+        let nobodys = seen(ask(&server, "POST", &of(UNKNOWN), Some(&bob)).await).await;
+        assert_eq!(anothers, nobodys);
+        assert_eq!(anothers.0, 404);
+    }
 
     // Nor does an equal upload under the same key show that there was one before.
     assert_eq!(made["cached"], false);
