@@ -146,6 +146,16 @@ async fn the_result_is_seen_as_the_input_was() {
 }
 
 #[tokio::test]
+async fn what_is_on_screen_is_unwrapped_as_the_person_has_set_it() {
+    let server = Server::start();
+    for name in ["cat_head.obj", "gltf/Fox.glb"] {
+        unwrapped(&server, name).await;
+    }
+    let arguments = [asset("Box.glb"), "cat_head.obj".into(), "Fox.glb".into()];
+    scenario("again", server.url("/"), &arguments).await;
+}
+
+#[tokio::test]
 async fn the_surface_hides_seams_behind_it() {
     let server = Server::start();
     let url = unwrapped(&server, "spot.ply").await;

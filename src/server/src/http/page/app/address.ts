@@ -2,6 +2,7 @@
 
 import type { Measure } from "../analysis/distortion";
 import type { Shade } from "../viewer/look";
+import { kept } from "./memory";
 
 /** State of the page that can be shared. */
 export interface Place {
@@ -9,6 +10,8 @@ export interface Place {
   tab: "view" | "report" | "pull";
   shade: Shade;
   measure: Measure;
+  /** Ends of the heat map's scale: the same for all results, or fitted to the shown one. */
+  scale: "fixed" | "fitted";
   seams: boolean;
   wire: boolean;
   problems: boolean;
@@ -18,6 +21,8 @@ export interface Place {
   cells: number;
   /** A UV set other than the one that is shown first. */
   set: number | null;
+  /** The UVs of a job that are shown: those that it made, or those that its input had. */
+  uvs: "after" | "before";
   /** The name of an atlas. */
   atlas: string | null;
   aim: Aim;
@@ -36,14 +41,14 @@ export type Aim = "face" | "chart" | "seam";
 export const CELLS = [8, 16, 32, 64, 128] as const;
 
 export const START: Place = {
-  job: null, tab: "view", shade: "charts", measure: "sym-dirichlet", seams: true, wire: false, problems: true, only: false, cells: 32, set: null, atlas: null,
+  job: null, tab: "view", shade: "charts", measure: "sym-dirichlet", scale: "fixed", seams: true, wire: false, problems: true, only: false, cells: 32, set: null, uvs: "after", atlas: null,
   aim: "chart", face: null, chart: null, seam: null, camera: null, plane: null,
 };
 
-/** Reads the fragment of the address. */
+/** Reads the fragment of the address. Without one, files look as they did last time. */
 export function readPlace(): Place {
   const given = new URLSearchParams(location.hash.slice(1));
-  const place: Record<string, unknown> = { ...START };
+  const place: Record<string, unknown> = given.size ? { ...START } : { ...START, ...kept("looks") };
   for (const [name, text] of given) {
     if (!(name in START)) continue;
     if (name === "camera" || name === "plane") place[name] = numbers(text, name === "camera" ? 6 : 3);

@@ -107,6 +107,13 @@ export function createJob(kind: string, options: Record<string, unknown>, { name
   return call<Job>("v1/jobs", { method: "POST", body: form });
 }
 
+/** Submits the input of another job with other options. */
+export function createJobFrom({ id }: Job, kind: string, options: Record<string, unknown>): Promise<Job> {
+  const query = new URLSearchParams({ job: id, kind });
+  for (const [name, value] of Object.entries(options)) query.set(name, String(value));
+  return call<Job>(`v1/jobs?${query}`, { method: "POST" });
+}
+
 export function isFinal(state: Job["state"]): boolean {
   return state !== "queued" && state !== "running";
 }

@@ -5,6 +5,7 @@ import { byId, element } from "./dom";
 import { ago, duration, plain } from "./format";
 import { fragmentOf, START } from "./address";
 import { JobFilters } from "./job_filters";
+import type { Store } from "./store";
 import { thumbnail } from "./thumbnails";
 
 const PAGE = 20;
@@ -14,11 +15,12 @@ const IDLE_MS = 15000;
 
 /** The list on the left. */
 export class JobList {
-  current: string | null = null;
   #jobs: Job[] = [];
   #next: string | null = null;
   #queue: string[] = [];
   #timer = 0;
+  /** The job that the list marks. */
+  #current: string | null = null;
   /** Number of changes of the filters, by which late responses are recognized and dropped. */
   #filterings = 0;
   readonly #filters = new JobFilters(() => {
@@ -28,8 +30,9 @@ export class JobList {
     void this.refresh();
   });
 
-  constructor(readonly chosen: (id: string) => void) {
+  constructor(readonly store: Store, readonly chosen: (id: string) => void) {
     byId("older").addEventListener("click", () => void this.#older());
+    store.show(() => this.#current !== store.place.job && this.#show());
     document.addEventListener("visibilitychange", () => document.hidden || void this.refresh());
   }
 
@@ -58,8 +61,14 @@ export class JobList {
     return 0 <= at ? at + 1 : null;
   }
 
-  select(id: string | null): void {
-    this.current = id;
+  /** Returns a listed job. */
+  find(id: string | null): Job | null {
+    return this.#jobs.find((job) => job.id === id) ?? null;
+  }
+
+  /** Lists jobs that were made here, until the service lists them. */
+  add(jobs: Job[]): void {
+    this.#jobs = [...jobs, ...this.#jobs];
     this.#show();
   }
 
@@ -77,11 +86,12 @@ export class JobList {
   }
 
   #show(): void {
+    this.#current = this.store.place.job;
     const list = byId("job-list");
     const shown = new Map([...list.children].map((row) => [(row as HTMLElement).dataset.id, row as HTMLElement]));
     list.replaceChildren(...this.#jobs.map((job) => {
       const old = shown.get(job.id);
-      const key = JSON.stringify([job.state, Math.round(job.fraction * 100), this.position(job.id), this.current === job.id, ago(job.created_at)]);
+      const key = JSON.stringify([job.state, Math.round(job.fraction * 100), this.position(job.id), this.#current === job.id, ago(job.created_at)]);
       return old?.dataset.key === key ? old : this.#row(job, key);
     }));
     const none = this.#filters.isAny ? "No job meets the filter." : "None yet. Press Unwrap to make one of the sample.";
@@ -94,7 +104,7 @@ export class JobList {
       thumbnail(job),
       element("span", { className: "name", textContent: job.filename, title: job.filename }),
       element("span", { className: `facts ${outcome(job)}${job.accepted === false ? " refused" : ""}`, textContent: this.#facts(job) }));
-    if (job.id === this.current) link.setAttribute("aria-current", "true");
+    if (job.id === this.#current) link.setAttribute("aria-current", "true");
     link.addEventListener("click", (event) => {
       event.preventDefault();
       this.chosen(job.id);

@@ -2,77 +2,92 @@
 
 import { address, call, fileOf, isFinal, type Job, jobPath, type Progress, watch } from "./api";
 import { byId, element } from "./dom";
+import type { Place } from "./address";
 import { percent } from "./format";
 import { doing, ProgressPanel, showEnded } from "./inspector";
 import { inputOf, type Shape, shapeOf } from "./kinds";
 import type { JobList } from "./job_list";
 import type { Report } from "./reports";
-import type { Chosen, Setup } from "./setup";
+import type { Setup } from "./setup";
 import type { Source } from "./source";
-import { nameShown } from "./title";
+import { type Chosen, modelOfJob, type Store } from "./store";
 import type { Viewer } from "./viewer";
 import { watchCharts } from "./watching";
 
 /** Parts of the page that a job view uses. */
 export interface Parts {
+  store: Store;
   viewer: Viewer;
   list: JobList;
   setup: Setup;
   failed: (error: unknown) => void;
-  /** Callbacks for the end of the job, its removal, and the display of its result. */
+  /** Callbacks for the end of the job, and its removal. */
   ended: () => void;
   removed: () => void;
-  shown: () => void;
 }
 
 /** Shows one job at a time. */
 export class JobView {
-  job: Job | null = null;
-  report: Report | null = null;
-  input: Chosen | null = null;
   readonly #parts: Parts;
   #stop: () => void = () => {};
   /** Inputs that were uploaded from here. */
   readonly #inputs = new Map<string, Chosen>();
   /** Jobs submitted here, as the service first described them, until they are opened. */
   readonly #made = new Map<string, Job>();
+  /** The UVs that the views were last asked to show. */
+  #uvs: Place["uvs"] = "after";
 
   constructor(parts: Parts) {
     this.#parts = parts;
+    parts.store.show(() => this.#follow());
   }
 
-  remember(job: Job, input: Chosen): void {
-    this.#inputs.set(job.id, input);
+  remember(job: Job, input: Chosen | null): void {
+    if (input) this.#inputs.set(job.id, input);
     this.#made.set(job.id, job);
   }
 
-  /** Stops showing a job. */
+  /** The shown job with what is known of it, if it is this one. */
+  #shown(job: Job) {
+    const { subject } = this.#parts.store.state;
+    return subject.kind === "job" && subject.job === job ? subject : null;
+  }
+
+  /** Adds what has become known of the shown job. */
+  #learn(job: Job, facts: { report?: Report | null; input?: Chosen | null }): void {
+    const subject = this.#shown(job);
+    if (subject) this.#parts.store.change({ subject: { ...subject, ...facts } });
+  }
+
+  /** Stops watching a job. */
   leave(): void {
     this.#stop();
-    this.job = this.report = this.input = null;
+    this.#stop = () => {};
     showFallback(null);
   }
 
   async open(id: string): Promise<void> {
-    const isOther = this.job?.id !== id;
+    const { store, viewer } = this.#parts;
     this.leave();
-    if (isOther) this.#parts.viewer.calm();
+    if (store.job?.id !== id) viewer.calm();
     // Watch a new job with the facts that are known of it, so that its first charts are not missed.
     const made = this.#made.get(id);
     this.#made.delete(id);
     const job = made ?? (await call<Job>(jobPath(id)));
-    this.job = job;
-    nameShown(job.filename);
+    if (store.place.job !== id) return;
+    const { subject } = store.state;
+    const input = this.#inputs.get(id) ?? (subject.kind === "job" && subject.job.id === id ? subject.input : null);
+    store.change({ subject: { kind: "job", job, report: null, input } });
     if (isFinal(job.state)) return this.#ended(job);
     const panel = new ProgressPanel(job, this.#actions(job));
     note(awaited(job, job));
     void this.#showInput(job);
     let isElsewhere = false;
-    const stopCharts = watchCharts(job, this.#parts.viewer, () => (isElsewhere = true));
+    const stopCharts = watchCharts(job, viewer, () => (isElsewhere = true));
     const stopEvents = watch(job, (event) => {
-      if (this.job?.id !== id) return;
+      if (!this.#shown(job)) return;
       panel.show(event);
-      if (!this.#parts.viewer.isRelaxing) note(awaited(job, event, isElsewhere));
+      if (!viewer.isRelaxing) note(awaited(job, event, isElsewhere));
       if (isFinal(event.state)) void this.open(id).then(() => this.#parts.list.refresh()).catch(this.#parts.failed);
     });
     this.#stop = () => {
@@ -82,37 +97,59 @@ export class JobView {
   }
 
   async #inputFor(job: Job): Promise<Chosen | null> {
-    return this.#inputs.get(job.id) ?? (await inputOf(job).catch(() => null));
+    return this.#shown(job)?.input ?? (await inputOf(job).catch(() => null));
   }
 
   async #showInput(job: Job): Promise<void> {
     const input = await this.#inputFor(job);
-    if (this.job?.id !== job.id || !input) return;
-    this.input = input;
-    await this.#parts.viewer.show({ ...input, isTurning: true, isInput: true }).catch(() => {});
+    if (!this.#shown(job) || !input) return;
+    this.#learn(job, { input });
+    await this.#parts.viewer.show({ ...input, model: modelOfJob(job), isTurning: true, isInput: true }).catch(() => {});
   }
 
   async #ended(job: Job): Promise<void> {
     const report = job.state === "succeeded" && fileOf(job, "report") ? await call<Report>(`${job.links.self}/report`) : null;
-    if (this.job !== job) return;
-    this.report = report;
+    if (!this.#shown(job)) return;
+    this.#learn(job, { report });
     this.#parts.ended();
     await showEnded(job, report, this.#actions(job));
-    this.input = await this.#inputFor(job);
-    if (this.job !== job) return;
+    const input = await this.#inputFor(job);
+    if (!this.#shown(job)) return;
+    this.#learn(job, { input });
+    this.#uvs = this.#parts.store.place.uvs;
     if (job.state !== "succeeded") {
       this.#parts.viewer.calm();
       note(job.state === "failed" ? "No result: the job failed. The cause is beside." : "No result: the job was cancelled.");
-      if (this.input) await this.#parts.viewer.show(this.input).catch(() => {});
+      if (input) await this.#parts.viewer.show({ ...input, model: modelOfJob(job) }).catch(() => {});
       else this.#parts.viewer.clear();
-      return this.#parts.shown();
+      return;
     }
-    await this.#showShape(job, await shapeOf(job, report, this.input));
-    this.#parts.shown();
+    await this.#showUvs(job);
+  }
+
+  /** Shows the other UVs of the job when the state says so. */
+  #follow(): void {
+    const { store, failed } = this.#parts;
+    const { job } = store;
+    if (!job || store.place.uvs === this.#uvs || !this.before()) return;
+    this.#uvs = store.place.uvs;
+    void this.#showUvs(job).catch(failed);
+  }
+
+  /** Shows the UVs that the job made, or those that its input had. */
+  async #showUvs(job: Job): Promise<void> {
+    const { store, viewer } = this.#parts;
+    const source = store.place.uvs === "before" ? this.before() : null;
+    if (source) {
+      if (await viewer.show(source)) note(viewer.analysis?.atlases.some(({ isMapped }) => isMapped) ? "" : "The input has no UVs.");
+      return;
+    }
+    const subject = this.#shown(job);
+    if (subject) await this.#showShape(job, await shapeOf(job, subject.report, subject.input));
   }
 
   async #showShape(job: Job, shape: Shape): Promise<void> {
-    if (this.job !== job) return;
+    if (!this.#shown(job)) return;
     const { viewer } = this.#parts;
     note("surface" in shape ? "Looking at the result …" : "");
     if ("surface" in shape) {
@@ -125,19 +162,14 @@ export class JobView {
     }
   }
 
-  /** Shows the result again after the input. */
-  async showResult(): Promise<void> {
-    const { job, report } = this;
-    if (job) await this.#showShape(job, await shapeOf(job, report, this.input));
-  }
-
   /** Returns the input with its own UVs, to be judged like the result. */
   before(): Source | null {
-    const { job, input } = this;
-    if (!job || !input) return null;
+    const { subject } = this.#parts.store.state;
+    if (subject.kind !== "job" || !subject.input || !subject.report) return null;
+    const { job, input, report } = subject;
     const { padding = 0, resolution = 1024, group_by, source_texcoord } = job.options;
-    const by = (this.report?.options?.group_by ?? group_by ?? "material") as "material";
-    return { ...input, record: { padding: Number(padding), resolution: resolution as number, group_by: by, texcoord: Number(source_texcoord ?? 0) } };
+    const by = (report.options?.group_by ?? group_by ?? "material") as "material";
+    return { ...input, model: modelOfJob(job), record: { padding: Number(padding), resolution: resolution as number, group_by: by, texcoord: Number(source_texcoord ?? 0) } };
   }
 
   #actions(job: Job) {

@@ -1,8 +1,8 @@
 // Display of each kind of job in the views.
 
 import { address, download, fileOf, type FileLink, type Job } from "./api";
-import type { Chosen } from "./setup";
 import type { Source } from "./source";
+import { type Chosen, modelOfJob } from "./store";
 import { extension, SHOWN } from "../viewer/loading";
 import type { Report } from "./reports";
 
@@ -18,12 +18,12 @@ export async function shapeOf(job: Job, report: Report | null, input: Chosen | n
   }
   if (!result) {
     const record = { padding: Number(job.options.padding ?? 0), resolution: (job.options.resolution ?? 1024) as number | string };
-    return input && SHOWN.includes(extension(input.name)) ? { surface: { ...input, record } } : { nothing: "This job has no mesh to show. Its report is beside." };
+    return input && SHOWN.includes(extension(input.name)) ? { surface: { ...input, model: modelOfJob(job), record } } : { nothing: "This job has no mesh to show. Its report is beside." };
   }
   if (!SHOWN.includes(extension(result.name))) return { nothing: `There is no view of ${extension(result.name)} files here. Download ${result.name}, or see the report.` };
   const others = job.links.files.filter(({ href }) => href.includes("/files/"));
   const content = await download(result.href);
-  return { surface: { name: result.name, content, resources: await resources(others), ...written(report) } };
+  return { surface: { name: result.name, model: modelOfJob(job), content, resources: await resources(others), ...written(report) } };
 }
 
 /** Returns the UV set that a report names as written, primitive by primitive. */

@@ -1,6 +1,6 @@
 // The page: creates its parts and connects them.
 
-import { type Place, readPlace, START, writePlace } from "./address";
+import { type Place, readPlace, START } from "./address";
 import type { Analysis } from "../analysis/analysis";
 import { analyzed } from "./analyst";
 import { ArrangeView } from "../arrange/arrange_view";
@@ -13,76 +13,82 @@ import { bytes, short, whole } from "./format";
 import { JobList } from "./job_list";
 import { JobView, note } from "./job_view";
 import { listen, showKeys } from "./keys";
+import { forget } from "./memory";
 import { load, NoView } from "../viewer/loading";
 import { showReport } from "./report_page";
 import { type Caller, showCaller } from "./sign_in";
-import { type Chosen, Setup } from "./setup";
+import { Setup } from "./setup";
 import { soupOf } from "../viewer/soups";
 import { showLegend, showPointed } from "./status";
+import { type Chosen, elsewhere, modelOf, modelOfJob, Store } from "./store";
 import { startTheme } from "./theme";
-import { nameInHand, nameShown } from "./title";
+import { showTitle } from "./title";
 import { pullKeys } from "../pull/keys";
 import { PullView } from "../pull/pull_view";
+import type { Known, Origin } from "../pull/what";
 import { Toolbar } from "./toolbar";
 import { viewKeys } from "./view_keys";
 import { Viewer } from "./viewer";
 
-const viewer = new Viewer();
-const toolbar = new Toolbar(viewer, change, () => void compare());
-const list = new JobList((id) => void open(id));
-const setup = new Setup({ shown: (chosen) => void preview(chosen), made, failed });
-const jobs = new JobView({ viewer, list, setup, failed, ended: solved, removed: () => void open(null), shown: refresh });
-const pull = new PullView({ failed, chosen: () => nameInHand(pull.name), changed: refresh, baked: (job) => { void list.refresh(); void open(job.id, { ...START }); } });
-const arrange = new ArrangeView(viewer, { failed, open: (job) => open(job, { ...viewer.place, face: null, chart: null, seam: null }), changed: refresh });
-let before: Analysis | null = null;
-let isBefore = false;
+const store = new Store(readPlace());
+const viewer = new Viewer(store);
+const toolbar = new Toolbar(viewer, change, compare);
+const list = new JobList(store, (id) => void open(id));
+const setup = new Setup(store, { shown: (chosen) => void preview(chosen), made, failed });
+const jobs = new JobView({ store, viewer, list, setup, failed, ended: solved, removed: () => void open(null) });
+const pull = new PullView(store, { failed, changed: refresh, baked: (job) => { void list.refresh(); void open(job.id, { ...elsewhere(store.place) }); } });
+const arrange = new ArrangeView(viewer, { failed, open: (job) => open(job, { ...store.place, face: null, chart: null, seam: null }), changed: refresh });
+/** Analysis of the input of the shown job, which the report compares with the result. */
+let before: { job: Job; analysis: Analysis } | null = null;
 
 const TABS = ["view", "report", "pull"] as const;
 
 // ---- state
 
-/** Changes the state and everything that shows it. */
+/** Changes what the address says. */
 function change(changes: Partial<Place>): void {
-  const { set } = viewer.place;
-  viewer.apply({ ...viewer.place, ...changes });
-  if (viewer.place.set !== set) void viewer.again().catch(failed);
-  refresh();
+  const { set } = store.place;
+  store.go(changes);
+  if (store.place.set !== set) void viewer.again().catch(failed);
 }
 
-/** Shows the state everywhere. */
+/** Shows the state around the views. */
 function refresh(): void {
-  const { place } = viewer;
-  toolbar.refresh(isBefore, jobs.report !== null && jobs.input !== null);
+  const { place, subject, inHand } = store.state;
+  const job = subject.kind === "job" ? subject : null;
+  toolbar.refresh(jobs.before() !== null);
   showLegend(viewer, change);
-  arrange.offer(isResult() ? jobs.job : null, jobs.report);
+  arrange.offer(isResult() ? store.job : null, job?.report ?? null);
   if (!arrange.isOn) showPointed(viewer);
   for (const tab of TABS) {
     byId(`tab-${tab}`).setAttribute("aria-selected", String(place.tab === tab));
     byId(tab).hidden = place.tab !== tab;
   }
-  byId("title-state").textContent = isBefore ? "before" : "";
   if (place.tab === "report") void report();
-  if (place.tab === "pull") offer();
+  if (place.tab === "pull") pull.offer(inHand ?? offered(), inHand ? null : known());
   const isPulled = place.tab === "pull" && pull.isActive;
   byId("inspector").hidden = isPulled;
   byId("pull-facts").hidden = !isPulled;
-  nameInHand(place.tab === "pull" ? pull.name : null);
-  writePlace(place);
+  showTitle(store.state);
 }
 
 /** Returns whether the views show the result of the job, not its input or another UV set. */
 function isResult(): boolean {
   const { facts } = viewer;
-  return !isBefore && facts?.set === facts?.first;
+  return store.place.uvs === "after" && facts?.set === facts?.first;
 }
 
-/** Offers the file that is shown to the pull view. */
-function offer(): void {
-  const { job } = jobs;
-  const result = job?.state === "succeeded" ? fileOf(job, "result") : undefined;
-  const known = { isMapped: viewer.analysis?.atlases.some(({ isMapped }) => isMapped) ?? false, isFlat: viewer.model?.isFlat ?? false };
-  if (job && result) pull.offer({ name: result.name, job: job.id }, known);
-  else pull.offer(setup.chosen[0] ?? null, known);
+/** Returns the file that is shown, to be pulled: the result of a job, or a chosen file. */
+function offered(): Origin | null {
+  const { subject, chosen } = store.state;
+  if (subject.kind === "file") return subject.file;
+  const result = subject.kind === "job" && subject.job.state === "succeeded" ? fileOf(subject.job, "result") : undefined;
+  return subject.kind === "job" && result ? { name: result.name, job: subject.job.id } : (chosen[0] ?? null);
+}
+
+/** Returns what is known of the shown file. */
+function known(): Known {
+  return { isMapped: viewer.analysis?.atlases.some(({ isMapped }) => isMapped) ?? false, isFlat: viewer.model?.isFlat ?? false };
 }
 
 /** Hides the last problem. */
@@ -92,63 +98,61 @@ function solved(): void {
 
 function failed(error: unknown): void {
   const text = error instanceof Error ? error.message : String(error);
-  const close = element("button", { type: "button", textContent: "Close", on: { click: () => (byId("problem").hidden = true) } });
+  const close = element("button", { type: "button", textContent: "Close", on: { click: solved } });
   byId("problem").replaceChildren(element("span", { textContent: text }), close);
   byId("problem").hidden = false;
 }
 
 // ---- files and jobs
 
-/** Opens a job, or the chosen file if there is none. */
-async function open(id: string | null, place: Place = { ...START, tab: viewer.place.tab }): Promise<void> {
+/** Opens a job, or the chosen file if there is none, with the looks that the views have. */
+async function open(id: string | null, place: Place = { ...elsewhere(store.place), tab: store.place.tab }): Promise<void> {
   solved();
+  viewer.keepCameras();
   before = null;
-  isBefore = false;
-  writePlace({ ...place, job: id }, id !== viewer.place.job);
-  viewer.apply({ ...place, job: id });
-  list.select(id);
-  refresh();
+  store.change({ inHand: null });
+  const model = list.find(id);
+  const camera = place.camera || place.plane || !model ? {} : store.cameraOf(modelOfJob(model));
+  store.go({ ...place, ...camera, job: id }, id !== store.place.job);
   try {
+    const [first] = store.state.chosen;
     if (id) await jobs.open(id);
-    else if (setup.chosen[0]) await preview(setup.chosen[0]);
+    else if (first) await preview(first);
     else await sample();
   } catch (error) {
-    viewer.clear();
     jobs.leave();
-    nameShown("Not found");
+    store.change({ subject: { kind: "none" } });
+    viewer.clear();
     byId("inspector").replaceChildren();
     failed(error);
   }
-  refresh();
 }
 
 /** Loads the sample mesh. */
 async function sample(): Promise<void> {
-  const chosen: Chosen = { name: "spot.ply", content: await download("assets/sample.ply"), resources: new Map(), from: [-0.8, 0.3, -1] };
-  setup.choose([chosen]);
+  setup.choose([{ name: "spot.ply", content: await download("assets/sample.ply"), resources: new Map(), from: [-0.8, 0.3, -1] }]);
 }
 
 /** Shows a chosen file before a job is made. */
-async function preview(chosen: Chosen): Promise<void> {
+async function preview(file: Chosen): Promise<void> {
   jobs.leave();
-  list.select(null);
-  isBefore = false;
-  const { shade, measure, seams, wire, problems, cells, aim, tab } = viewer.place;
-  viewer.place = { ...START, ...{ shade, measure, seams, wire, problems, cells, aim }, tab: tab === "pull" ? tab : START.tab };
-  nameShown(chosen.name);
+  viewer.keepCameras();
+  const subject = { kind: "file", file } as const;
+  store.change({ subject, inHand: null });
+  const { tab } = store.place;
+  store.go({ ...elsewhere(store.place), ...store.cameraOf(modelOf(file)), tab: tab === "pull" ? tab : START.tab });
   note("Reading the file …");
   solved();
   byId("inspector").replaceChildren();
   try {
     viewer.clear();
-    if (await viewer.show({ ...chosen, isTurning: true })) describe(viewer.analysis);
+    if (await viewer.show({ ...file, model: modelOf(file), isTurning: true })) describe(viewer.analysis);
   } catch (error) {
-    if (setup.looked !== chosen || jobs.job) return;
+    if (store.state.subject !== subject) return;
     note(error instanceof NoView ? error.message : "");
     if (!(error instanceof NoView)) failed(error);
-    byId("inspector").replaceChildren(element("section", {}, element("h2", { textContent: "File" }), pairs([["Name", chosen.name], ["Size", bytes(chosen.content.size)]])));
+    byId("inspector").replaceChildren(element("section", {}, element("h2", { textContent: "File" }), pairs([["Name", file.name], ["Size", bytes(file.content.size)]])));
   }
-  refresh();
 }
 
 /** Describes a file without a job. */
@@ -164,34 +168,34 @@ function describe(analysis: Analysis | null): void {
     element("p", { textContent: "The same mesh with UVs in which no face is flipped and no two overlap. That is proven on the bytes of the file." })));
 }
 
-function made(created: Job[]): void {
-  created.forEach((job, k) => jobs.remember(job, setup.chosen[k]!));
+/** Opens the first of some new jobs. */
+function made(created: { job: Job; input: Chosen | null }[]): void {
+  for (const { job, input } of created) jobs.remember(job, input);
+  list.add(created.map(({ job }) => job));
   void list.refresh();
-  const { camera, shade, measure, seams, wire, problems, cells, aim } = viewer.place;
-  const isSeen = viewer.facts?.source.content === setup.chosen[0]?.content;
-  const solid = viewer.stage?.solid;
-  // Keep the camera of a person who has turned the mesh.
-  const kept = isSeen && solid && !solid.isTurning ? solid.place : null;
-  void open(created[0]!.id, { ...START, shade, measure, seams, wire, problems, cells, aim, camera: isSeen ? (kept ?? camera) : null });
+  void open(created[0]!.job.id);
 }
 
 // ---- report, before and after
 
 async function report(): Promise<void> {
-  const { job } = jobs;
-  if (!job) {
+  const { subject } = store.state;
+  if (subject.kind !== "job") {
     byId("report").replaceChildren(element("p", { className: "none", textContent: "The report of a job is shown here. Unwrap a mesh, or choose a job." }));
     return;
   }
-  const show = () => showReport({ job, report: jobs.report, analysis: isResult() ? viewer.analysis : null, before, atlas: viewer.atlas, flyTo: visit });
+  const { job } = subject;
+  const show = () => showReport({ job, report: subject.report, analysis: isResult() ? viewer.analysis : null, before: before?.analysis ?? null, atlas: viewer.atlas, flyTo: visit });
   show();
   const source = jobs.before();
   if (before || !source) return;
   const loaded = await load(source).catch(() => null);
   if (!loaded) return;
   const { record = {} } = source;
-  before = await analyzed(soupOf(loaded, { record, texcoord: () => record.texcoord ?? 0 }));
-  if (jobs.job === job && viewer.place.tab === "report") show();
+  const analysis = await analyzed(soupOf(loaded, { record, texcoord: () => record.texcoord ?? 0 }));
+  if (store.job !== job) return;
+  before = { job, analysis };
+  if (store.place.tab === "report") show();
 }
 
 /** Shows a face in both views. */
@@ -202,46 +206,42 @@ function visit(face: number): void {
 }
 
 /** Toggles between the UVs of the input and the result. */
-async function compare(): Promise<void> {
-  const source = jobs.before();
-  if (!source || !jobs.report) return;
-  isBefore = !isBefore;
-  await (isBefore ? viewer.show(source) : jobs.showResult()).catch(failed);
-  if (isBefore && !viewer.analysis?.atlases.some(({ isMapped }) => isMapped)) note("The input has no UVs.");
-  refresh();
+function compare(): void {
+  if (jobs.before()) change({ uvs: store.place.uvs === "after" ? "before" : "after" });
 }
 
 // ---- keys and events
 
 function wire(): void {
   const [views, pulls, arranges] = [viewKeys({ viewer, setup, arrange, change, compare }), pullKeys(pull), arrangeKeys(arrange)];
-  const keys = () => (viewer.place.tab === "pull" ? pulls : viewer.place.tab === "view" && arrange.isOn ? arranges : views);
+  const keys = () => (store.place.tab === "pull" ? pulls : store.place.tab === "view" && arrange.isOn ? arranges : views);
   listen(keys);
   byId("keys-button").addEventListener("click", () => showKeys(keys()));
   for (const tab of TABS) byId(`tab-${tab}`).addEventListener("click", () => change({ tab }));
   viewer.pointing.onHover = () => arrange.isOn || showPointed(viewer);
-  viewer.pointing.onSelect = () => change({});
+  viewer.pointing.onSelect = change;
   viewer.changed = refresh;
-  startTheme(() => viewer.apply(viewer.place));
+  store.show(refresh);
+  startTheme(() => viewer.apply());
   addEventListener("popstate", () => {
     const place = readPlace();
-    if (place.job !== viewer.place.job) void open(place.job, place);
+    if (place.job !== store.place.job) void open(place.job, place);
     else change(place);
   });
-  takeDropped((files) => (viewer.place.tab === "pull" && pull.isActive ? pull.takeFiles(files) : setup.takeFiles(files)));
+  takeDropped((files) => (store.place.tab === "pull" && pull.isActive ? pull.takeFiles(files) : setup.takeFiles(files)));
 }
 
 /** Signs out, and removes all data of the caller from this browser. */
 async function signOut(): Promise<void> {
   await call("v1/sign-in", { method: "DELETE" });
+  forget();
   location.hash = "";
   location.reload();
 }
 
 wire();
-if (viewer.stage) followStage(viewer, viewer.stage, jobs);
+if (viewer.stage) followStage(viewer, viewer.stage);
 void call<Caller>("v1/sign-in").then((caller) => showCaller(caller, () => void signOut().catch(failed)), failed);
 // Expose the views to scripts that drive the page.
-Object.assign(window, { unwrapd: { viewer, address } });
-const first = readPlace();
-await Promise.all([list.refresh(), open(first.job, first)]);
+Object.assign(window, { unwrapd: { viewer, store, address } });
+await Promise.all([list.refresh(), open(store.place.job, store.place)]);

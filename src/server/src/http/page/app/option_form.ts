@@ -7,34 +7,43 @@ import { plain } from "./format";
 /** Values that differ from the defaults. */
 export type Values = Record<string, string | number | boolean>;
 
+/** Returns values with another value of an option; the default is not among them. */
+export function withOption(values: Values, name: string, value: Values[string] | null): Values {
+  const { [name]: _, ...others } = values;
+  return value === null || value === "" || value === false ? others : { ...others, [name]: value };
+}
+
 /** Fields for all options of a kind. */
 export class OptionForm {
-  values: Values = {};
+  #kind = "";
+  #values: Values = {};
   #fields = new Map<string, HTMLInputElement | HTMLSelectElement>();
 
-  constructor(readonly holder: HTMLElement, readonly changed: () => void) {}
+  constructor(readonly holder: HTMLElement, readonly changed: (values: Values) => void) {}
 
-  /** Shows the options of a kind except those that have a place elsewhere. */
-  async show(kind: string, elsewhere: string[]): Promise<void> {
-    const all = await definitions(kind);
-    const known = new Set(all.map(({ name }) => name));
-    this.values = Object.fromEntries(Object.entries(this.values).filter(([name]) => known.has(name)));
+  /** Shows the options of a kind with their values, except those that have a place elsewhere. Drops values of options that
+   * the kind does not have. */
+  async show(kind: string, values: Values, elsewhere: string[]): Promise<void> {
+    this.#values = values;
+    if (kind === this.#kind) return this.#refresh();
+    this.#kind = kind;
+    const all = await definitions(kind).catch((error: unknown) => {
+      this.#kind = "";
+      throw error;
+    });
+    if (kind !== this.#kind) return;
     this.#fields.clear();
     this.holder.replaceChildren(...all.filter(({ name }) => !elsewhere.includes(name)).map((one) => this.#row(one)));
-    this.refresh();
-  }
-
-  set(name: string, value: string | number | boolean | null): void {
-    if (value === null || value === "" || value === false) delete this.values[name];
-    else this.values[name] = value;
-    this.refresh();
-    this.changed();
+    this.#refresh();
+    const known = new Set(all.map(({ name }) => name));
+    const own = Object.entries(this.#values).filter(([name]) => known.has(name));
+    if (own.length < Object.keys(this.#values).length) this.changed(Object.fromEntries(own));
   }
 
   /** Updates the fields from the values. */
-  refresh(): void {
+  #refresh(): void {
     for (const [name, field] of this.#fields) {
-      const value = this.values[name];
+      const value = this.#values[name];
       if (field instanceof HTMLInputElement && field.type === "checkbox") field.checked = value === true;
       else if (document.activeElement !== field) field.value = value === undefined ? "" : String(value);
     }
@@ -54,7 +63,7 @@ export class OptionForm {
     field.setAttribute("aria-describedby", `help-${name}`);
     field.addEventListener("input", () => {
       const isSwitch = field instanceof HTMLInputElement && field.type === "checkbox";
-      this.set(name, isSwitch ? field.checked : control === "number" && field.value !== "" ? Number(field.value) : field.value);
+      this.changed(withOption(this.#values, name, isSwitch ? field.checked : control === "number" && field.value !== "" ? Number(field.value) : field.value));
     });
     this.#fields.set(name, field);
     const label = element("label", { htmlFor: field.id, textContent: plain(name) });

@@ -10,7 +10,7 @@ import type { Place } from "./address";
 interface Shown {
   readonly stage: Stage | null;
   readonly model: Model | null;
-  readonly place: Place;
+  readonly place: Readonly<Place>;
   readonly atlas: number;
   /** Set while the plane shows relaxing charts, which cannot be pointed at. */
   readonly isRelaxing: boolean;
@@ -37,7 +37,7 @@ export class Pointing {
   at: [number, number] | null = null;
   /** Callbacks for a change of the hovered element or of the position in the plane, and for a selection. */
   onHover: () => void = () => {};
-  onSelect: () => void = () => {};
+  onSelect: (changes: Partial<Place>) => void = () => {};
   /** Handler that takes clicks instead; `isAlso` extends the selection. */
   taken: ((target: Target | null, isAlso: boolean) => void) | null = null;
 
@@ -114,15 +114,11 @@ export class Pointing {
   /** Selects an element, or nothing. */
   select(target: Target | null): void {
     const { place, model } = this.#viewer;
-    place.face = place.chart = place.seam = null;
-    if (target && model) {
-      const { group, atlases } = model.analysis;
-      place.atlas = atlases[group[target.face]!]?.name ?? place.atlas;
-      if (place.aim === "face") place.face = target.face;
-      if (place.aim === "chart") place.chart = model.analysis.chart[target.face]!;
-      if (place.aim === "seam") place.seam = target.seam;
-    }
-    this.onSelect();
+    const none = { face: null, chart: null, seam: null };
+    if (!target || !model) return this.onSelect(none);
+    const { chart, group, atlases } = model.analysis;
+    const index = { face: target.face, chart: chart[target.face]!, seam: target.seam }[place.aim];
+    this.onSelect({ ...none, atlas: atlases[group[target.face]!]?.name ?? place.atlas, [place.aim]: index });
   }
 
   /** Shows the hovered and the selected element in the views, and in the attributes of their holder. */

@@ -1,72 +1,65 @@
 // The form: files, three choices, one button; the rest behind "More".
 
-import { createJob, type Job } from "./api";
-import { type FormKind, KINDS } from "./definitions";
+import { createJob, createJobFrom, type Job } from "./api";
+import { chosenOptions, type FormKind, KINDS } from "./definitions";
 import { button, byId, element } from "./dom";
 import { bytes, counted } from "./format";
 import { extension, SHOWN } from "../viewer/loading";
-import { OptionForm } from "./option_form";
-
-/** A chosen mesh with the files that it may reference. */
-export interface Chosen {
-  name: string;
-  content: Blob;
-  resources: Map<string, Blob>;
-  /** Direction from which it is seen first. */
-  from?: readonly [number, number, number];
-}
+import { OptionForm, type Values, withOption } from "./option_form";
+import type { Chosen, State, Store } from "./store";
 
 /** Callbacks to the page. */
 export interface Told {
   /** A file is to be shown. */
   shown(chosen: Chosen): void;
-  made(jobs: Job[]): void;
+  /** Jobs were made, each of the input beside it. */
+  made(jobs: { job: Job; input: Chosen | null }[]): void;
   failed(error: unknown): void;
 }
 
+/** Kinds of jobs whose input is a surface, which can be unwrapped. */
+const SURFACES = ["unwrap", "repack", "measure", "verify", "edit_uv", "texture_map"];
 /** Options that have a place of their own in the form. */
 const ELSEWHERE = ["resolution"];
 /** Names of files that are inputs themselves; others belong to one of them. */
 const MESHES = [...SHOWN, "msh", "mesh", "vtk"];
 
+/** Inputs that the next jobs are made of: those on screen. */
+type Target = { files: Chosen[] } | { job: Job; input: Chosen | null } | { none: string };
+
+/** Returns the inputs that the next jobs are made of. */
+export function targetOf({ subject, chosen }: State): Target {
+  if (subject.kind !== "job") return { files: chosen };
+  const { job, input } = subject;
+  if (!SURFACES.includes(job.kind)) return { none: "The job on screen has no surface to unwrap." };
+  if (job.state !== "cancelled") return { job, input };
+  // The service removes the files of a cancelled job.
+  return input ? { files: [input] } : { none: "The files of a cancelled job are removed. Choose the mesh again." };
+}
+
 /** The form on the left. */
 export class Setup {
-  kind: FormKind = "unwrap";
-  #chosen: Chosen[] = [];
   readonly #options: OptionForm;
 
-  /** The file that is shown. */
-  looked: Chosen | null = null;
-
-  constructor(readonly told: Told) {
-    this.#options = new OptionForm(byId("options"), () => this.#refresh());
+  constructor(readonly store: Store, readonly told: Told) {
+    this.#options = new OptionForm(byId("options"), (options) => store.change({ options }));
     this.#wire();
-    this.#showKind("unwrap");
-  }
-
-  /** Returns the chosen files, or the sample if none is chosen. */
-  get chosen(): Chosen[] {
-    return this.#chosen;
+    store.show(() => this.#refresh());
   }
 
   choose(chosen: Chosen[]): void {
-    this.#chosen = chosen;
-    this.#refresh();
-    if (chosen[0]) this.look(chosen[0]);
-  }
-
-  /** Shows one of the chosen files. */
-  look(chosen: Chosen): void {
-    this.looked = chosen;
-    this.told.shown(chosen);
+    this.store.change({ chosen });
+    if (chosen[0]) this.told.shown(chosen[0]);
   }
 
   /** Copies the options of a job to the form. */
   async take(kind: string, options: Record<string, unknown>): Promise<void> {
-    await this.#showKind(kind in KINDS ? (kind as FormKind) : "unwrap");
-    this.#options.values = Object.fromEntries(Object.entries(options).filter((entry): entry is [string, string] => typeof entry[1] !== "object"));
-    this.#options.refresh();
-    this.#refresh();
+    const taken = Object.entries(options).filter((entry): entry is [string, Values[string]] => entry[1] !== null && typeof entry[1] !== "object");
+    this.store.change({ kind: kind in KINDS ? (kind as FormKind) : "unwrap", options: (await chosenOptions(kind, Object.fromEntries(taken))) as Values });
+  }
+
+  #set(name: string, value: Values[string] | null): void {
+    this.store.change({ options: withOption(this.store.state.options, name, value) });
   }
 
   /** Opens the dialog that chooses files. */
@@ -106,43 +99,47 @@ export class Setup {
     });
     for (const radio of form.querySelectorAll<HTMLInputElement>("input[name=purpose]")) {
       radio.addEventListener("change", () => {
-        this.#options.set("preset", radio.value === "lightmap" ? "lightmap" : null);
-        this.#options.set("quality", radio.value === "few" ? "few" : null);
+        this.#set("preset", radio.value === "lightmap" ? "lightmap" : null);
+        this.#set("quality", radio.value === "few" ? "few" : null);
       });
     }
-    byId("resolution").addEventListener("change", () => this.#options.set("resolution", resolutionOf(byId<HTMLSelectElement>("resolution").value)));
-    byId("keep").addEventListener("change", () => this.#options.set("cut", byId<HTMLInputElement>("keep").checked ? "keep" : null));
-    byId("kind").addEventListener("change", () => void this.#showKind(byId<HTMLSelectElement>("kind").value as FormKind));
+    byId("resolution").addEventListener("change", () => this.#set("resolution", resolutionOf(byId<HTMLSelectElement>("resolution").value)));
+    byId("keep").addEventListener("change", () => this.#set("cut", byId<HTMLInputElement>("keep").checked ? "keep" : null));
+    byId("kind").addEventListener("change", () => this.store.change({ kind: byId<HTMLSelectElement>("kind").value as FormKind }));
     byId("find-option").addEventListener("input", () => this.#options.filter(byId<HTMLInputElement>("find-option").value));
-    byId("reset").addEventListener("click", () => {
-      this.#options.values = {};
-      this.#options.refresh();
-      this.#refresh();
-    });
-  }
-
-  async #showKind(kind: FormKind): Promise<void> {
-    this.kind = kind;
-    await this.#options.show(kind, ELSEWHERE).catch((error: unknown) => this.told.failed(error));
-    this.#refresh();
+    byId("reset").addEventListener("click", () => this.store.change({ options: {} }));
+    // The options are described by the service, which is asked only if someone wants to see them.
+    byId("more").addEventListener("toggle", () => this.#refresh());
   }
 
   #refresh(): void {
-    const { values } = this.#options;
-    const isUnwrap = this.kind === "unwrap";
-    byId<HTMLSelectElement>("kind").value = this.kind;
+    const { kind, options, chosen, subject } = this.store.state;
+    const isUnwrap = kind === "unwrap";
+    if (byId<HTMLDetailsElement>("more").open) void this.#options.show(kind, options, ELSEWHERE).catch((error: unknown) => this.told.failed(error));
+    byId<HTMLSelectElement>("kind").value = kind;
     byId<HTMLFieldSetElement>("purpose").disabled = !isUnwrap;
     byId<HTMLInputElement>("keep").disabled = !isUnwrap;
-    const purpose = values.preset === "lightmap" ? "lightmap" : values.quality === "few" ? "few" : "material";
+    const purpose = options.preset === "lightmap" ? "lightmap" : options.quality === "few" ? "few" : "material";
     byId<HTMLInputElement>(`purpose-${purpose}`).checked = true;
-    byId<HTMLInputElement>("keep").checked = values.cut === "keep";
-    this.#refreshResolution(String(values.resolution ?? "1024"));
-    const count = Object.keys(values).length;
+    byId<HTMLInputElement>("keep").checked = options.cut === "keep";
+    this.#refreshResolution(String(options.resolution ?? "1024"));
+    const count = Object.keys(options).length;
     byId("changed").textContent = count ? `${counted(count, "option")} set` : "";
     byId("reset").hidden = count === 0;
-    const verb = { unwrap: "Unwrap", repack: "Repack", measure: "Measure", verify: "Verify" }[this.kind];
-    byId("submit").textContent = 1 < this.#chosen.length ? `${verb} ${counted(this.#chosen.length, "file")}` : verb;
-    byId("chosen").replaceChildren(...this.#chosen.map((one) => this.#chip(one)));
+    this.#refreshTarget();
+    const looked = subject.kind === "file" ? subject.file : null;
+    byId("chosen").replaceChildren(...chosen.map((one) => this.#chip(one, one === looked)));
+  }
+
+  /** Names what the button acts on. */
+  #refreshTarget(): void {
+    const { kind } = this.store.state;
+    const target = targetOf(this.store.state);
+    const verb = { unwrap: "Unwrap", repack: "Repack", measure: "Measure", verify: "Verify" }[kind];
+    const files = "files" in target ? target.files : [];
+    byId("submit").textContent = 1 < files.length ? `${verb} ${counted(files.length, "file")}` : "job" in target && target.job.kind === kind ? `${verb} again` : verb;
+    byId<HTMLButtonElement>("submit").disabled = this.#isSending || "none" in target;
+    byId("target").textContent = "none" in target ? target.none : "job" in target ? `The input of this job: ${target.job.filename}` : "";
   }
 
   #refreshResolution(value: string): void {
@@ -151,31 +148,43 @@ export class Setup {
     select.value = value;
   }
 
-  #chip(one: Chosen): HTMLElement {
+  #chip(one: Chosen, isLooked: boolean): HTMLElement {
     const remove = button("×", () => {
-      this.#chosen = this.#chosen.filter((other) => other !== one);
-      this.#refresh();
-      if (this.looked === one && this.#chosen[0]) this.look(this.#chosen[0]);
+      const chosen = this.store.state.chosen.filter((other) => other !== one);
+      this.store.change({ chosen });
+      if (isLooked && chosen[0]) this.told.shown(chosen[0]);
     }, { className: "bare", aria: { label: `Remove ${one.name}` } });
     const others = one.resources.size ? ` + ${one.resources.size}` : "";
-    return element("li", { title: one.name }, button(one.name, () => this.look(one), { className: "name", title: `Look at ${one.name}` }), element("small", { textContent: `${bytes(one.content.size)}${others}` }), remove);
+    const look = button(one.name, () => this.told.shown(one), { className: "name", title: `Look at ${one.name}`, aria: isLooked ? { current: "true" } : {} });
+    return element("li", { title: one.name }, look, element("small", { textContent: `${bytes(one.content.size)}${others}` }), remove);
   }
 
-  /** Submits each chosen file as a job if all options are within their ranges. */
-  async submit(): Promise<void> {
-    if (!byId<HTMLFormElement>("setup").reportValidity()) return;
-    if (!this.#chosen.length) return this.ask();
-    const submit = byId<HTMLButtonElement>("submit");
-    submit.disabled = true;
-    const jobs: Job[] = [];
+  #isSending = false;
+
+  /** Makes a job of each input on screen if all options are within their ranges; `more` are options of this time. */
+  async submit(more: Values = {}): Promise<void> {
+    if (this.#isSending || !byId<HTMLFormElement>("setup").reportValidity()) return;
+    const { kind, options } = this.store.state;
+    const target = targetOf(this.store.state);
+    if ("none" in target) return this.told.failed(new Error(target.none));
+    if ("files" in target && !target.files.length) return this.ask();
+    const values = { ...options, ...more };
+    const made: { job: Job; input: Chosen | null }[] = [];
+    this.#send(true);
     try {
-      for (const one of this.#chosen) jobs.push(await createJob(this.kind, this.#options.values, one));
+      if ("job" in target) made.push({ job: await createJobFrom(target.job, kind, values), input: target.input });
+      else for (const input of target.files) made.push({ job: await createJob(kind, values, input), input });
     } catch (error) {
       this.told.failed(error);
     } finally {
-      submit.disabled = false;
-      if (jobs.length) this.told.made(jobs);
+      this.#send(false);
+      if (made.length) this.told.made(made);
     }
+  }
+
+  #send(isSending: boolean): void {
+    this.#isSending = isSending;
+    this.#refreshTarget();
   }
 }
 

@@ -7,6 +7,8 @@ import { uvSetsOf } from "../viewer/uv_sets";
 
 /** A file to show. */
 export interface Source extends Bundle {
+  /** Identifies the model: files that share it are seen by the same cameras. */
+  model: string;
   /** Record of its UVs, if the file has none. */
   record?: UvRecord;
   /** The UV set that a job wrote. */

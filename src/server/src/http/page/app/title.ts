@@ -1,24 +1,18 @@
-// The name of the shown file, in the bar and on the browser's tab.
+// The name of what is shown, in the bar and on the browser's tab.
 
 import { byId } from "./dom";
+import type { State } from "./store";
 
-let shown = "";
-let inHand: string | null = null;
-
-/** Names the file that both views show. */
-export function nameShown(name: string): void {
-  shown = name;
-  draw();
-}
-
-/** Names the file in the pull view while that view is open; null while another is. */
-export function nameInHand(name: string | null): void {
-  inHand = name;
-  draw();
-}
-
-function draw(): void {
-  const name = inHand ?? shown;
-  byId("title").textContent = name;
+/** Names what is shown. */
+export function showTitle(state: State): void {
+  const name = nameOf(state);
+  byId("title").textContent = name || "Not found";
+  byId("title-state").textContent = state.subject.kind === "job" && state.place.uvs === "before" ? "before" : "";
   document.title = name ? `${name} · unwrapd` : "unwrapd";
+}
+
+function nameOf({ place, subject, inHand }: State): string {
+  if (place.tab === "pull" && inHand) return inHand.name;
+  if (subject.kind === "file") return subject.file.name;
+  return subject.kind === "job" ? subject.job.filename : "";
 }

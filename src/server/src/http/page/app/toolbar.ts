@@ -56,13 +56,13 @@ export class Toolbar {
   }
 
   /** Updates the tools from the state. */
-  refresh(isBefore: boolean, hasBefore: boolean): void {
+  refresh(hasBefore: boolean): void {
     const { place, analysis } = this.#viewer;
     for (const tool of byId("toolbar").querySelectorAll<HTMLElement>(".tools button")) {
       const { shade, aim, switch: name } = tool.dataset;
       tool.setAttribute("aria-pressed", String(shade === place.shade || aim === place.aim || (name !== undefined && place[name as Switch])));
     }
-    this.#before.setAttribute("aria-pressed", String(isBefore));
+    this.#before.setAttribute("aria-pressed", String(place.uvs === "before"));
     this.#before.disabled = !hasBefore;
     const atlases = analysis?.atlases ?? [];
     this.#atlas.replaceChildren(...atlases.map(({ name, label, charts, isMapped }) => element("option", { value: name, textContent: `${label} · ${isMapped ? counted(charts, "chart") : "no UVs"}` })));

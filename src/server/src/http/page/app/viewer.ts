@@ -14,34 +14,42 @@ import { originsOf, soupOf } from "../viewer/soups";
 import { Stage } from "../viewer/stage";
 import { color } from "../viewer/theme_color";
 import type { View } from "../viewer/surface";
-import { type Place, START } from "./address";
+import type { Place } from "./address";
 import { analyzed } from "./analyst";
 import { byId } from "./dom";
 import { Pointing } from "./pointing";
 import { type Facts, type Source, uvsOf } from "./source";
+import type { Store } from "./store";
 
 /** Shows files in both views. */
 export class Viewer {
   readonly stage: Stage | null;
   readonly pointing: Pointing;
-  place: Place = { ...START };
   model: Model | null = null;
   /** Analysis of the shown file, even without WebGL. */
   analysis: Analysis | null = null;
   /** Facts about the shown file. */
   facts: Facts | null = null;
   readonly #sheet = new Sheet();
+  /** Number of requests to show a file, by which late answers are recognized and dropped. */
   #shown = 0;
+  /** The model that the cameras look at. */
+  #seen: string | null = null;
   #relaxing: Relaxing | null = null;
   #image: Image | null = null;
-  /** Callback for another file or another element under the pointer. */
+  /** Callback for another file. */
   changed: () => void = () => {};
 
-  constructor() {
+  constructor(readonly store: Store) {
     const places = { canvas: byId<HTMLCanvasElement>("canvas"), solid: byId("solid"), plane: byId("plane") };
     this.stage = stageOn(places);
     this.pointing = new Pointing(this, places);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.apply(this.place));
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.apply());
+    store.show(() => this.apply());
+  }
+
+  get place(): Readonly<Place> {
+    return this.store.place;
   }
 
   /** Shows a file. Resolves when both views show it; false if another file was requested since. */
@@ -85,6 +93,7 @@ export class Viewer {
     if (this.#relaxing !== relaxing) {
       this.calm();
       stage.plane.frame([0, 0, 1, 1]);
+      this.#isFramed = false;
     }
     this.#relaxing = relaxing;
     byId("plane-note").textContent = "";
@@ -107,31 +116,60 @@ export class Viewer {
   }
 
   /** Shows the scene alone until its analysis is ready. */
-  #preview(stage: Stage, loaded: Loaded, { isTurning = false, from }: Source): void {
+  #preview(stage: Stage, loaded: Loaded, source: Source): void {
     if (this.model) return;
     stage.solid.show([loaded.scene, ...stage.lights], boundsOf(loaded.scene));
-    stage.solid.frame(from);
-    stage.solid.turn(isTurning);
+    this.#look(stage, source);
     stage.redraw();
   }
 
-  #take({ source: { name, from, isInput, isTurning }, set, texture }: Facts, loaded: Loaded, analysis: Analysis): void {
-    const isFirst = !this.model;
-    if (!isInput) this.calm();
-    if (!isTurning) this.stage?.solid.turn(false);
+  /** Aims the camera at another model: as it was left, or from the front. A model that was seen before is seen on as a
+   * person left it. */
+  #look({ solid }: Stage, { model, from, isTurning = false }: Source): void {
+    const { camera } = this.place;
+    if (this.#seen === model) return;
+    this.#seen = model;
+    this.#isFramed = false;
+    solid.frame(from ?? (this.model?.isFlat ? [0, 0, 1] : undefined));
+    solid.turn(isTurning && !camera);
+    if (camera) solid.place = camera;
+  }
+
+  /** Frames the UVs unless a person has moved them. */
+  #lookAtUvs({ plane }: Stage): void {
+    if (!this.#isFramed && this.place.plane) plane.place = this.place.plane;
+    else if (!plane.isMoved) this.#framePlane();
+    this.#isFramed = true;
+  }
+
+  /** Set once the UVs of the seen model are framed. */
+  #isFramed = false;
+
+  /** Writes the cameras to the state, if a person has moved them, so that they are found again. */
+  keepCameras(): void {
+    const { stage } = this;
+    if (!stage || !this.#seen || stage.solid.isTurning || !byId("panes").dataset.shown) return;
+    const camera = stage.solid.isMoved ? stage.solid.place : null;
+    const plane = stage.plane.isMoved ? stage.plane.place : null;
+    if (camera || plane) this.store.remember(this.#seen, { camera, plane });
+    // The address names no chosen file, so a camera in it would look at another one.
+    if (this.store.job) this.store.go({ camera, plane });
+  }
+
+  #take({ source, set, texture }: Facts, loaded: Loaded, analysis: Analysis): void {
+    if (!source.isInput) this.calm();
+    if (!source.isTurning) this.stage?.solid.turn(false);
     this.model?.dispose();
     this.analysis = analysis;
-    byId("panes").dataset.shown = name;
+    byId("panes").dataset.shown = source.name;
     performance.mark("first view");
-    if (!this.stage) return this.changed();
-    this.model = new Model(loaded, analysis, { set, aspect: texture.width / texture.height }, this.stage.uniforms);
-    this.apply(this.place);
-    const { camera, plane } = this.place;
-    if (isFirst || !camera) this.frame(from);
-    else if (!plane) this.#framePlane();
-    if (camera) this.stage.solid.place = camera;
-    if (plane) this.stage.plane.place = plane;
-    if (this.#relaxing) this.stage.plane.frame([0, 0, 1, 1]);
+    const { stage } = this;
+    if (!stage) return this.changed();
+    this.model = new Model(loaded, analysis, { set, aspect: texture.width / texture.height }, stage.uniforms);
+    this.apply();
+    this.#look(stage, source);
+    this.#lookAtUvs(stage);
+    if (this.#relaxing) stage.plane.frame([0, 0, 1, 1]);
     this.changed();
   }
 
@@ -156,10 +194,9 @@ export class Viewer {
     this.stage?.plane.frame([Math.min(0, u0) * aspect, Math.min(0, v0), Math.max(pages, u1) * aspect, Math.max(1, v1)]);
   }
 
-  /** Applies a state to the views. */
-  apply(place: Place): void {
-    this.place = place;
-    const { stage, model } = this;
+  /** Applies the state to the views. */
+  apply(): void {
+    const { stage, model, place } = this;
     if (!stage) return;
     stage.background = color("--stage");
     stage.redraw();
@@ -182,7 +219,7 @@ export class Viewer {
   }
 
   /** Distributes the contents over the views. */
-  #arrange(stage: Stage, model: Model, place: Place): void {
+  #arrange(stage: Stage, model: Model, place: Readonly<Place>): void {
     const { solid, plane } = model.surface.layers;
     const lines = (view: typeof solid) => (place.seams ? [view.borders] : []);
     const isOwn = place.shade === "material" && !(place.only && place.chart !== null);

@@ -3,6 +3,7 @@
 import { call, type Job } from "../app/api";
 import { LiveClient, type Reply, type Wish } from "../live/client";
 import type { LiveFrame, LiveMesh } from "../live/decode";
+import type { Store } from "../app/store";
 import { extension } from "../viewer/loading";
 import { type Grip, Grips, handleOf } from "./grips";
 import { type Doer, Pointer } from "./pointer";
@@ -19,8 +20,6 @@ const ENDS: Record<string, string> = {
 /** Callbacks to the page. */
 export interface Told {
   failed(error: unknown): void;
-  /** A file was chosen here. */
-  chosen(): void;
   /** A session has begun or ended. */
   changed(): void;
   /** A session was baked to a job. */
@@ -33,6 +32,7 @@ export class PullView implements Doer {
   readonly #scene: PullScene | null;
   readonly #pointer: Pointer | null;
   readonly #tools: PullTools;
+  /** What is pulled, or was offered for it. */
   #origin: Origin | null = null;
   #ways: Way[] = [];
   #way: Way | null = null;
@@ -48,7 +48,7 @@ export class PullView implements Doer {
   /** Size of the next grip, as a share of the mesh. */
   #size = 0;
 
-  constructor(readonly told: Told) {
+  constructor(readonly store: Store, readonly told: Told) {
     this.#scene = sceneOn();
     this.#pointer = this.#scene && new Pointer(this.#scene, this.grips, this);
     if (this.#scene) this.#scene.drawn = () => this.#drawGrips();
@@ -60,11 +60,6 @@ export class PullView implements Doer {
       if (this.#session && this.#isUnsaved) event.preventDefault();
     });
     addEventListener("pagehide", () => void this.leave());
-  }
-
-  /** Name of the file that is pulled, or would be. */
-  get name(): string | null {
-    return this.#origin?.name ?? null;
   }
 
   /** Set while something is pulled. */
@@ -89,8 +84,7 @@ export class PullView implements Doer {
     const [first, ...others] = files;
     if (!first) return;
     void this.leave();
-    this.offer({ name: first.name, content: first, resources: new Map(others.map((file) => [file.name, file as Blob])) }, null);
-    this.told.chosen();
+    this.store.change({ inHand: { name: first.name, content: first, resources: new Map(others.map((file) => [file.name, file as Blob])) } });
   }
 
   /** Opens a session. */

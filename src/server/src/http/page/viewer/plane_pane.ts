@@ -14,6 +14,8 @@ export class PlanePane {
   #middle = [0.5, 0.5];
   #half = 0.55;
   #size = [1, 1];
+  /** Set if a person has moved the view since something was fitted into it. */
+  isMoved = false;
   readonly #fingers = new Map<number, [number, number]>();
 
   constructor(readonly element: HTMLElement, changed: () => void) {
@@ -39,6 +41,7 @@ export class PlanePane {
   /** Fits a rectangle into the view: least u and v, greatest u and v. */
   frame([u0, v0, u1, v1]: [number, number, number, number]): void {
     this.place = [(u0 + u1) / 2, (v0 + v1) / 2, Math.max(this.#halfFor(u1 - u0, v1 - v0), 1e-6)];
+    this.isMoved = false;
   }
 
   #halfFor(width: number, height: number): number {
@@ -62,6 +65,7 @@ export class PlanePane {
   set place([u = 0.5, v = 0.5, half = 0.55]: number[]) {
     this.#middle = [u, v];
     this.#half = half;
+    this.isMoved = true;
     this.#apply();
   }
 

@@ -18,13 +18,18 @@ export class SolidPane {
   readonly #controls: OrbitControls;
   #around = new Sphere(new Vector3(), 1);
   #rest = 0;
+  /** Set if a person has moved the camera since everything was fitted into the view. */
+  isMoved = false;
 
   constructor(readonly element: HTMLElement, changed: () => void) {
     this.#controls = new OrbitControls(this.camera, element);
     this.#controls.zoomToCursor = true;
     this.#controls.autoRotateSpeed = SPEED;
     this.#controls.addEventListener("change", changed);
-    this.#controls.addEventListener("start", () => this.turn(false));
+    this.#controls.addEventListener("start", () => {
+      this.turn(false);
+      this.isMoved = true;
+    });
   }
 
   /** Shows these objects and nothing else. */
@@ -38,12 +43,14 @@ export class SolidPane {
   frame(from: readonly [number, number, number] = FRONT): void {
     const { center, radius } = this.#around;
     const distance = (radius / Math.sin((this.camera.fov * Math.PI) / 360)) * 0.94 * Math.max(1, 1 / this.camera.aspect);
+    this.isMoved = false;
     this.#look(center.clone().add(new Vector3(...from).normalize().multiplyScalar(distance)), center);
   }
 
   /** Flies to a place, seen from a direction. */
   flyTo(place: Vector3, direction: Vector3, size: number): void {
     this.turn(false);
+    this.isMoved = true;
     const distance = Math.max(size * 9, this.#around.radius * 0.55);
     const [from, target] = [this.camera.position.clone(), this.#controls.target.clone()];
     const to = place.clone().add(direction.clone().normalize().multiplyScalar(distance));
@@ -77,6 +84,7 @@ export class SolidPane {
   }
 
   set place(numbers: number[]) {
+    this.isMoved = true;
     this.#look(new Vector3().fromArray(numbers), new Vector3().fromArray(numbers, 3));
   }
 

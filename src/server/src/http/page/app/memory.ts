@@ -1,0 +1,44 @@
+// What the page remembers in this browser.
+
+import type { Place } from "./address";
+import type { FormKind } from "./definitions";
+import type { Values } from "./option_form";
+
+/** Cameras of both views; null if nobody has moved them. */
+export type Camera = Pick<Place, "camera" | "plane">;
+
+/** The remembered values by name. */
+interface Memory {
+  /** Kind and options of the form. */
+  form: { kind?: FormKind; options?: Values };
+  /** Fill, measure and switches of the views. */
+  looks: Partial<Place>;
+  /** Cameras by model, least recent first. */
+  cameras: [string, Camera][];
+}
+
+const EMPTY: Memory = { form: {}, looks: {}, cameras: [] };
+const key = (name: keyof Memory) => `unwrapd.${name}`;
+
+/** Returns a remembered value, or an empty one if there is none or the browser refuses. */
+export function kept<N extends keyof Memory>(name: N): Memory[N] {
+  try {
+    return (JSON.parse(localStorage.getItem(key(name)) ?? "null") as Memory[N] | null) ?? EMPTY[name];
+  } catch {
+    return EMPTY[name];
+  }
+}
+
+/** Remembers a value, if the browser allows it. */
+export function keep<N extends keyof Memory>(name: N, value: Memory[N]): void {
+  try {
+    localStorage.setItem(key(name), JSON.stringify(value));
+  } catch {
+    // Without storage, the page forgets.
+  }
+}
+
+/** Forgets everything, as when a person signs out. */
+export function forget(): void {
+  for (const name of Object.keys(EMPTY) as (keyof Memory)[]) localStorage.removeItem(key(name));
+}
