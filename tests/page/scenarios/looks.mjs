@@ -17,6 +17,7 @@ export async function run(page, url) {
   await seams(page);
   await isolated(page);
   await located(page, facts);
+  await metal(page);
 }
 
 async function heat(page, { best, worst }) {
@@ -29,7 +30,15 @@ async function heat(page, { best, worst }) {
   const [low, high] = await colors(page, places);
   const brightness = (color) => color.reduce((sum, x) => sum + x, 0);
   assert.ok(brightness(high) + 120 < brightness(low), `the worst face is dark: ${low}, ${high}`);
-  assert.match(await page.textContent("#legend"), /min .* mean .* max/);
+  assert.match(await page.textContent("#legend"), /min .* % · mean .* % · max .* %/);
+  // All results have the same colors, unless they are asked to be spread over one.
+  assert.equal(await page.textContent(".scale .ends >> nth=1"), "100 %");
+  await page.click("text=Fit scale");
+  assert.notEqual(await page.textContent(".scale .ends >> nth=1"), "100 %");
+  const [, fitted] = await colors(page, places);
+  assert.ok(brightness(fitted) < brightness(high), `the worst face is darker on a scale of its own: ${fitted}, ${high}`);
+  assert.match(page.url(), /scale=fitted/);
+  await page.click("text=Fit scale");
   await page.selectOption("#measure", "density");
   const [, density] = await colors(page, places);
   assertDiffers(density, high, "texel density");
@@ -77,6 +86,23 @@ async function seams(page) {
   const [off] = await colors(page, [place]);
   assertDiffers(on, off, "a seam");
   await settled(page);
+}
+
+/** Metal reflects its surroundings: it is no black hole. */
+async function metal(page) {
+  const corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]].flat();
+  const bytes = Buffer.concat([Buffer.from(Float32Array.from(corners).buffer), Buffer.from(Uint16Array.of(0, 1, 2, 0, 2, 3).buffer)]);
+  const plate = {
+    asset: { version: "2.0" }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }], meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1, material: 0 }] }],
+    materials: [{ pbrMetallicRoughness: { metallicFactor: 1, roughnessFactor: 0.3 } }], buffers: [{ byteLength: bytes.length, uri: `data:application/octet-stream;base64,${bytes.toString("base64")}` }],
+    bufferViews: [{ buffer: 0, byteLength: 48 }, { buffer: 0, byteOffset: 48, byteLength: 12 }],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 4, type: "VEC3", min: [0, 0, 0], max: [1, 1, 0] }, { bufferView: 1, componentType: 5123, count: 6, type: "SCALAR" }],
+  };
+  await page.setInputFiles("#files", { name: "plate.gltf", mimeType: "model/gltf+json", buffer: Buffer.from(JSON.stringify(plate)) });
+  await shown(page, "plate.gltf");
+  await page.click("button[data-shade=material]");
+  const [seen] = await colors(page, [await project(page, "solid", 0)]);
+  assert.ok(seen.every((x) => 70 < x), `metal is lit: ${seen}`);
 }
 
 /** Larger cells are another checkerboard, and the address says so. */

@@ -31,9 +31,28 @@ export async function run(page, url) {
   await page.mouse.click(...solid);
   await hover(page, AWAY);
   assert.equal((await pointed(page)).hoverFace, undefined);
-  assertDiffers((await colors(page, [plane]))[0], planeBefore, "the selected chart");
+  // An outline marks what is selected; its fill is still there to be judged.
+  const border = await borderOf(page, face);
+  const [selected, outline] = await colors(page, [plane, border]);
+  assertSame(selected, planeBefore, "the fill of the selected chart");
+  assert.ok(outline[2] + 100 < outline[0], `the outline is orange: ${outline}`);
+  await page.click("button[data-switch=seams]");
+  const [, alone] = await colors(page, [plane, border]);
+  assertSame(alone, outline, "the outline without seams");
+  await page.click("button[data-switch=seams]");
   assert.match(page.url(), /chart=\d+/);
   await seams(page);
+}
+
+/** Where the middle of the longest border of a face's chart is in the plane. */
+function borderOf(page, face) {
+  return page.evaluate((face) => {
+    const { analysis: { borders, chart }, stage, model } = window.unwrapd.viewer;
+    const length = (k) => Math.hypot(borders.uvs[4 * k] - borders.uvs[4 * k + 2], borders.uvs[4 * k + 1] - borders.uvs[4 * k + 3]);
+    const own = [...borders.face.keys()].filter((k) => chart[borders.face[k]] === chart[face]);
+    const [u0, v0, u1, v1] = borders.uvs.slice(4 * own.sort((one, other) => length(other) - length(one))[0]);
+    return stage.project("plane", stage.solid.camera.position.clone().set(((u0 + u1) / 2) * model.aspect, (v0 + v1) / 2, 0));
+  }, face);
 }
 
 /** Faces of the same chart. */

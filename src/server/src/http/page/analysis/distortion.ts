@@ -6,6 +6,15 @@ import type { Faces, Texture } from "./soup";
 export const MEASURES = ["sym-dirichlet", "angle", "area", "density"] as const;
 export type Measure = (typeof MEASURES)[number];
 
+/** Returns how much a face with this value is stretched, as a share: lengths for the symmetric Dirichlet energy (those of a map
+ * with singular values s, s or s, 1/s, which have that energy), the ratio of its axes for angles, and areas for areas.
+ * 0 is an isometry, 1 is stretched or compressed to double or half. */
+export function stretchOf(measure: Measure, value: number): number {
+  if (measure !== "sym-dirichlet") return value - 1;
+  const q = Math.max(value / 4, 1);
+  return Math.sqrt(q + Math.sqrt(q * q - 1)) - 1;
+}
+
 /** Measures of faces. */
 export interface Distortion {
   /** Four numbers per face: σ₁² + σ₂² + σ₁⁻² + σ₂⁻², least 4; σ₁/σ₂, least 1; max(σ₁σ₂, 1/σ₁σ₂), least 1; texels per

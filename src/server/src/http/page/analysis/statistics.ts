@@ -1,6 +1,6 @@
 // Numbers about many faces.
 
-import { type Distortion, type Measure, MEASURES } from "./distortion";
+import { type Distortion, type Measure, MEASURES, stretchOf } from "./distortion";
 
 /** Distribution of a measure over faces, weighted by their area on the surface. */
 export interface Spread {
@@ -58,12 +58,15 @@ function spread({ values, area }: Distortion, members: Uint32Array, k: number, w
   return { least, mean, greatest, p99, from, to: from + BINS * step, bins, worst: [...ends] };
 }
 
-/** Returns the values at the ends of a heat map's scale: from the ideal on, or as far below the mean as above it. */
-export function rangeOf(measure: Measure, { least, mean, greatest, p99 }: Spread): [number, number] {
+/** Returns the ends of a heat map's scale: shares of stretch, or texels per unit of length.
+ *
+ * A fixed scale ends where everything is doubled, so that two results have the same colors; a fitted one ends where 99 %
+ * of the area do. Densities are compared with their mean. */
+export function rangeOf(measure: Measure, { least, mean, greatest, p99 }: Spread, scale: "fixed" | "fitted"): [number, number] {
+  const isFixed = scale === "fixed";
   if (measure === "density") {
-    const far = Math.max(greatest / mean, mean / least, 1.02);
+    const far = isFixed ? 2 : Math.max(greatest / mean, mean / least, 1.02);
     return [mean / far, mean * far];
   }
-  const ideal = measure === "sym-dirichlet" ? 4 : 1;
-  return [ideal, Math.max(p99 * 1.02, ideal * 1.02)];
+  return [0, isFixed ? 1 : Math.max(stretchOf(measure, p99), 0.01)];
 }

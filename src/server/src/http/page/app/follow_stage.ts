@@ -22,6 +22,6 @@ export function followStage(viewer: Viewer, stage: Stage): void {
   });
   canvas.addEventListener("webglcontextrestored", () => {
     showFallback(null);
-    stage.redraw();
+    stage.restore();
   });
 }

@@ -1,13 +1,20 @@
 // The line below the views: the element under the pointer, the meaning of the colors, problems.
 
 import { type Analysis, UNMAPPED } from "../analysis/analysis";
-import { type Measure, MEASURES } from "../analysis/distortion";
+import { type Measure, MEASURES, stretchOf } from "../analysis/distortion";
 import { gradient } from "../viewer/colors";
 import { CELLS, type Place } from "./address";
-import { byId, element } from "./dom";
-import { counted, short, whole } from "./format";
-import { MEASURE_NAMES } from "./toolbar";
+import { button, byId, element } from "./dom";
+import { counted, percent, short, whole } from "./format";
 import type { Viewer } from "./viewer";
+
+/** Names of what a heat map shows. */
+const HEATS: Record<Measure, { name: string; help: string }> = {
+  "sym-dirichlet": { name: "Stretch", help: "By how much lengths are stretched or compressed, from the symmetric Dirichlet energy" },
+  angle: { name: "Angle stretch", help: "By how much a face is longer along one axis than along the other" },
+  area: { name: "Area stretch", help: "By how much areas are larger or smaller than on average" },
+  density: { name: "Texel density", help: "Pixels of the texture per unit of length" },
+};
 
 /** Shows the hovered or selected element. */
 export function showPointed(viewer: Viewer): void {
@@ -27,10 +34,10 @@ function where({ pointing: { at }, facts }: Viewer): string {
 function words({ chart, group, atlases, marks, values }: Analysis, face: number | null, picked: number | null): string {
   if (face === null || face === undefined) return picked === null ? "" : `Chart ${picked + 1} is selected`;
   const atlas = atlases[group[face]!];
-  const at = (k: number) => short(values[4 * face + k]);
+  const at = (k: number) => (k < 3 ? percent(stretchOf(MEASURES[k]!, values[4 * face + k]!)) : short(values[4 * face + k]));
   const place = `Face ${whole(face)}`;
   if (!atlas?.isMapped || marks[face]! & UNMAPPED) return `${place} · no UVs`;
-  return `${place} · chart ${chart[face]! + 1} of ${atlas.charts} · sym. Dirichlet ${at(0)} · angle ${at(1)} · area ${at(2)} · ${at(3)} px/unit`;
+  return `${place} · chart ${chart[face]! + 1} of ${atlas.charts} · stretch ${at(0)} · angle ${at(1)} · area ${at(2)} · ${at(3)} px/unit`;
 }
 
 function summary({ faces, charts, drawn, atlases }: Analysis, isDrawn: boolean): string {
@@ -45,7 +52,7 @@ export function showLegend(viewer: Viewer, changed: (changes: Partial<Place>) =>
   const { analysis, place, atlas } = viewer;
   const shown = analysis?.atlases[atlas];
   const parts: (Node | null)[] = [];
-  if (shown && place.shade === "heat") parts.push(choice(place.measure, (measure) => changed({ measure })), scale(viewer));
+  if (shown && place.shade === "heat") parts.push(choice(place.measure, (measure) => changed({ measure })), scale(viewer), fitting(viewer, changed));
   if (shown && place.shade === "checker") parts.push(cells(place.cells, changed));
   if (shown && place.problems) {
     const found = [[shown.overlapping, "overlap", "overlaps"], [shown.flipped, "flipped face", "flipped faces"], [shown.near, "face near another island", "faces near another island"],
@@ -58,7 +65,7 @@ export function showLegend(viewer: Viewer, changed: (changes: Partial<Place>) =>
 }
 
 function choice(measure: Measure, changed: (measure: Measure) => void): HTMLElement {
-  const select = element("select", { id: "measure", aria: { label: "Measure of the heat map" } }, ...MEASURES.map((value) => element("option", { value, textContent: MEASURE_NAMES[value], selected: value === measure })));
+  const select = element("select", { id: "measure", aria: { label: "Measure of the heat map" } }, ...MEASURES.map((value) => element("option", { value, textContent: HEATS[value].name, title: HEATS[value].help, selected: value === measure })));
   select.addEventListener("change", () => changed(select.value as Measure));
   return select;
 }
@@ -76,8 +83,16 @@ function scale(viewer: Viewer): HTMLElement {
   const [from, to] = viewer.range();
   const bar = element("span", { className: "bar", aria: { hidden: "true" } });
   bar.style.background = gradient(measure);
-  const unit = measure === "density" ? " px/unit" : "";
+  const isDensity = measure === "density";
+  const end = (x: number) => (isDensity ? short(x) : `${Math.round(1000 * x) / 10} %`);
+  const of = (x: number) => (isDensity ? short(x) : percent(stretchOf(measure, x)));
   return element("span", { className: "scale" },
-    element("span", { className: "ends", textContent: short(from) }), bar, element("span", { className: "ends", textContent: `${short(to)}${unit}` }),
-    element("span", { className: "numbers", title: MEASURE_NAMES[measure], textContent: `min ${short(spread.least)} · mean ${short(spread.mean)} · max ${short(spread.greatest)}` }));
+    element("span", { className: "ends", textContent: end(from) }), bar, element("span", { className: "ends", textContent: `${end(to)}${isDensity ? " px/unit" : ""}` }),
+    element("span", { className: "numbers", title: HEATS[measure].help, textContent: `min ${of(spread.least)} · mean ${of(spread.mean)} · max ${of(spread.greatest)}` }));
+}
+
+/** Creates the switch between the scale of all results and one that is fitted to the shown one. */
+function fitting({ place: { scale } }: Viewer, changed: (changes: Partial<Place>) => void): HTMLElement {
+  const isFitted = scale === "fitted";
+  return button("Fit scale", () => changed({ scale: isFitted ? "fixed" : "fitted" }), { title: "Spread the colors over the stretch of this result alone", aria: { pressed: String(isFitted) } });
 }

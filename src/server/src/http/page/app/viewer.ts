@@ -118,7 +118,7 @@ export class Viewer {
   /** Shows the scene alone until its analysis is ready. */
   #preview(stage: Stage, loaded: Loaded, source: Source): void {
     if (this.model) return;
-    stage.solid.show([loaded.scene, ...stage.lights], boundsOf(loaded.scene));
+    stage.solid.show([loaded.scene, ...stage.light()], boundsOf(loaded.scene));
     this.#look(stage, source);
     stage.redraw();
   }
@@ -207,6 +207,7 @@ export class Viewer {
     uniforms.uMeasure.value = MEASURES.indexOf(place.measure);
     uniforms.uAtlas.value = this.atlas;
     uniforms.uAspect.value = model.aspect;
+    uniforms.uSeams.value = Number(place.seams);
     uniforms.uWire.value = Number(place.wire);
     uniforms.uProblems.value = Number(place.problems);
     uniforms.uOnly.value.set(...(place.only && place.chart !== null ? [place.chart, this.atlas] as const : [-1, -1] as const));
@@ -221,21 +222,20 @@ export class Viewer {
   /** Distributes the contents over the views. */
   #arrange(stage: Stage, model: Model, place: Readonly<Place>): void {
     const { solid, plane } = model.surface.layers;
-    const lines = (view: typeof solid) => (place.seams ? [view.borders] : []);
     const isOwn = place.shade === "material" && !(place.only && place.chart !== null);
-    const own = isOwn ? [model.loaded.scene, ...stage.lights, solid.overlay] : [solid.surface];
-    stage.solid.show([...own, ...lines(solid)], model.sphere);
+    const own = isOwn ? [model.loaded.scene, ...stage.light(), solid.overlay] : [solid.surface];
+    stage.solid.show([...own, solid.borders], model.sphere);
     const atlas = model.analysis.atlases[this.atlas];
     const pages = atlas ? pagesOf(atlas.bounds) : 1;
     const picture = isOwn ? model.picture() : null;
     const sheet = this.#sheet.of(pages, model.aspect, { paper: color("--sheet"), line: color("--sheet-line"), border: color("--sheet-border") }, picture);
-    stage.plane.show(this.#relaxing?.meshes ?? [...sheet, picture ? plane.overlay : plane.surface, ...lines(plane)]);
+    stage.plane.show(this.#relaxing?.meshes ?? [...sheet, picture ? plane.overlay : plane.surface, plane.borders]);
   }
 
-  /** Returns the values at the ends of the heat map's scale. */
+  /** Returns the ends of the heat map's scale: shares of stretch, or texels per unit of length. */
   range(): [number, number] {
     const spread = this.analysis?.atlases[this.atlas]?.spreads[MEASURES.indexOf(this.place.measure)];
-    return spread ? rangeOf(this.place.measure, spread) : [1, 2];
+    return spread ? rangeOf(this.place.measure, spread, this.place.scale) : [0, 1];
   }
 
   /** Fills faces with the user's picture. */

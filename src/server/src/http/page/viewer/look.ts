@@ -15,8 +15,8 @@ export function uniforms() {
     uIds: { value: none as Texture },
     uShade: { value: 0 },
     uMeasure: { value: 0 },
-    /** Values at the ends of the heat map's scale. */
-    uRange: { value: new Vector2(4, 8) },
+    /** Ends of the heat map's scale: shares of stretch, or texels per unit of length. */
+    uRange: { value: new Vector2(0, 1) },
     uChecker: { value: new Vector2(32, 32) },
     uImage: { value: none as Texture },
     /** The hovered and the selected face, chart with its group, and seam; -1 for none. */
@@ -28,6 +28,7 @@ export function uniforms() {
     uAspect: { value: 1 },
     uWire: { value: 0 },
     uProblems: { value: 1 },
+    /** Set if all seams are drawn, not only those of what is pointed at or selected. */
     uSeams: { value: 1 },
     /** Set while islands are arranged, and their places. */
     uArranging: { value: 0 },

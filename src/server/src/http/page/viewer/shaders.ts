@@ -99,11 +99,18 @@ vec3 checker() {
   return mix(light, dark, odd);
 }
 
+// Like stretchOf of the analysis.
+float stretchOf(float value) {
+  if (uMeasure != 0) return value - 1.0;
+  float q = max(value / 4.0, 1.0);
+  return sqrt(q + sqrt(q * q - 1.0)) - 1.0;
+}
+
 vec3 heat() {
   float value = texelFetch(uValues, texelOf(vFace), 0)[uMeasure];
   if (isnan(value)) return vec3(0.69);
-  float t = log(value / uRange.x) / log(uRange.y / uRange.x);
-  return uMeasure == 3 ? densityColor(t) : heatColor(t);
+  if (uMeasure == 3) return densityColor(log(value / uRange.x) / log(uRange.y / uRange.x));
+  return heatColor((stretchOf(value) - uRange.x) / (uRange.y - uRange.x));
 }
 
 vec3 fill(uint chart) {
@@ -115,12 +122,20 @@ vec3 fill(uint chart) {
   return CLAY;
 }
 
+/** Returns 0 on the edges of the face, and 1 farther inside than this number of pixels, softened over 0.8. */
+float inner(float pixels) {
+  vec3 width = fwidth(vCorner);
+  vec3 inside = smoothstep(width * pixels, width * (pixels + 0.8), vCorner);
+  return min(inside.x, min(inside.y, inside.z));
+}
+
 void main() {
   uvec4 ids = texelFetch(uIds, texelOf(vFace), 0);
   uint marks = ids.z >> 16;
   float face = float(ids.x), chart = float(ids.y), group = float(ids.z & 0xffffu);
   bool isHovered = uHover.x == face || (uHover.y == chart && uHover.z == group);
-  bool isPicked = uSelected.x == face || (uSelected.y == chart && uSelected.z == group);
+  bool isFace = uSelected.x == face;
+  bool isPicked = isFace || (uSelected.y == chart && uSelected.z == group);
   int placed = placedMarks(ids.y, ids.z & 0xffffu);
   isPicked = isPicked || (placed & 1) != 0;
   bool isWrong = uProblems == 1 && uArranging == 0 && (marks & 3u) != 0u;
@@ -128,12 +143,19 @@ void main() {
   if (!isHovered && !isPicked && !isWrong && placed == 0) discard;
 #endif
   vec3 base = fill(ids.y);
+  float strength = 1.0;
   if (isWrong) base = (marks & 1u) != 0u ? vec3(0.87, 0.15, 0.17) : vec3(1.0, 0.84, 0.04);
   if ((placed & 4) != 0) base = mix(base, vec3(0.87, 0.15, 0.17), 0.7);
   else if (uArranging == 1) base = mix(base, PICKED, isPicked ? 0.35 : isHovered ? 0.2 : 0.0);
   else {
-    if (isPicked) base = mix(base, PICKED, 0.6);
-    if (isHovered) base = mix(base, PICKED, 0.5);
+    // What is selected has an outline: that of a chart or a seam is drawn with the borders. What is pointed at is tinted.
+    float edge = isFace ? 1.0 - inner(1.5) : 0.0;
+    strength = max(edge, isHovered ? 0.3 : 0.0);
+#ifdef OVERLAY
+    if (!isWrong) base = PICKED;
+#else
+    base = mix(base, PICKED, strength);
+#endif
   }
   if ((placed & 2) != 0) {
     // Hatched: stripes that stay where they are on the screen.
@@ -145,17 +167,16 @@ void main() {
   vec3 n = normalize(vNormal) * (gl_FrontFacing ? 1.0 : -1.0);
   light = 0.52 + 0.42 * max(dot(n, normalize(vec3(0.25, 0.4, 0.9))), 0.0) + 0.12 * max(n.y, 0.0);
   // What is pointed at is seen in the shade, too.
-  if (isHovered || isPicked) light = mix(light, 1.0, 0.7);
+  if (isHovered) light = mix(light, 1.0, 0.7);
 #endif
   if (uWire == 1) {
     vec3 width = fwidth(vCorner);
-    vec3 inside = smoothstep(width * 0.4, width * 1.2, vCorner);
     // Lines fade where faces are too small for them.
-    float strength = 0.42 * clamp(1.0 - 2.2 * max(width.x, max(width.y, width.z)), 0.0, 1.0);
-    base *= 1.0 - strength * (1.0 - min(inside.x, min(inside.y, inside.z)));
+    float dark = 0.42 * clamp(1.0 - 2.2 * max(width.x, max(width.y, width.z)), 0.0, 1.0);
+    base *= 1.0 - dark * (1.0 - inner(0.4));
   }
 #ifdef OVERLAY
-  color = vec4(base * light, isWrong ? 0.9 : 0.75);
+  color = vec4(base * light, isWrong ? 0.9 : placed != 0 ? 0.75 : strength);
 #else
   color = vec4(base * light, 1.0);
 #endif
@@ -183,6 +204,7 @@ uniform float uPixelRatio;
 uniform vec4 uHover;
 uniform vec4 uSelected;
 uniform float uThick;
+uniform int uSeams;
 in vec3 from;
 in vec3 to;
 in vec4 planeEnds;
@@ -215,6 +237,9 @@ void main() {
   bool isNear = uArranging == 1 ? (mark & 4) != 0 : (marks & 4u) != 0u;
   float width = isNear ? 3.0 : (marks & 8u) != 0u ? 2.2 : 1.4;
   if (isHovered || isPicked) width += 1.6;
+#ifndef PICK
+  else if (uSeams == 0) width = 0.0;
+#endif
   width = (width + uThick) * uPixelRatio;
   vColor = (isPicked || isHovered) && !(isNear && uArranging == 1) ? vec4(0.95, 0.45, 0.0, 1.0) : isNear ? vec4(0.87, 0.15, 0.17, 1.0) : vec4(0.07, 0.33, 0.75, 1.0);
   vId = facts.w + 1u;

@@ -1,6 +1,7 @@
 // Both views on one canvas, with one set of buffers; drawn only when something changed.
 
-import { type Camera, Color, DirectionalLight, HemisphereLight, type Material, type Mesh, type Scene, Vector3, WebGLRenderer } from "three";
+import { type Camera, Color, DirectionalLight, HemisphereLight, type Material, type Mesh, PMREMGenerator, type Scene, Vector3, WebGLRenderer, type WebGLRenderTarget } from "three";
+import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
 import { type Uniforms, uniforms } from "./look";
 import type { Model } from "./model";
 import { Picker } from "./picking";
@@ -45,15 +46,35 @@ export class Stage {
     this.renderer.info.autoReset = false;
     this.solid = new SolidPane(places.solid, () => this.redraw());
     this.plane = new PlanePane(places.plane, () => this.redraw());
-    const key = new DirectionalLight(0xffffff, 2);
+    const key = new DirectionalLight(0xffffff, 1.2);
     key.position.set(1, 2, 3);
-    this.lights = [new HemisphereLight(0xffffff, 0x8a8f98, 2), key];
+    this.#lights = [new HemisphereLight(0xffffff, 0x8a8f98, 0.8), key];
     new ResizeObserver(() => this.resize()).observe(places.canvas.parentElement!);
     this.resize();
   }
 
-  /** Lights for the materials of documents. */
-  readonly lights;
+  readonly #lights;
+  #surroundings: WebGLRenderTarget | null = null;
+
+  /** Returns lights for the materials of documents, and surrounds them with a neutral room, which metals reflect. */
+  light() {
+    if (!this.#surroundings) {
+      const [generator, room] = [new PMREMGenerator(this.renderer), new RoomEnvironment()];
+      this.#surroundings = generator.fromScene(room, 0.04);
+      this.solid.scene.environment = this.#surroundings.texture;
+      room.dispose();
+      generator.dispose();
+    }
+    return this.#lights;
+  }
+
+  /** Draws the surroundings again, after the graphics device was lost. */
+  restore(): void {
+    this.#surroundings?.dispose();
+    this.#surroundings = null;
+    this.light();
+    this.redraw();
+  }
 
   /** Requests another frame. */
   redraw(): void {
