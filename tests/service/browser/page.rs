@@ -156,6 +156,16 @@ async fn what_is_on_screen_is_unwrapped_as_the_person_has_set_it() {
 }
 
 #[tokio::test]
+async fn work_that_takes_a_while_is_seen_and_can_be_undone() {
+    let server = Server::with(&[("UNWRAPD_WORKERS", "1")]);
+    // It keeps the worker busy until the page has asked for an early finish.
+    let before = server.submit(meshes::hills(800), "").await;
+    let before = before["links"]["self"].as_str().expect("a link").to_owned();
+    let arguments = [asset("cat_head.obj"), asset("gltf/Fox.glb"), before];
+    scenario("at_work", server.url("/"), &arguments).await;
+}
+
+#[tokio::test]
 async fn the_surface_hides_seams_behind_it() {
     let server = Server::start();
     let url = unwrapped(&server, "spot.ply").await;

@@ -69,20 +69,72 @@ export async function download(path: string): Promise<Blob> {
   return (await reach(path)).blob();
 }
 
+/** Connection to the service: set while it answers. Listeners are told of changes. */
+export const connection = {
+  isUp: true,
+  changed: (_isUp: boolean): void => {},
+  set(isUp: boolean): void {
+    if (isUp === this.isUp) return;
+    this.isUp = isUp;
+    this.changed(isUp);
+  },
+};
+
+function unanswered(): Error {
+  connection.set(false);
+  return new Error("The service does not answer. Check that it runs, then try again.");
+}
+
 async function reach(path: string, request: RequestInit = {}): Promise<Response> {
   let answer: Response;
   try {
     answer = await fetch(address(path), request);
-  } catch {
-    throw new Error("The service does not answer. Check that it runs, then try again.");
+  } catch (error) {
+    throw request.signal?.aborted ? error : unanswered();
   }
+  connection.set(true);
   if (answer.ok) return answer;
   if (answer.status === 401) {
     await signIn();
     return reach(path, request);
   }
-  const problem = (await answer.json().catch(() => null)) as Problem | null;
-  throw problem ? new Refused(problem) : new Error(`The service answered with status ${answer.status}.`);
+  throw refusal(answer.status, (await answer.json().catch(() => null)) as Problem | null);
+}
+
+function refusal(status: number, problem: Problem | null): Error {
+  return problem ? new Refused(problem) : new Error(`The service answered with status ${status}.`);
+}
+
+/** Progress of an upload, and the signal that ends it. */
+export interface Upload {
+  progressed: (sent: number, total: number) => void;
+  signal: AbortSignal;
+}
+
+/** An upload that nobody watches. */
+const UNWATCHED: Upload = { progressed: () => {}, signal: new AbortController().signal };
+
+/** Posts a form. `fetch` does not say how much of it has been sent. Throws an `AbortError` if the upload was cancelled. */
+async function upload<T>(path: string, form: FormData, { progressed, signal }: Upload): Promise<T> {
+  const request = new XMLHttpRequest();
+  request.open("POST", address(path));
+  request.responseType = "json";
+  request.upload.onprogress = ({ loaded, total }) => progressed(loaded, total);
+  await new Promise<void>((done, failed) => {
+    request.onload = () => done();
+    request.onerror = () => failed(unanswered());
+    request.onabort = () => failed(signal.reason);
+    signal.addEventListener("abort", () => request.abort());
+    signal.throwIfAborted();
+    request.send(form);
+  });
+  connection.set(true);
+  if (request.status === 401) {
+    await signIn();
+    return upload(path, form, { progressed, signal });
+  }
+  if (400 <= request.status) throw refusal(request.status, request.response as Problem | null);
+  return request.response as T;
 }
 
 /** Fetches the next frame of relaxing charts, or returns why there is none. */
@@ -98,19 +150,20 @@ export async function maps(job: Job, after: string, signal: AbortSignal): Promis
 export const jobPath = (id: string) => `v1/jobs/${encodeURIComponent(id)}`;
 
 /** Submits a file with the files that it references as a job. */
-export function createJob(kind: string, options: Record<string, unknown>, { name, content, resources }: { name: string; content: Blob; resources: Map<string, Blob> }): Promise<Job> {
+export function createJob(kind: string, options: Record<string, unknown>, { name, content, resources }: { name: string; content: Blob; resources: Map<string, Blob> }, metadata: Record<string, unknown> = {}, sending: Upload = UNWATCHED): Promise<Job> {
   const form = new FormData();
   form.append("kind", kind);
   form.append("options", JSON.stringify(options));
+  if (Object.keys(metadata).length) form.append("metadata", JSON.stringify(metadata));
   form.append("mesh", content, name);
   if (["gltf", "obj"].includes(extension(name))) for (const [path, blob] of resources) form.append("resource", blob, path);
-  return call<Job>("v1/jobs", { method: "POST", body: form });
+  return upload<Job>("v1/jobs", form, sending);
 }
 
 /** Submits the input of another job with other options. */
 export function createJobFrom({ id }: Job, kind: string, options: Record<string, unknown>): Promise<Job> {
   const query = new URLSearchParams({ job: id, kind });
-  for (const [name, value] of Object.entries(options)) query.set(name, String(value));
+  for (const [name, value] of Object.entries(options)) query.set(name, typeof value === "string" ? value : JSON.stringify(value));
   return call<Job>(`v1/jobs?${query}`, { method: "POST" });
 }
 
@@ -139,6 +192,8 @@ export function watch(job: Job, heard: (event: Progress) => void): () => void {
       heard(event);
     };
     socket.onclose = () => {
+      // A request tells whether the service is gone, or the socket alone.
+      if (!isOver) void call("readyz").catch(() => {});
       if (!isOver) setTimeout(() => isOver || connect(), 1000);
     };
   };

@@ -1,33 +1,26 @@
 // The panel on the right: facts about the job, and actions on it.
 
 import { address, isFinal, type Job, type Progress } from "./api";
+import { batchOf } from "./batch";
 import { chosenOptions } from "./definitions";
 import { commandLine, copy, curl } from "./commands";
 import { curve } from "./charts_svg";
 import { button, byId, element, pairs, prose } from "./dom";
 import { bytes, duration, percent, plain, short, whole } from "./format";
-import { outcome } from "./job_list";
+import { doing, outcome } from "./outcome";
 import { claimed, claims, measure, measured, type Report } from "./reports";
 
 /** Actions on a job. */
 export interface Actions {
   cancel: () => void;
-  finish: () => void;
+  /** Resolves when the service has taken note. */
+  finish: () => Promise<void>;
+  /** Runs the job again with the same options and these. */
+  again: (more: Record<string, boolean>) => void;
   retry: () => void;
   remove: () => void;
   reuse: () => void;
   position: () => number | null;
-}
-
-const STAGES: Record<string, string> = {
-  read: "Reading the file", cut: "Finding seams", map: "Relaxing charts", deform: "Deforming", pack: "Packing the atlas",
-  bake: "Resampling textures", write: "Writing the result", judge: "Proving the result",
-};
-
-/** Describes the current work of a job. */
-export function doing({ stage, state }: Progress): string {
-  if (isFinal(state)) return "Fetching the result";
-  return STAGES[stage ?? ""] ?? "Starting";
 }
 
 /** Shows a job that waits or runs. */
@@ -37,26 +30,42 @@ export class ProgressPanel {
   readonly #stage = element("p", { className: "stage", aria: { role: "status" } });
   readonly #facts = element("div");
   readonly #finish: HTMLButtonElement;
+  readonly #note = element("p", { className: "hint", aria: { role: "status" } });
+  #isFinishing = false;
+  #latest: Progress;
   readonly #cancel: HTMLButtonElement;
   readonly #curve = element("div", { className: "energies", title: "Energy of the chart at hand, iteration by iteration" });
 
   constructor(readonly job: Job, readonly actions: Actions) {
-    this.#finish = button("Finish early", actions.finish, { title: "Take the current map, which is valid, as the result" });
+    this.#latest = job;
+    this.#finish = button("Finish early", () => void this.#finishEarly(), { title: "Take the current map, which is valid, as the result" });
     this.#cancel = button("Cancel", actions.cancel);
     byId("inspector").replaceChildren(
       element("section", { className: "progress-panel" }, this.#stage, this.#bar,
         // The buttons come before the parts that grow, so that they do not move.
-        element("div", { className: "actions" }, this.#finish, this.#cancel),
+        element("div", { className: "actions" }, this.#finish, this.#cancel), this.#note,
         this.#facts, this.#curve),
       ...noted(job));
     this.show(job);
   }
 
+  /** Asks for the end, and says so until it comes: the step under way is completed first. */
+  async #finishEarly(): Promise<void> {
+    this.#isFinishing = true;
+    this.show(this.#latest);
+    await this.actions.finish().catch(() => (this.#isFinishing = false));
+    this.show(this.#latest);
+  }
+
   show(event: Progress): void {
+    this.#latest = event;
     const position = this.actions.position();
     this.#stage.textContent = event.state === "queued" ? (position ? `Number ${position} in the queue` : "In the queue") : doing(event);
     this.#bar.value = event.fraction;
-    this.#finish.disabled = this.#cancel.disabled = isFinal(event.state);
+    this.#finish.textContent = this.#isFinishing ? "Finishing …" : "Finish early";
+    this.#finish.disabled = this.#isFinishing || isFinal(event.state);
+    this.#cancel.disabled = isFinal(event.state);
+    this.#note.textContent = this.#isFinishing && !isFinal(event.state) ? "The current map becomes the result as soon as the step under way is done." : "";
     const isMapping = event.stage === "map" || event.stage === "deform";
     if (isMapping && event.energy !== null) this.#energies.push(event.energy);
     this.#facts.replaceChildren(pairs([
@@ -76,12 +85,12 @@ export async function showEnded(job: Job, report: Report | null, actions: Action
   const options = await chosenOptions(job.kind, job.options).catch(() => ({}));
   const parts: (Node | null)[] = [verdict(job), gates(job), failure(job), report?.proven ? proofs(report) : null];
   if (report) parts.push(facts(report));
-  if (job.warnings.length) parts.push(section("Warnings", element("ul", { className: "warnings" }, ...job.warnings.map(({ message }) => element("li", {}, ...prose(message))))));
+  if (job.warnings.length) parts.push(section("Warnings", element("ul", { className: "warnings" }, ...job.warnings.map((warning) => warned(warning, actions)))));
   if (job.links.files.length) parts.push(section("Files", files(job)));
   parts.push(section("Job", about(job, options), element("div", { className: "actions" },
     job.state === "failed" ? button("Retry", actions.retry) : null,
     button("Use these options", actions.reuse, { title: "Put the options of this job into the form" }),
-    button("Delete", actions.remove, { className: "danger" })), copies(job, options)), ...noted(job));
+    button("Delete", actions.remove, { className: "danger" })), copies(job, options)), batchOf(job), ...noted(job));
   byId("inspector").replaceChildren(...parts.filter((part) => part !== null));
 }
 
@@ -100,6 +109,16 @@ function verdict(job: Job): HTMLElement {
     failed: "", cancelled: "Only the record is kept.", done: job.kind === "measure" ? "The UVs of the file as they are." : "",
   }[kind];
   return element("section", { className: `verdict ${kind}` }, element("h2", { textContent: text }), detail ? element("p", { textContent: detail }) : null);
+}
+
+/** Warnings with a remedy: the button, and the options with which the job is run again. */
+const REMEDIES: Record<string, { label: string; more: Record<string, boolean> }> = {
+  uvs_beside_set_0: { label: "Move the textures to the new UVs", more: { rebake: true } },
+};
+
+function warned({ code, message }: Job["warnings"][number], actions: Actions): HTMLElement {
+  const remedy = REMEDIES[code];
+  return element("li", {}, ...prose(message), remedy ? button(remedy.label, () => actions.again(remedy.more)) : null);
 }
 
 /** Shows the gates of a job and the outcome of judging it. */

@@ -1,10 +1,11 @@
 // The list of jobs, with pictures, states and positions in the queue.
 
-import { call, isFinal, type Job } from "./api";
-import { byId, element } from "./dom";
-import { ago, duration, plain } from "./format";
+import { address, call, connection, isFinal, type Job, type Progress } from "./api";
+import { button, byId, element } from "./dom";
+import { ago, duration, percent, plain } from "./format";
 import { fragmentOf, START } from "./address";
 import { JobFilters } from "./job_filters";
+import { doing, outcome } from "./outcome";
 import type { Store } from "./store";
 import { thumbnail } from "./thumbnails";
 
@@ -12,6 +13,9 @@ const PAGE = 20;
 /** Intervals at which the list is fetched: while a job may change, and otherwise. Shorter ones mean more requests. */
 const BUSY_MS = 1500;
 const IDLE_MS = 15000;
+
+/** Time for which a removed job can be brought back: the longest that Material Design shows a message with an action. */
+const UNDO_MS = 10_000;
 
 /** The list on the left. */
 export class JobList {
@@ -30,7 +34,12 @@ export class JobList {
     void this.refresh();
   });
 
-  constructor(readonly store: Store, readonly chosen: (id: string) => void) {
+  /** A job that is removed unless someone brings it back, and the timer of that. */
+  #removed: { job: Job; timer: number } | null = null;
+
+  /** `listed` receives the jobs of each answer. */
+  constructor(readonly store: Store, readonly chosen: (id: string) => void, readonly listed: (jobs: Job[]) => void) {
+    addEventListener("pagehide", () => this.#removeNow());
     byId("older").addEventListener("click", () => void this.#older());
     store.show(() => this.#current !== store.place.job && this.#show());
     document.addEventListener("visibilitychange", () => document.hidden || void this.refresh());
@@ -46,12 +55,13 @@ export class JobList {
       const older = this.#jobs.filter((job) => page.jobs.length === PAGE && !page.jobs.some(({ id }) => id === job.id) && job.created_at < page.jobs.at(-1)!.created_at);
       if (!older.length) this.#next = page.next;
       this.#jobs = [...page.jobs, ...older];
+      this.listed(this.#jobs);
       this.#queue = page.jobs.some(({ state }) => state === "queued") ? await queue() : [];
       this.#show();
     } catch {
       // Keep the list; the next request may succeed.
     }
-    const isBusy = this.#jobs.some(({ state }) => !isFinal(state));
+    const isBusy = !connection.isUp || this.#jobs.some(({ state }) => !isFinal(state));
     if (!document.hidden) this.#timer = setTimeout(() => void this.refresh(), isBusy ? BUSY_MS : IDLE_MS);
   }
 
@@ -72,6 +82,38 @@ export class JobList {
     this.#show();
   }
 
+  /** Shows what a job's events say, so that list and panel agree. */
+  heard(id: string, event: Progress): void {
+    this.#jobs = this.#jobs.map((job) => (job.id === id && job.seq < event.seq ? { ...job, ...event } : job));
+    this.#show();
+  }
+
+  /** Removes a job after a while in which it can be brought back. */
+  remove(job: Job): void {
+    this.#removeNow();
+    this.#removed = { job, timer: setTimeout(() => this.#removeNow(), UNDO_MS) };
+    const undo = button("Undo", () => {
+      clearTimeout(this.#removed?.timer);
+      this.#removed = null;
+      byId("removed").hidden = true;
+      this.#show();
+      this.chosen(job.id);
+    });
+    byId("removed").replaceChildren(element("span", { textContent: `${job.filename} is deleted, with its files.` }), undo);
+    byId("removed").hidden = false;
+    this.#show();
+  }
+
+  #removeNow(): void {
+    const { job, timer } = this.#removed ?? {};
+    if (!job) return;
+    clearTimeout(timer);
+    this.#removed = null;
+    byId("removed").hidden = true;
+    this.#jobs = this.#jobs.filter(({ id }) => id !== job.id);
+    void call(address(job.links.self), { method: "DELETE", keepalive: true }).catch(() => {}).then(() => this.refresh());
+  }
+
   async #older(): Promise<void> {
     const filterings = this.#filterings;
     const page = await this.#page(`&cursor=${this.#next}`);
@@ -89,13 +131,14 @@ export class JobList {
     this.#current = this.store.place.job;
     const list = byId("job-list");
     const shown = new Map([...list.children].map((row) => [(row as HTMLElement).dataset.id, row as HTMLElement]));
-    list.replaceChildren(...this.#jobs.map((job) => {
+    const shownJobs = this.#jobs.filter(({ id }) => id !== this.#removed?.job.id);
+    list.replaceChildren(...shownJobs.map((job) => {
       const old = shown.get(job.id);
       const key = JSON.stringify([job.state, Math.round(job.fraction * 100), this.position(job.id), this.#current === job.id, ago(job.created_at)]);
       return old?.dataset.key === key ? old : this.#row(job, key);
     }));
     const none = this.#filters.isAny ? "No job meets the filter." : "None yet. Press Unwrap to make one of the sample.";
-    if (!this.#jobs.length) list.replaceChildren(element("li", { className: "none", textContent: none }));
+    if (!shownJobs.length) list.replaceChildren(element("li", { className: "none", textContent: none }));
     byId("older").hidden = this.#next === null;
   }
 
@@ -119,17 +162,11 @@ export class JobList {
       const position = this.position(job.id);
       return `${kind}${position ? `number ${position} in the queue` : "queued"}`;
     }
-    if (job.state === "running") return `${kind}${job.stage ?? "running"} · ${Math.round(100 * job.fraction)} %`;
+    if (job.state === "running") return `${kind}${doing(job)} · ${percent(job.fraction)}`;
     const word = { certified: "certified", open: "not certified", failed: "failed", cancelled: "cancelled", done: "done" }[outcome(job)];
     const gates = job.accepted === false ? " · not accepted" : "";
     return `${kind}${word}${gates} · ${duration(job.elapsed_ms)} · ${ago(job.created_at)}`;
   }
-}
-
-/** Returns the outcome of a job as a word for style sheets. */
-export function outcome(job: Job): "certified" | "open" | "failed" | "cancelled" | "done" {
-  if (job.state === "failed" || job.state === "cancelled") return job.state;
-  return job.certified === null ? "done" : job.certified ? "certified" : "open";
 }
 
 /** Returns the waiting jobs in the order in which they start. */

@@ -1,10 +1,12 @@
 // One job on the page: watched while it runs, shown when it has ended.
 
-import { address, call, fileOf, isFinal, type Job, jobPath, type Progress, watch } from "./api";
+import { address, call, createJobFrom, fileOf, isFinal, type Job, jobPath, type Progress, watch } from "./api";
 import { byId, element } from "./dom";
 import type { Place } from "./address";
+import { chosenOptions } from "./definitions";
 import { percent } from "./format";
-import { doing, ProgressPanel, showEnded } from "./inspector";
+import { ProgressPanel, showEnded } from "./inspector";
+import { doing } from "./outcome";
 import { inputOf, type Shape, shapeOf } from "./kinds";
 import type { JobList } from "./job_list";
 import type { Report } from "./reports";
@@ -24,12 +26,16 @@ export interface Parts {
   /** Callbacks for the end of the job, and its removal. */
   ended: () => void;
   removed: () => void;
+  /** Callback for jobs that were made of the shown one. */
+  made: (jobs: { job: Job; input: Chosen | null }[]) => void;
 }
 
 /** Shows one job at a time. */
 export class JobView {
   readonly #parts: Parts;
   #stop: () => void = () => {};
+  /** Takes an event of the running job that is shown. */
+  #heard: (event: Progress) => void = () => {};
   /** Inputs that were uploaded from here. */
   readonly #inputs = new Map<string, Chosen>();
   /** Jobs submitted here, as the service first described them, until they are opened. */
@@ -45,6 +51,12 @@ export class JobView {
   remember(job: Job, input: Chosen | null): void {
     if (input) this.#inputs.set(job.id, input);
     this.#made.set(job.id, job);
+  }
+
+  /** Takes the state of the shown job from a list, in case its events do not come through. */
+  listed(jobs: Job[]): void {
+    const job = jobs.find(({ id }) => id === this.#parts.store.job?.id);
+    if (job) this.#heard(job);
   }
 
   /** The shown job with what is known of it, if it is this one. */
@@ -63,6 +75,7 @@ export class JobView {
   leave(): void {
     this.#stop();
     this.#stop = () => {};
+    this.#heard = () => {};
     showFallback(null);
   }
 
@@ -84,12 +97,16 @@ export class JobView {
     void this.#showInput(job);
     let isElsewhere = false;
     const stopCharts = watchCharts(job, viewer, () => (isElsewhere = true));
-    const stopEvents = watch(job, (event) => {
-      if (!this.#shown(job)) return;
+    let last = job.seq - 1;
+    this.#heard = (event) => {
+      if (!this.#shown(job) || event.seq <= last) return;
+      last = event.seq;
       panel.show(event);
+      this.#parts.list.heard(id, event);
       if (!viewer.isRelaxing) note(awaited(job, event, isElsewhere));
       if (isFinal(event.state)) void this.open(id).then(() => this.#parts.list.refresh()).catch(this.#parts.failed);
-    });
+    };
+    const stopEvents = watch(job, (event) => this.#heard(event));
     this.#stop = () => {
       stopCharts();
       stopEvents();
@@ -173,18 +190,31 @@ export class JobView {
   }
 
   #actions(job: Job) {
-    const { failed, list, setup, removed } = this.#parts;
+    const { failed, list, setup, removed, made } = this.#parts;
     const wish = (does: Promise<unknown>) => void does.then(() => list.refresh()).catch(failed);
-    const remove = () => call(address(job.links.self), { method: "DELETE" });
     return {
-      cancel: () => wish(remove()),
-      finish: () => wish(call(`${job.links.self}/finish`, { method: "POST" })),
+      cancel: () => wish(call(address(job.links.self), { method: "DELETE" })),
+      finish: async () => {
+        await call(`${job.links.self}/finish`, { method: "POST" }).catch((error: unknown) => {
+          failed(error);
+          throw error;
+        });
+      },
+      again: (more: Record<string, boolean>) => wish(againOf(job, more).then((next) => made([{ job: next, input: this.#shown(job)?.input ?? null }]))),
       retry: () => wish(call(`${job.links.self}/retry`, { method: "POST" }).then(() => this.open(job.id))),
-      remove: () => wish(remove().then(removed)),
+      remove: () => {
+        list.remove(job);
+        removed();
+      },
       reuse: () => void setup.take(job.kind, job.options).catch(failed),
       position: () => list.position(job.id),
     };
   }
+}
+
+/** Runs a job again with other options in addition to its own. */
+async function againOf(job: Job, more: Record<string, boolean>): Promise<Job> {
+  return createJobFrom(job, job.kind, { ...(await chosenOptions(job.kind, job.options)), ...more });
 }
 
 /** Returns the text to show until there are UVs. */

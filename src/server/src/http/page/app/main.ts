@@ -5,7 +5,7 @@ import type { Analysis } from "../analysis/analysis";
 import { analyzed } from "./analyst";
 import { ArrangeView } from "../arrange/arrange_view";
 import { arrangeKeys } from "../arrange/keys";
-import { address, call, download, fileOf, type Job } from "./api";
+import { address, call, connection, download, fileOf, type Job } from "./api";
 import { byId, element, pairs } from "./dom";
 import { takeDropped } from "./dropped";
 import { followStage } from "./follow_stage";
@@ -33,9 +33,9 @@ import { Viewer } from "./viewer";
 const store = new Store(readPlace());
 const viewer = new Viewer(store);
 const toolbar = new Toolbar(viewer, change, compare);
-const list = new JobList(store, (id) => void open(id));
+const list = new JobList(store, (id) => void open(id), (listed) => jobs.listed(listed));
 const setup = new Setup(store, { shown: (chosen) => void preview(chosen), made, failed });
-const jobs = new JobView({ store, viewer, list, setup, failed, ended: solved, removed: () => void open(null) });
+const jobs = new JobView({ store, viewer, list, setup, failed, ended: solved, removed: () => void open(null), made });
 const pull = new PullView(store, { failed, changed: refresh, baked: (job) => { void list.refresh(); void open(job.id, { ...elsewhere(store.place) }); } });
 const arrange = new ArrangeView(viewer, { failed, open: (job) => open(job, { ...store.place, face: null, chart: null, seam: null }), changed: refresh });
 /** Analysis of the input of the shown job, which the report compares with the result. */
@@ -222,6 +222,12 @@ function wire(): void {
   viewer.pointing.onSelect = change;
   viewer.changed = refresh;
   store.show(refresh);
+  connection.changed = (isUp) => {
+    byId("connection").hidden = isUp;
+    // What could not be asked then is no problem any more.
+    if (isUp) solved();
+    else void list.refresh();
+  };
   startTheme(() => viewer.apply());
   addEventListener("popstate", () => {
     const place = readPlace();

@@ -1,6 +1,6 @@
 // The form: files, three choices, one button; the rest behind "More".
 
-import { createJob, createJobFrom, type Job } from "./api";
+import { createJob, createJobFrom, type Job, type Upload } from "./api";
 import { chosenOptions, type FormKind, KINDS } from "./definitions";
 import { button, byId, element } from "./dom";
 import { bytes, counted } from "./format";
@@ -173,17 +173,35 @@ export class Setup {
     this.#send(true);
     try {
       if ("job" in target) made.push({ job: await createJobFrom(target.job, kind, values), input: target.input });
-      else for (const input of target.files) made.push({ job: await createJob(kind, values, input), input });
+      else await this.#upload(target.files, (input, metadata, sending) => createJob(kind, values, input, metadata, sending).then((job) => made.push({ job, input })));
     } catch (error) {
-      this.told.failed(error);
+      if (!(error instanceof DOMException && error.name === "AbortError")) this.told.failed(error);
     } finally {
       this.#send(false);
       if (made.length) this.told.made(made);
     }
   }
 
+  /** Uploads files one after the other, and shows how far it is. Jobs of several files have a batch in common. */
+  async #upload(files: Chosen[], each: (file: Chosen, metadata: Record<string, unknown>, sending: Upload) => Promise<unknown>): Promise<void> {
+    const abort = new AbortController();
+    const [bar, said] = [byId<HTMLProgressElement>("sent"), byId("sent-text")];
+    byId("cancel-sending").onclick = () => abort.abort();
+    const metadata = 1 < files.length ? { batch: `${new Date().toISOString().slice(0, 19)}Z` } : {};
+    for (const [k, file] of files.entries()) {
+      const ordinal = 1 < files.length ? `${k + 1} of ${files.length}: ` : "";
+      const progressed = (sent: number, total: number) => {
+        bar.value = total ? sent / total : 0;
+        said.textContent = `${ordinal}${bytes(sent)} of ${bytes(total)} sent`;
+      };
+      progressed(0, file.content.size);
+      await each(file, metadata, { progressed, signal: abort.signal });
+    }
+  }
+
   #send(isSending: boolean): void {
     this.#isSending = isSending;
+    byId("sending").hidden = !isSending || "job" in targetOf(this.store.state);
     this.#refreshTarget();
   }
 }

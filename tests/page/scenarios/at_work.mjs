@@ -1,0 +1,108 @@
+// Work that takes a while: uploads, finishing early, a lost connection, deleting, and several files.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { shown } from "../look.mjs";
+
+// A service that is gone tells in the console that it was asked for.
+export const hasErrors = true;
+
+const rows = (page) => page.locator("#job-list .row-link");
+const count = (page, n) => page.waitForFunction((n) => document.querySelectorAll("#job-list .row-link").length === n, n);
+
+export async function run(page, url, small, textured, before) {
+  await page.goto(url);
+  await shown(page, "spot.ply");
+  await uploaded(page);
+  await finished(page, url, before);
+  await reconnected(page);
+  await remedied(page, textured);
+  await restored(page);
+  await batched(page, [small, textured]);
+}
+
+/** An upload says how far it is, and one that is cancelled makes no job. */
+async function uploaded(page) {
+  const comments = Buffer.from(`v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n${"# as long as a scan\n".repeat(60_000)}`);
+  await page.setInputFiles("#files", { name: "long.obj", mimeType: "model/obj", buffer: comments });
+  await shown(page, "long.obj");
+  const jobs = await rows(page).count();
+  const network = await page.context().newCDPSession(page);
+  const speed = (bytes) => network.send("Network.emulateNetworkConditions", { offline: false, latency: 0, downloadThroughput: -1, uploadThroughput: bytes });
+  await network.send("Network.enable");
+  await speed(100_000);
+  await page.click("#submit");
+  await page.waitForFunction(() => ((sent) => 0 < sent && sent < 1)(document.querySelector("#sent").value));
+  assert.ok(await page.isVisible("#sent"));
+  assert.match(await page.textContent("#sent-text"), /^[\d.]+ [kM]B of 1\.2 MB sent$/);
+  assert.ok(await page.isDisabled("#submit"));
+  await page.click("#cancel-sending");
+  await page.waitForFunction(() => document.querySelector("#sending").hidden && !document.querySelector("#submit").disabled);
+  assert.ok(await page.isHidden("#problem"), "who cancels is not told that something failed");
+  await speed(-1);
+  assert.equal(await page.evaluate(() => fetch("v1/jobs").then((answer) => answer.json()).then(({ jobs }) => jobs.length)), jobs);
+}
+
+/** The wish to finish early is answered at once, and holds until the end. */
+async function finished(page, url, before) {
+  await page.click("#submit");
+  await count(page, 2);
+  const finish = page.locator(".progress-panel .actions button").first();
+  await finish.click();
+  assert.equal(await finish.textContent(), "Finishing …");
+  assert.ok(await finish.isDisabled());
+  assert.match(await page.textContent(".progress-panel .hint"), /current map becomes the result/);
+  await page.request.delete(new URL(before, url).href);
+  await page.waitForSelector(".verdict");
+}
+
+/** A lost connection is told, and ends by itself. */
+async function reconnected(page) {
+  await page.route(/\/v1\/jobs/, (route) => route.abort());
+  await page.click("#filters summary");
+  await page.selectOption("#filter-kind", "unwrap");
+  await page.waitForSelector("#connection:not([hidden])");
+  await page.unroute(/\/v1\/jobs/);
+  await page.waitForSelector("#connection", { state: "hidden" });
+  await page.selectOption("#filter-kind", "");
+  await page.click("#filters summary");
+}
+
+/** A warning that has a remedy has a button for it, which makes the job that the warning speaks of. */
+async function remedied(page, textured) {
+  await page.setInputFiles("#files", textured);
+  await shown(page, textured.split("/").pop());
+  await page.click("#submit");
+  await page.click("text=Move the textures to the new UVs");
+  await page.waitForFunction(() => window.unwrapd.store.job?.options.rebake === true);
+  await page.waitForSelector(".verdict");
+  assert.ok(!(await page.isVisible("text=Move the textures to the new UVs")));
+}
+
+/** A deleted job is there again if it is wanted. */
+async function restored(page) {
+  const n = await rows(page).count();
+  const id = await page.evaluate(() => window.unwrapd.store.place.job);
+  await page.click("#inspector >> text=Delete");
+  await count(page, n - 1);
+  await page.click("#removed >> text=Undo");
+  await count(page, n);
+  await page.waitForSelector(".verdict");
+  assert.equal(await page.evaluate(() => window.unwrapd.store.place.job), id);
+  assert.equal(await page.evaluate((id) => fetch(`v1/jobs/${id}`).then(({ status }) => status), id), 200);
+}
+
+/** Jobs of several files have totals and one archive. */
+async function batched(page, files) {
+  const n = await rows(page).count();
+  await page.setInputFiles("#files", files);
+  await page.click("#submit");
+  await count(page, n + files.length);
+  for (let k = 0; k < files.length; k++) await page.waitForSelector(`#job-list .facts.certified >> nth=${k}`);
+  await rows(page).first().click();
+  await page.waitForSelector(".batch button:not(:disabled)");
+  assert.match(await page.textContent(".batch"), new RegExp(`Jobs${files.length}Certified${files.length}`));
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click(".batch button")]);
+  assert.match(download.suggestedFilename(), /\.zip$/);
+  const zip = readFileSync(await download.path());
+  assert.equal(zip.readUInt16LE(zip.length - 12), files.length, "entries of the archive");
+}
