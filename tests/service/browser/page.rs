@@ -166,6 +166,13 @@ async fn work_that_takes_a_while_is_seen_and_can_be_undone() {
 }
 
 #[tokio::test]
+async fn before_and_after_are_seen_side_by_side() {
+    let server = Server::start();
+    let url = unwrapped(&server, "gltf/Fox.glb").await;
+    scenario("beside", url, &[]).await;
+}
+
+#[tokio::test]
 async fn the_surface_hides_seams_behind_it() {
     let server = Server::start();
     let url = unwrapped(&server, "spot.ply").await;

@@ -21,8 +21,8 @@ export interface Place {
   cells: number;
   /** A UV set other than the one that is shown first. */
   set: number | null;
-  /** The UVs of a job that are shown: those that it made, or those that its input had. */
-  uvs: "after" | "before";
+  /** The UVs of a job that are shown: those that it made, those that its input had, or both side by side. */
+  uvs: "after" | "before" | "both";
   /** The name of an atlas. */
   atlas: string | null;
   aim: Aim;

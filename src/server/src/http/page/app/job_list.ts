@@ -84,6 +84,8 @@ export class JobList {
 
   /** Shows what a job's events say, so that list and panel agree. */
   heard(id: string, event: Progress): void {
+    // Events do not say what was proven: an ended job is asked for.
+    if (isFinal(event.state)) return;
     this.#jobs = this.#jobs.map((job) => (job.id === id && job.seq < event.seq ? { ...job, ...event } : job));
     this.#show();
   }
@@ -134,7 +136,7 @@ export class JobList {
     const shownJobs = this.#jobs.filter(({ id }) => id !== this.#removed?.job.id);
     list.replaceChildren(...shownJobs.map((job) => {
       const old = shown.get(job.id);
-      const key = JSON.stringify([job.state, Math.round(job.fraction * 100), this.position(job.id), this.#current === job.id, ago(job.created_at)]);
+      const key = JSON.stringify([outcome(job), job.state, job.stage, Math.round(job.fraction * 100), this.position(job.id), this.#current === job.id, ago(job.created_at)]);
       return old?.dataset.key === key ? old : this.#row(job, key);
     }));
     const none = this.#filters.isAny ? "No job meets the filter." : "None yet. Press Unwrap to make one of the sample.";

@@ -156,13 +156,15 @@ export class JobView {
   /** Shows the UVs that the job made, or those that its input had. */
   async #showUvs(job: Job): Promise<void> {
     const { store, viewer } = this.#parts;
-    const source = store.place.uvs === "before" ? this.before() : null;
-    if (source) {
+    const source = store.place.uvs === "after" ? null : this.before();
+    if (store.place.uvs !== "both") await viewer.showBeside(null);
+    if (source && store.place.uvs === "before") {
       if (await viewer.show(source)) note(viewer.analysis?.atlases.some(({ isMapped }) => isMapped) ? "" : "The input has no UVs.");
       return;
     }
     const subject = this.#shown(job);
     if (subject) await this.#showShape(job, await shapeOf(job, subject.report, subject.input));
+    if (source && this.#shown(job)) await viewer.showBeside(source);
   }
 
   async #showShape(job: Job, shape: Shape): Promise<void> {

@@ -75,7 +75,7 @@ function refresh(): void {
 /** Returns whether the views show the result of the job, not its input or another UV set. */
 function isResult(): boolean {
   const { facts } = viewer;
-  return store.place.uvs === "after" && facts?.set === facts?.first;
+  return store.place.uvs !== "before" && facts?.set === facts?.first;
 }
 
 /** Returns the file that is shown, to be pulled: the result of a job, or a chosen file. */
@@ -205,9 +205,9 @@ function visit(face: number): void {
   viewer.flyTo(face);
 }
 
-/** Toggles between the UVs of the input and the result. */
-function compare(): void {
-  if (jobs.before()) change({ uvs: store.place.uvs === "after" ? "before" : "after" });
+/** Shows the UVs of the input, alone or beside the result, or the result alone again. */
+function compare(uvs: "before" | "both"): void {
+  if (jobs.before()) change({ uvs: store.place.uvs === uvs ? "after" : uvs });
 }
 
 // ---- keys and events

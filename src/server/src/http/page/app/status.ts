@@ -86,9 +86,11 @@ function scale(viewer: Viewer): HTMLElement {
   const isDensity = measure === "density";
   const end = (x: number) => (isDensity ? short(x) : `${Math.round(1000 * x) / 10} %`);
   const of = (x: number) => (isDensity ? short(x) : percent(stretchOf(measure, x)));
+  const before = viewer.analysisBeside?.atlases[0]?.spreads[MEASURES.indexOf(measure)];
+  const beside = before ? ` · before: mean ${of(before.mean)} · max ${of(before.greatest)}` : "";
   return element("span", { className: "scale" },
     element("span", { className: "ends", textContent: end(from) }), bar, element("span", { className: "ends", textContent: `${end(to)}${isDensity ? " px/unit" : ""}` }),
-    element("span", { className: "numbers", title: HEATS[measure].help, textContent: `min ${of(spread.least)} · mean ${of(spread.mean)} · max ${of(spread.greatest)}` }));
+    element("span", { className: "numbers", title: HEATS[measure].help, textContent: `min ${of(spread.least)} · mean ${of(spread.mean)} · max ${of(spread.greatest)}${beside}` }));
 }
 
 /** Creates the switch between the scale of all results and one that is fitted to the shown one. */

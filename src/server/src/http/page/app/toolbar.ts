@@ -17,22 +17,24 @@ export class Toolbar {
   readonly #viewer: Viewer;
   readonly #changed: (changes: Partial<Place>) => void;
   readonly #before: HTMLButtonElement;
+  readonly #both: HTMLButtonElement;
   readonly #atlas = element("select", { id: "atlas", aria: { label: "Atlas" } });
   readonly #set = element("select", { id: "set", title: "UV set of the file (T)", aria: { label: "UV set" } });
   readonly #image = element("input", { type: "file", accept: "image/*", hidden: true, aria: { label: "Image for the faces" } });
 
-  constructor(viewer: Viewer, changed: (changes: Partial<Place>) => void, compare: () => void) {
+  constructor(viewer: Viewer, changed: (changes: Partial<Place>) => void, compare: (uvs: "before" | "both") => void) {
     this.#viewer = viewer;
     this.#changed = changed;
     this.#atlas.addEventListener("change", () => changed({ atlas: this.#atlas.value, face: null, chart: null, seam: null, plane: null }));
     this.#set.addEventListener("change", () => changed(otherSet(viewer, Number(this.#set.value))));
     this.#image.addEventListener("change", () => void this.#useImage());
-    this.#before = button("Before", compare, { title: "The UVs that the input had (B)", aria: { pressed: "false" } });
+    this.#before = button("Before", () => compare("before"), { title: "The UVs that the input had (B)", aria: { pressed: "false" } });
+    this.#both = button("Side by side", () => compare("both"), { title: "The UVs of the result above those of the input, with one camera and one scale (D)", aria: { pressed: "false" } });
     byId("toolbar").append(
       group("Fill", ...SHADES.map((shade) => this.#choice("shade", shade, SHADE_NAMES[shade]))),
       group("Show", ...(Object.keys(SWITCHES) as Switch[]).map((name) => this.#toggle(name))),
       group("Point at", ...(Object.keys(AIMS) as Aim[]).map((aim) => this.#choice("aim", aim, AIMS[aim]))),
-      button("Frame", () => viewer.frame(), { title: "Show everything (F)" }), this.#before, this.#set, this.#atlas, this.#image,
+      button("Frame", () => viewer.frame(), { title: "Show everything (F)" }), this.#before, this.#both, this.#set, this.#atlas, this.#image,
     );
   }
 
@@ -63,7 +65,8 @@ export class Toolbar {
       tool.setAttribute("aria-pressed", String(shade === place.shade || aim === place.aim || (name !== undefined && place[name as Switch])));
     }
     this.#before.setAttribute("aria-pressed", String(place.uvs === "before"));
-    this.#before.disabled = !hasBefore;
+    this.#both.setAttribute("aria-pressed", String(place.uvs === "both"));
+    this.#before.disabled = this.#both.disabled = !hasBefore;
     const atlases = analysis?.atlases ?? [];
     this.#atlas.replaceChildren(...atlases.map(({ name, label, charts, isMapped }) => element("option", { value: name, textContent: `${label} · ${isMapped ? counted(charts, "chart") : "no UVs"}` })));
     this.#atlas.value = atlases[this.#viewer.atlas]?.name ?? "";

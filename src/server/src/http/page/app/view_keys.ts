@@ -15,7 +15,7 @@ export interface Page {
   setup: Setup;
   arrange: ArrangeView;
   change: (changes: Partial<Place>) => void;
-  compare: () => void;
+  compare: (uvs: "before" | "both") => void;
 }
 
 const cycle = <T>(all: readonly T[], at: T, step = 1) => all[(all.indexOf(at) + step + all.length) % all.length]!;
@@ -39,7 +39,8 @@ export function viewKeys(page: Page): Key[] {
     { key: "Escape", does: "Select nothing", act: () => viewer.pointing.select(null) },
     { key: "f", does: "Show everything", act: () => viewer.frame() },
     { key: "v", does: "Fly to the selected face", act: () => viewer.place.face !== null && viewer.flyTo(viewer.place.face) },
-    { key: "b", does: "Before and after", act: page.compare },
+    { key: "b", does: "Before and after", act: () => page.compare("before") },
+    { key: "d", does: "Before and after, side by side", act: () => page.compare("both") },
     { key: "t", does: "Next UV set of the file", act: () => { const sets = viewer.facts?.sets ?? []; if (1 < sets.length) page.change(otherSet(viewer, cycle(sets, viewer.facts!.set))); } },
     { key: " ", does: "Turn, or stop", act: () => { viewer.stage?.solid.turn(!viewer.stage.solid.isTurning); viewer.stage?.redraw(); } },
     { key: "r", does: "View and report", act: () => page.change({ tab: viewer.place.tab === "view" ? "report" : "view" }) },

@@ -6,12 +6,12 @@ import { MEASURES } from "../analysis/distortion";
 import { rangeOf } from "../analysis/statistics";
 import { imageOf } from "../viewer/image";
 import { load, type Loaded } from "../viewer/loading";
-import { SHADES } from "../viewer/look";
+import { SHADES, type Uniforms, uniformsBeside } from "../viewer/look";
 import { Model } from "../viewer/model";
 import type { Relaxing } from "../viewer/relaxing";
 import { pagesOf, Sheet } from "../viewer/sheet";
 import { originsOf, soupOf } from "../viewer/soups";
-import { Stage } from "../viewer/stage";
+import { type Places, Stage } from "../viewer/stage";
 import { color } from "../viewer/theme_color";
 import type { View } from "../viewer/surface";
 import type { Place } from "./address";
@@ -31,6 +31,9 @@ export class Viewer {
   /** Facts about the shown file. */
   facts: Facts | null = null;
   readonly #sheet = new Sheet();
+  /** Another file beside, and its background. */
+  #beside: { model: Model; uniforms: Uniforms } | null = null;
+  readonly #sheetBeside = new Sheet();
   /** Number of requests to show a file, by which late answers are recognized and dropped. */
   #shown = 0;
   /** The model that the cameras look at. */
@@ -41,7 +44,8 @@ export class Viewer {
   changed: () => void = () => {};
 
   constructor(readonly store: Store) {
-    const places = { canvas: byId<HTMLCanvasElement>("canvas"), solid: byId("solid"), plane: byId("plane") };
+    const beside = { solid: byId("solid-beside"), plane: byId("plane-beside") };
+    const places = { canvas: byId<HTMLCanvasElement>("canvas"), solid: byId("solid"), plane: byId("plane"), beside };
     this.stage = stageOn(places);
     this.pointing = new Pointing(this, places);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.apply());
@@ -74,10 +78,34 @@ export class Viewer {
     if (this.facts) await this.show(this.facts.source);
   }
 
+  /** Shows another file beside, with the same looks and cameras, or none. */
+  async showBeside(source: Source | null): Promise<void> {
+    const { stage } = this;
+    if (!source && !this.#beside) return;
+    const mine = this.#shown;
+    const loaded = source && stage ? await load(source) : null;
+    const uvs = source && loaded ? uvsOf(source, loaded, null) : null;
+    const soup = loaded && uvs ? soupOf(loaded, uvs) : null;
+    const analysis = soup && (await analyzed(soup));
+    if (!stage || mine !== this.#shown) return;
+    this.#beside?.model.dispose();
+    this.#beside = null;
+    if (loaded && uvs && soup && analysis) {
+      const uniforms = uniformsBeside(stage.uniforms);
+      this.#beside = { uniforms, model: new Model(loaded, analysis, { set: uvs.set, aspect: soup.texture.width / soup.texture.height }, uniforms) };
+    }
+    byId("panes").classList.toggle("both", this.#beside !== null);
+    stage.resize();
+    this.apply();
+    if (!stage.plane.isMoved) this.#framePlane();
+    this.changed();
+  }
+
   /** Shows nothing. */
   clear(): void {
     this.#shown += 1;
     this.calm();
+    void this.showBeside(null);
     this.model?.dispose();
     this.model = this.analysis = this.facts = null;
     this.stage?.solid.show([], null);
@@ -173,6 +201,11 @@ export class Viewer {
     this.changed();
   }
 
+  /** Analysis of the file beside, if there is one. */
+  get analysisBeside(): Analysis | null {
+    return this.#beside?.model.analysis ?? null;
+  }
+
   /** Index of the atlas that the plane shows. */
   get atlas(): number {
     const found = this.analysis?.atlases.findIndex(({ name }) => name === this.place.atlas) ?? -1;
@@ -215,21 +248,24 @@ export class Viewer {
     uniforms.uRange.value.set(...this.range());
     if (this.#image) uniforms.uImage.value = this.#image;
     this.pointing.apply();
-    this.#arrange(stage, model, place);
+    const main = contents(stage, model, { place, atlas: this.atlas, sheet: this.#sheet });
+    stage.solid.show(main.solid, model.sphere);
+    stage.plane.show(this.#relaxing?.meshes ?? main.plane);
+    this.#applyBeside(stage);
     stage.redraw();
   }
 
-  /** Distributes the contents over the views. */
-  #arrange(stage: Stage, model: Model, place: Readonly<Place>): void {
-    const { solid, plane } = model.surface.layers;
-    const isOwn = place.shade === "material" && !(place.only && place.chart !== null);
-    const own = isOwn ? [model.loaded.scene, ...stage.light(), solid.overlay] : [solid.surface];
-    stage.solid.show([...own, solid.borders], model.sphere);
-    const atlas = model.analysis.atlases[this.atlas];
-    const pages = atlas ? pagesOf(atlas.bounds) : 1;
-    const picture = isOwn ? model.picture() : null;
-    const sheet = this.#sheet.of(pages, model.aspect, { paper: color("--sheet"), line: color("--sheet-line"), border: color("--sheet-border") }, picture);
-    stage.plane.show(this.#relaxing?.meshes ?? [...sheet, picture ? plane.overlay : plane.surface, plane.borders]);
+  /** Applies the state to the file beside. */
+  #applyBeside(stage: Stage): void {
+    const { place } = this;
+    for (const scene of Object.values(stage.beside)) scene.clear();
+    if (!this.#beside) return;
+    const { model, uniforms } = this.#beside;
+    uniforms.uAspect.value = model.aspect;
+    uniforms.uChecker.value.set(place.cells, place.cells / model.aspect);
+    const { solid, plane } = contents(stage, model, { place, atlas: 0, sheet: this.#sheetBeside });
+    stage.beside.solid.add(...solid);
+    stage.beside.plane.add(...plane);
   }
 
   /** Returns the ends of the heat map's scale: shares of stretch, or texels per unit of length. */
@@ -266,7 +302,20 @@ export class Viewer {
   }
 }
 
-function stageOn(places: { canvas: HTMLCanvasElement; solid: HTMLElement; plane: HTMLElement }): Stage | null {
+/** Returns what a model shows in both views. */
+function contents(stage: Stage, model: Model, { place, atlas, sheet }: { place: Readonly<Place>; atlas: number; sheet: Sheet }) {
+  const { solid, plane } = model.surface.layers;
+  const isOwn = place.shade === "material" && !(place.only && place.chart !== null);
+  const shown = model.analysis.atlases[atlas];
+  const picture = isOwn ? model.picture() : null;
+  const colors = { paper: color("--sheet"), line: color("--sheet-line"), border: color("--sheet-border") };
+  return {
+    solid: [...(isOwn ? [model.loaded.scene, ...stage.light(), solid.overlay] : [solid.surface]), solid.borders],
+    plane: [...sheet.of(shown ? pagesOf(shown.bounds) : 1, model.aspect, colors, picture), picture ? plane.overlay : plane.surface, plane.borders],
+  };
+}
+
+function stageOn(places: Places): Stage | null {
   try {
     return new Stage(places);
   } catch {

@@ -54,8 +54,8 @@ export class PullScene {
 
   constructor(canvas: HTMLCanvasElement, readonly places: { plane: HTMLElement; solid: HTMLElement }) {
     this.#renderer = new WebGLRenderer({ canvas, antialias: true });
-    this.#plane = new PlanePane(places.plane, () => this.redraw());
-    this.#solid = new SolidPane(places.solid, () => this.redraw());
+    this.#plane = new PlanePane([places.plane], () => this.redraw());
+    this.#solid = new SolidPane([places.solid], () => this.redraw());
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement!);
   }
 

@@ -38,4 +38,10 @@ export function uniforms() {
   };
 }
 
+/** Returns uniforms for another file with the same looks, in which nothing is pointed at or selected. */
+export function uniformsBeside(shared: Uniforms): Uniforms {
+  const { uValues, uIds, uAtlas, uAspect, uChecker, uHover, uSelected, uOnly, uArranging } = uniforms();
+  return { ...shared, uValues, uIds, uAtlas, uAspect, uChecker, uHover, uSelected, uOnly, uArranging };
+}
+
 export type Uniforms = ReturnType<typeof uniforms>;

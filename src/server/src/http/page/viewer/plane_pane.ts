@@ -18,18 +18,30 @@ export class PlanePane {
   isMoved = false;
   readonly #fingers = new Map<number, [number, number]>();
 
-  constructor(readonly element: HTMLElement, changed: () => void) {
+  readonly #panes: HTMLElement[];
+
+  /** Moves the view by the pointer in several panes of the same size. */
+  constructor(panes: HTMLElement[], changed: () => void) {
+    this.#panes = panes;
     this.#changed = changed;
-    element.style.touchAction = "none";
-    element.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
-    element.addEventListener("contextmenu", (event) => event.preventDefault());
-    element.addEventListener("pointerdown", (event) => {
-      element.setPointerCapture(event.pointerId);
+    for (const pane of panes) this.#listen(pane);
+  }
+
+  get element(): HTMLElement {
+    return this.#panes[0]!;
+  }
+
+  #listen(pane: HTMLElement): void {
+    pane.style.touchAction = "none";
+    pane.addEventListener("wheel", (event) => this.#wheel(event, pane), { passive: false });
+    pane.addEventListener("contextmenu", (event) => event.preventDefault());
+    pane.addEventListener("pointerdown", (event) => {
+      pane.setPointerCapture(event.pointerId);
       this.#fingers.set(event.pointerId, [event.clientX, event.clientY]);
     });
-    element.addEventListener("pointermove", (event) => this.#drag(event));
+    pane.addEventListener("pointermove", (event) => this.#drag(event, pane));
     for (const end of ["pointerup", "pointercancel"] as const) {
-      element.addEventListener(end, (event) => this.#fingers.delete(event.pointerId));
+      pane.addEventListener(end, (event) => this.#fingers.delete(event.pointerId));
     }
   }
 
@@ -94,21 +106,21 @@ export class PlanePane {
     return (2 * this.#half) / Math.min(...this.#size);
   }
 
-  #wheel(event: WheelEvent): void {
+  #wheel(event: WheelEvent, pane: HTMLElement): void {
     event.preventDefault();
-    this.#zoom(Math.exp(event.deltaY * ZOOM_STEP * (event.deltaMode ? 24 : 1)), event.clientX, event.clientY);
+    this.#zoom(Math.exp(event.deltaY * ZOOM_STEP * (event.deltaMode ? 24 : 1)), [event.clientX, event.clientY], pane);
   }
 
   /** Zooms around the position of the pointer. */
-  #zoom(factor: number, x: number, y: number): void {
-    const box = this.element.getBoundingClientRect();
+  #zoom(factor: number, [x, y]: [number, number], pane: HTMLElement): void {
+    const box = pane.getBoundingClientRect();
     const [dx, dy] = [x - box.left - box.width / 2, y - box.top - box.height / 2];
     const half = Math.min(Math.max(this.#half * factor, 1e-4), 20);
     const change = this.#unit * (1 - half / this.#half);
     this.place = [this.#middle[0]! + dx * change, this.#middle[1]! - dy * change, half];
   }
 
-  #drag(event: PointerEvent): void {
+  #drag(event: PointerEvent, pane: HTMLElement): void {
     const last = this.#fingers.get(event.pointerId);
     if (!last) return;
     const others = [...this.#fingers].filter(([id]) => id !== event.pointerId).map(([, at]) => at);
@@ -120,6 +132,6 @@ export class PlanePane {
     if (!other) return;
     const before = Math.hypot(last[0] - other[0], last[1] - other[1]);
     const after = Math.hypot(event.clientX - other[0], event.clientY - other[1]);
-    if (0 < before && 0 < after) this.#zoom(before / after, (event.clientX + other[0]) / 2, (event.clientY + other[1]) / 2);
+    if (0 < before && 0 < after) this.#zoom(before / after, [(event.clientX + other[0]) / 2, (event.clientY + other[1]) / 2], pane);
   }
 }

@@ -21,15 +21,24 @@ export class SolidPane {
   /** Set if a person has moved the camera since everything was fitted into the view. */
   isMoved = false;
 
-  constructor(readonly element: HTMLElement, changed: () => void) {
-    this.#controls = new OrbitControls(this.camera, element);
-    this.#controls.zoomToCursor = true;
+  /** Moves the camera by the pointer in several panes of the same size. */
+  constructor(panes: HTMLElement[], changed: () => void) {
+    const all = panes.map((pane) => new OrbitControls(this.camera, pane));
+    this.#controls = all[0]!;
     this.#controls.autoRotateSpeed = SPEED;
-    this.#controls.addEventListener("change", changed);
-    this.#controls.addEventListener("start", () => {
-      this.turn(false);
-      this.isMoved = true;
-    });
+    for (const controls of all) {
+      controls.zoomToCursor = true;
+      controls.addEventListener("change", () => {
+        // All look at the same place.
+        for (const other of all) other.target.copy(controls.target);
+        changed();
+      });
+      controls.addEventListener("start", () => {
+        this.turn(false);
+        this.isMoved = true;
+        controls.target.copy(this.#controls.target);
+      });
+    }
   }
 
   /** Shows these objects and nothing else. */

@@ -1,6 +1,6 @@
 // Both views on one canvas, with one set of buffers; drawn only when something changed.
 
-import { type Camera, Color, DirectionalLight, HemisphereLight, type Material, type Mesh, PMREMGenerator, type Scene, Vector3, WebGLRenderer, type WebGLRenderTarget } from "three";
+import { type Camera, Color, DirectionalLight, HemisphereLight, type Material, type Mesh, PMREMGenerator, Scene, Vector3, WebGLRenderer, type WebGLRenderTarget } from "three";
 import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
 import { type Uniforms, uniforms } from "./look";
 import type { Model } from "./model";
@@ -22,6 +22,8 @@ export interface Places {
   canvas: HTMLCanvasElement;
   solid: HTMLElement;
   plane: HTMLElement;
+  /** The panes of another file, which is seen beside with the same cameras. */
+  beside: Record<View, HTMLElement>;
 }
 
 /** Draws both views. Its constructor throws without WebGL. */
@@ -30,6 +32,8 @@ export class Stage {
   readonly solid: SolidPane;
   readonly plane: PlanePane;
   readonly renderer: WebGLRenderer;
+  /** Contents of the panes beside. */
+  readonly beside = { solid: new Scene(), plane: new Scene() };
   readonly #picker = new Picker();
   readonly #places: Places;
   #isAsked = false;
@@ -44,28 +48,26 @@ export class Stage {
     this.renderer = new WebGLRenderer({ canvas: places.canvas, antialias: true, alpha: false, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
-    this.solid = new SolidPane(places.solid, () => this.redraw());
-    this.plane = new PlanePane(places.plane, () => this.redraw());
-    const key = new DirectionalLight(0xffffff, 1.2);
-    key.position.set(1, 2, 3);
-    this.#lights = [new HemisphereLight(0xffffff, 0x8a8f98, 0.8), key];
+    this.solid = new SolidPane([places.solid, places.beside.solid], () => this.redraw());
+    this.plane = new PlanePane([places.plane, places.beside.plane], () => this.redraw());
     new ResizeObserver(() => this.resize()).observe(places.canvas.parentElement!);
     this.resize();
   }
 
-  readonly #lights;
   #surroundings: WebGLRenderTarget | null = null;
 
-  /** Returns lights for the materials of documents, and surrounds them with a neutral room, which metals reflect. */
+  /** Returns new lights for the materials of documents, and surrounds them with a neutral room, which metals reflect. */
   light() {
     if (!this.#surroundings) {
       const [generator, room] = [new PMREMGenerator(this.renderer), new RoomEnvironment()];
       this.#surroundings = generator.fromScene(room, 0.04);
-      this.solid.scene.environment = this.#surroundings.texture;
+      this.solid.scene.environment = this.beside.solid.environment = this.#surroundings.texture;
       room.dispose();
       generator.dispose();
     }
-    return this.#lights;
+    const key = new DirectionalLight(0xffffff, 1.2);
+    key.position.set(1, 2, 3);
+    return [new HemisphereLight(0xffffff, 0x8a8f98, 0.8), key];
   }
 
   /** Draws the surroundings again, after the graphics device was lost. */
@@ -103,13 +105,16 @@ export class Stage {
     this.onFrame();
     this.renderer.info.reset();
     this.renderer.setScissorTest(true);
-    for (const view of ["solid", "plane"] as const) this.#draw(view, this[view].scene, this[view].camera);
+    for (const view of ["solid", "plane"] as const) {
+      this.#draw(this.#places[view], this[view].scene, this[view].camera);
+      this.#draw(this.#places.beside[view], this.beside[view], this[view].camera);
+    }
     this.figures.milliseconds = performance.now() - begin;
     this.figures.frames += 1;
   }
 
-  #draw(view: View, scene: Scene, camera: Camera): void {
-    const { left, bottom, width, height } = this.#box(view);
+  #draw(pane: HTMLElement, scene: Scene, camera: Camera): void {
+    const { left, bottom, width, height } = this.#box(pane);
     if (width < 1 || height < 1) return;
     this.uniforms.uViewport.value.set(width * this.renderer.getPixelRatio(), height * this.renderer.getPixelRatio());
     this.uniforms.uPixelRatio.value = this.renderer.getPixelRatio();
@@ -120,10 +125,10 @@ export class Stage {
     this.renderer.render(scene, camera);
   }
 
-  /** Returns the rectangle of a view on the canvas, from below. */
-  #box(view: View) {
+  /** Returns the rectangle of a pane on the canvas, from below. */
+  #box(pane: HTMLElement) {
     const canvas = this.#places.canvas.getBoundingClientRect();
-    const box = this.#places[view].getBoundingClientRect();
+    const box = pane.getBoundingClientRect();
     return { left: box.left - canvas.left, bottom: canvas.bottom - box.bottom, width: box.width, height: box.height };
   }
 
