@@ -47,6 +47,15 @@ export async function run(page, url, mesh, other) {
   await page.click("#more summary");
   await page.waitForSelector("#option-padding");
   await page.fill("#option-padding", "3");
+  // The jobs are in reach beside all options; the rare ones are found by a search.
+  assert.ok((await page.locator("#jobs-title").boundingBox()).y < 780);
+  assert.ok(await page.isHidden("#option-barrier_support"));
+  await page.fill("#find-option", "inverse-spline");
+  assert.ok(await page.isVisible("#option-barrier_support"));
+  assert.ok(await page.isHidden("#option-padding"));
+  await page.fill("#find-option", "no option has this");
+  assert.ok(await page.isVisible("text=No option has these words"));
+  await page.fill("#find-option", "");
   const spread = await page.evaluate(() => {
     const side = document.querySelector("#side");
     const right = side.getBoundingClientRect().right;

@@ -1,8 +1,9 @@
-// The options behind "More": one field each, with the help of the definitions.
+// The options behind "More": one field each, in groups, with the help of the definitions.
 
 import { type Definition, definitions } from "./definitions";
 import { element, prose } from "./dom";
 import { plain } from "./format";
+import { GROUP_NAMES, groupOf, REST } from "./option_groups";
 
 /** Values that differ from the defaults. */
 export type Values = Record<string, string | number | boolean>;
@@ -17,6 +18,9 @@ export function withOption(values: Values, name: string, value: Values[string] |
 export class OptionForm {
   #kind = "";
   #values: Values = {};
+  /** The words that are sought. */
+  #sought = "";
+  readonly #none = element("p", { className: "help", hidden: true, aria: { role: "status" }, textContent: "No option has these words." });
   #fields = new Map<string, HTMLInputElement | HTMLSelectElement>();
 
   constructor(readonly holder: HTMLElement, readonly changed: (values: Values) => void) {}
@@ -33,7 +37,10 @@ export class OptionForm {
     });
     if (kind !== this.#kind) return;
     this.#fields.clear();
-    this.holder.replaceChildren(...all.filter(({ name }) => !elsewhere.includes(name)).map((one) => this.#row(one)));
+    const rows = all.filter(({ name }) => !elsewhere.includes(name)).map((one) => ({ ...groupOf(one.name), row: this.#row(one) }));
+    const groups = GROUP_NAMES.map((name) => ({ name, own: rows.filter(({ group }) => group === name).map(({ row }) => row) }));
+    this.holder.replaceChildren(...groups.filter(({ own }) => own.length).map(({ name, own }, k) =>
+      element("details", { className: "group", open: k === 0, data: { group: name } }, element("summary", { textContent: name }), ...own)), this.#none);
     this.#refresh();
     const known = new Set(all.map(({ name }) => name));
     const own = Object.entries(this.#values).filter(([name]) => known.has(name));
@@ -47,13 +54,30 @@ export class OptionForm {
       if (field instanceof HTMLInputElement && field.type === "checkbox") field.checked = value === true;
       else if (document.activeElement !== field) field.value = value === undefined ? "" : String(value);
     }
+    this.filter(this.#sought);
   }
 
-  /** Shows only the options whose name or help contains these words. */
+  /** Shows only the options whose names or help contain these words. Without words, options of the last group are shown if
+   * they are set. */
   filter(words: string): void {
-    for (const row of this.holder.children) {
-      (row as HTMLElement).hidden = !row.textContent!.toLowerCase().includes(words.trim().toLowerCase());
+    const sought = words.trim().toLowerCase();
+    const isNew = sought !== this.#sought;
+    this.#sought = sought;
+    let found = 0;
+    for (const group of this.holder.querySelectorAll<HTMLDetailsElement>(".group")) {
+      const rows = [...group.querySelectorAll<HTMLElement>(".option")];
+      const isRest = group.dataset.group === REST;
+      for (const row of rows) {
+        const name = row.dataset.option!;
+        const isSought = `${name} ${row.textContent}`.toLowerCase().includes(sought);
+        row.hidden = sought ? !isSought : isRest && !(name in this.#values);
+      }
+      const count = rows.filter(({ hidden }) => !hidden).length;
+      found += count;
+      group.hidden = count === 0;
+      if (isNew && sought) group.open = true;
     }
+    this.#none.hidden = 0 < found || !sought;
   }
 
   #row(definition: Definition): HTMLElement {
@@ -66,9 +90,10 @@ export class OptionForm {
       this.changed(withOption(this.#values, name, isSwitch ? field.checked : control === "number" && field.value !== "" ? Number(field.value) : field.value));
     });
     this.#fields.set(name, field);
-    const label = element("label", { htmlFor: field.id, textContent: plain(name) });
+    const { words } = groupOf(name);
+    const label = element("label", { htmlFor: field.id, title: `${name} in the API` }, words?.label ?? plain(name), words?.unit ? element("small", { textContent: ` ${words.unit}` }) : null);
     const text = element("p", { id: `help-${name}`, className: "help" }, ...prose(help.replaceAll("\n", " ").replaceAll("_", " ")));
-    return element("div", { className: `option ${control}` }, label, field, text);
+    return element("div", { className: `option ${control}`, data: { option: name } }, label, field, text);
   }
 }
 

@@ -91,6 +91,8 @@ export class Setup {
       byId<HTMLDetailsElement>("more").open = true;
       byId<HTMLInputElement>("find-option").value = "";
       this.#options.filter("");
+      const group = (target as HTMLElement).closest("details.group") as HTMLDetailsElement | null;
+      if (group) group.open = true;
       (target as HTMLElement).scrollIntoView({ block: "nearest" });
     }, { capture: true });
     form.addEventListener("submit", (event) => {
