@@ -234,7 +234,7 @@ function wire(): void {
     if (place.job !== store.place.job) void open(place.job, place);
     else change(place);
   });
-  takeDropped((files) => (store.place.tab === "pull" && pull.isActive ? pull.takeFiles(files) : setup.takeFiles(files)));
+  takeDropped((files) => (store.place.tab === "pull" ? pull.takeFiles(files) : setup.takeFiles(files)));
 }
 
 /** Signs out, and removes all data of the caller from this browser. */

@@ -22,7 +22,7 @@ const SURFACES = ["unwrap", "repack", "measure", "verify", "edit_uv", "texture_m
 /** Options that have a place of their own in the form. */
 const ELSEWHERE = ["resolution"];
 /** Names of files that are inputs themselves; others belong to one of them. */
-const MESHES = [...SHOWN, "msh", "mesh", "vtk"];
+const MESHES = [...SHOWN, "msh", "mesh", "vtk", "zip"];
 
 /** Inputs that the next jobs are made of: those on screen. */
 type Target = { files: Chosen[] } | { job: Job; input: Chosen | null } | { none: string };
@@ -72,7 +72,7 @@ export class Setup {
     const meshes = files.filter((file) => MESHES.includes(extension(file.name)));
     const resources = new Map(files.filter((file) => !meshes.includes(file)).map((file) => [file.webkitRelativePath || file.name, file as Blob]));
     if (!meshes.length) {
-      this.told.failed(new Error(`None of these ${files.length} files is a mesh. Choose GLB, glTF, OBJ, PLY, STL or OFF.`));
+      this.told.failed(new Error(`None of these ${files.length} files is a mesh. Choose GLB, glTF, OBJ, PLY, STL or OFF, or one of them with its files in a ZIP.`));
       return;
     }
     this.choose(meshes.map((file) => ({ name: file.name, content: file, resources })));
