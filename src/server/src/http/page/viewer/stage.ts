@@ -1,6 +1,6 @@
 // Both views on one canvas, with one set of buffers; drawn only when something changed.
 
-import { type Camera, Color, DirectionalLight, HemisphereLight, type Material, type Mesh, PMREMGenerator, Scene, Vector3, WebGLRenderer, type WebGLRenderTarget } from "three";
+import { type Camera, Color, DirectionalLight, HemisphereLight, type Material, type Mesh, NeutralToneMapping, PMREMGenerator, Scene, Vector3, WebGLRenderer, type WebGLRenderTarget } from "three";
 import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
 import { type Uniforms, uniforms } from "./look";
 import type { Model } from "./model";
@@ -26,6 +26,13 @@ export interface Places {
   beside: Record<View, HTMLElement>;
 }
 
+/** Intensities of the room, of the sky and of the key light. Found by looking: a white, rough model is nowhere burnt out, and
+ * polished metal stands out on the dark stage. The sky lights materials that reflect no surroundings, such as those
+ * of OBJ files. */
+const ROOM_LIGHT = 0.6;
+const SKY_LIGHT = 0.5;
+const KEY_LIGHT = 0.8;
+
 /** Draws both views. Its constructor throws without WebGL. */
 export class Stage {
   readonly uniforms: Uniforms = uniforms();
@@ -46,6 +53,8 @@ export class Stage {
   constructor(places: Places) {
     this.#places = places;
     this.renderer = new WebGLRenderer({ canvas: places.canvas, antialias: true, alpha: false, powerPreference: "high-performance" });
+    // Keep colors as they are and compress only highlights, as the Khronos viewer does.
+    this.renderer.toneMapping = NeutralToneMapping;
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
     this.solid = new SolidPane([places.solid, places.beside.solid], () => this.redraw());
@@ -61,13 +70,14 @@ export class Stage {
     if (!this.#surroundings) {
       const [generator, room] = [new PMREMGenerator(this.renderer), new RoomEnvironment()];
       this.#surroundings = generator.fromScene(room, 0.04);
+      for (const scene of [this.solid.scene, this.beside.solid]) scene.environmentIntensity = ROOM_LIGHT;
       this.solid.scene.environment = this.beside.solid.environment = this.#surroundings.texture;
       room.dispose();
       generator.dispose();
     }
-    const key = new DirectionalLight(0xffffff, 1.2);
+    const key = new DirectionalLight(0xffffff, KEY_LIGHT);
     key.position.set(1, 2, 3);
-    return [new HemisphereLight(0xffffff, 0x8a8f98, 0.8), key];
+    return [new HemisphereLight(0xffffff, 0x8a8f98, SKY_LIGHT), key];
   }
 
   /** Draws the surroundings again, after the graphics device was lost. */
