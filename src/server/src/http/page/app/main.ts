@@ -224,9 +224,7 @@ function wire(): void {
   store.show(refresh);
   connection.changed = (isUp) => {
     byId("connection").hidden = isUp;
-    // What could not be asked then is no problem any more.
-    if (isUp) solved();
-    else void list.refresh();
+    if (!isUp) void list.refresh();
   };
   startTheme(() => viewer.apply());
   addEventListener("popstate", () => {

@@ -11,7 +11,7 @@ import { Model } from "../viewer/model";
 import type { Relaxing } from "../viewer/relaxing";
 import { pagesOf, Sheet } from "../viewer/sheet";
 import { originsOf, soupOf } from "../viewer/soups";
-import { type Places, Stage } from "../viewer/stage";
+import { lights, type Places, Stage } from "../viewer/stage";
 import { color } from "../viewer/theme_color";
 import type { View } from "../viewer/surface";
 import type { Place } from "./address";
@@ -146,7 +146,7 @@ export class Viewer {
   /** Shows the scene alone until its analysis is ready. */
   #preview(stage: Stage, loaded: Loaded, source: Source): void {
     if (this.model) return;
-    stage.solid.show([loaded.scene, ...stage.light()], boundsOf(loaded.scene));
+    stage.solid.show([loaded.scene, ...lights()], boundsOf(loaded.scene));
     this.#look(stage, source);
     stage.redraw();
   }

@@ -81,13 +81,15 @@ async function loadGltf({ content, resources }: Bundle): Promise<Loaded> {
   const made: string[] = [];
   const missing = new Set<string>();
   manager.setURLModifier((url) => {
-    if (/^(data|blob):/.test(url)) return url;
+    if (url.startsWith("blob:")) return url;
+    if (url.startsWith("data:")) return made[made.push(URL.createObjectURL(embedded(url))) - 1]!;
     const path = decodeURIComponent(url).replace(/^\.\//, "");
     const resource = resources.get(path) ?? resources.get(path.split("/").pop() ?? "");
     // Do not ask the service for the resources of a file that is not uploaded yet.
     if (!resource) {
       missing.add(path);
-      return /\.(png|jpe?g|webp|ktx2|avif)$/i.test(path) ? WHITE : "data:,";
+      made.push(URL.createObjectURL(/\.(png|jpe?g|webp|ktx2|avif)$/i.test(path) ? embedded(WHITE) : new Blob()));
+      return made.at(-1)!;
     }
     made.push(URL.createObjectURL(resource));
     return made.at(-1)!;
@@ -108,6 +110,13 @@ async function loadGltf({ content, resources }: Bundle): Promise<Loaded> {
   } finally {
     made.forEach((url) => URL.revokeObjectURL(url));
   }
+}
+
+/** Decodes a `data:` address, which the page's security policy does not let loaders fetch. */
+function embedded(url: string): Blob {
+  const [, type = "", base64, content = ""] = /^data:([^,;]*)(?:;(?!base64)[^,;]*)*(;base64)?,(.*)$/s.exec(url) ?? [];
+  const text = base64 ? atob(content) : decodeURIComponent(content);
+  return new Blob([Uint8Array.from(text, (byte) => byte.charCodeAt(0))], { type });
 }
 
 /** Returns whether a glTF needs a decoder for its meshes or pictures. */

@@ -1,6 +1,6 @@
 // Both views on one canvas, with one set of buffers; drawn only when something changed.
 
-import { type Camera, Color, DirectionalLight, HemisphereLight, type Material, type Mesh, NeutralToneMapping, PMREMGenerator, Scene, Vector3, WebGLRenderer, type WebGLRenderTarget } from "three";
+import { type Camera, Color, DirectionalLight, HemisphereLight, type Light, type Material, type Mesh, NeutralToneMapping, PMREMGenerator, Scene, Vector3, WebGLRenderer, type WebGLRenderTarget } from "three";
 import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
 import { type Uniforms, uniforms } from "./look";
 import type { Model } from "./model";
@@ -26,12 +26,14 @@ export interface Places {
   beside: Record<View, HTMLElement>;
 }
 
-/** Intensities of the room, of the sky and of the key light. Found by looking: a white, rough model is nowhere burnt out, and
- * polished metal stands out on the dark stage. The sky lights materials that reflect no surroundings, such as those
- * of OBJ files. */
-const ROOM_LIGHT = 0.6;
-const SKY_LIGHT = 0.5;
-const KEY_LIGHT = 0.8;
+/** Intensities of lights: of sky and key without surroundings, and of room, sky and key together. Found by looking: a white,
+ * rough model is nowhere burnt out, and polished metal stands out on the dark stage. The sky lights materials that reflect
+ * no surroundings, such as those of OBJ files. */
+const PLAIN = { sky: 2, key: 2 };
+const SURROUNDED = { room: 0.6, sky: 0.5, key: 0.8 };
+/** Side of the faces of the surroundings, in texels. The default of 256 takes a software renderer seconds, for reflections
+ * of a few soft lamps. */
+const ROOM_TEXELS = 64;
 
 /** Draws both views. Its constructor throws without WebGL. */
 export class Stage {
@@ -66,25 +68,27 @@ export class Stage {
   #surroundings: WebGLRenderTarget | null = null;
 
   /** Returns new lights for the materials of documents, and surrounds them with a neutral room, which metals reflect. */
-  light() {
+  light(): Light[] {
     if (!this.#surroundings) {
       const [generator, room] = [new PMREMGenerator(this.renderer), new RoomEnvironment()];
-      this.#surroundings = generator.fromScene(room, 0.04);
-      for (const scene of [this.solid.scene, this.beside.solid]) scene.environmentIntensity = ROOM_LIGHT;
-      this.solid.scene.environment = this.beside.solid.environment = this.#surroundings.texture;
+      this.#surroundings = generator.fromScene(room, 0.04, 0.1, 100, { size: ROOM_TEXELS });
+      for (const scene of [this.solid.scene, this.beside.solid]) {
+        scene.environment = this.#surroundings.texture;
+        scene.environmentIntensity = SURROUNDED.room;
+      }
       room.dispose();
       generator.dispose();
     }
-    const key = new DirectionalLight(0xffffff, KEY_LIGHT);
-    key.position.set(1, 2, 3);
-    return [new HemisphereLight(0xffffff, 0x8a8f98, SKY_LIGHT), key];
+    return lights(SURROUNDED);
   }
 
-  /** Draws the surroundings again, after the graphics device was lost. */
+  /** Draws again after the graphics device was lost, with new surroundings. */
   restore(): void {
-    this.#surroundings?.dispose();
-    this.#surroundings = null;
-    this.light();
+    if (this.#surroundings) {
+      this.#surroundings.dispose();
+      this.#surroundings = null;
+      this.light();
+    }
     this.redraw();
   }
 
@@ -176,4 +180,11 @@ export class Stage {
     const { x, y } = point.clone().project(this[view].camera);
     return [left + ((x + 1) / 2) * width, top + ((1 - y) / 2) * height];
   }
+}
+
+/** Creates the light of a sky, and a key light from above and the right. */
+export function lights({ sky, key }: { sky: number; key: number } = PLAIN): Light[] {
+  const sun = new DirectionalLight(0xffffff, key);
+  sun.position.set(1, 2, 3);
+  return [new HemisphereLight(0xffffff, 0x8a8f98, sky), sun];
 }
