@@ -28,7 +28,7 @@ async function openJob(page, name) {
 export async function run(page, url, mesh, listed, other, switches = "6") {
   await page.goto(url);
   await shown(page, "spot.ply");
-  // Nobody has looked at the options, so nobody has asked what there are.
+  // The options are not fetched before someone looks at them.
   assert.ok(!(await page.evaluate(() => performance.getEntriesByType("resource").some(({ name }) => name.endsWith("openapi.json")))));
   await page.setInputFiles("#files", mesh);
   await shown(page, mesh.split("/").pop());
@@ -61,7 +61,7 @@ export async function run(page, url, mesh, listed, other, switches = "6") {
   assert.equal(await page.getAttribute("button[data-shade=checker]", "aria-pressed"), "true");
   assert.equal(await page.inputValue("#resolution"), "512");
 
-  // What is open is not asked of the address alone.
+  // Fill and options survive a visit to the bare address.
   await page.goto(url);
   await page.reload();
   await shown(page, "spot.ply");
