@@ -132,7 +132,7 @@ fn singular_values_meet_the_definitions() {
     let norm: f64 = j.as_flattened().iter().map(|x| x * x).sum();
     assert!((a * a + b * b - norm).abs() < 1e-14);
     let arap = 0.5 * ((a - 1.0).powi(2) + (b - 1.0).powi(2));
-    let symmetric = 0.5 * (a * a + b * b + a.powi(-2) + b.powi(-2));
+    let symmetric = a * a + b * b + a.powi(-2) + b.powi(-2);
     assert!((Arap.value(&sigma) - arap).abs() < 1e-14);
     assert!((Lscm.value(&sigma) - 0.5 * (a - b).powi(2)).abs() < 1e-14);
     assert!((SymmetricDirichlet.value(&sigma) - symmetric).abs() < 1e-14);
@@ -159,8 +159,8 @@ fn minima_are_at_rotations() {
             }
         }
     }
-    assert_rest::<2>(&SymmetricDirichlet, 2.0);
-    assert_rest::<3>(&SymmetricDirichlet, 3.0);
+    assert_rest::<2>(&SymmetricDirichlet, 4.0);
+    assert_rest::<3>(&SymmetricDirichlet, 6.0);
     assert_rest::<2>(&Mips, 1.0);
     assert_rest::<3>(&Mips, 1.0);
     assert_rest::<3>(&Amips { s: 1.0 }, 1.0_f64.exp());

@@ -12,8 +12,8 @@ const ARAP: [&str; 2] = [
     "((s1 - 1)^2 + (s2 - 1)^2 + (s3 - 1)**2)/2",
 ];
 const SYMMETRIC_DIRICHLET: [&str; 2] = [
-    "0.5*(s1^2 + s2^2 + s1^-2 + s2^-2)",
-    "0.5*(s1^2 + s2^2 + s3^2 + 1/s1^2 + 1/s2^2 + 1/s3^2)",
+    "s1^2 + s2^2 + s1^-2 + s2^-2",
+    "s1^2 + s2^2 + s3^2 + 1/s1^2 + 1/s2^2 + 1/s3^2",
 ];
 const HENCKY: [&str; 2] = ["log(s1)^2 + log(s2)^2", "log(s1)^2 + log(s2)^2 + log(s3)^2"];
 const MIPS: [&str; 2] = [

@@ -83,6 +83,17 @@ def test_without_handles_the_energy_is_minimized_from_the_start():
     np.testing.assert_allclose(np.linalg.norm(found, axis=2), np.linalg.norm(edges, axis=2), rtol=1e-2)
 
 
+def test_an_isometry_has_a_symmetric_dirichlet_energy_of_4_in_the_plane_and_6_in_space(tets):
+    vertices, faces = grid(4)
+    plane = unwrapd.Problem(vertices, faces, energy="symmetric-dirichlet")
+    assert plane.energy() == pytest.approx(4, rel=1e-12)
+    assert plane.solve().energy == pytest.approx(4, rel=1e-12)
+    np.testing.assert_allclose(plane.elements()["energy_density"], 4, rtol=1e-12)
+    space = unwrapd.Problem(*tets, energy="symmetric-dirichlet")
+    volume = 1 / 6 + 2 / 6
+    assert space.energy() == pytest.approx(6 * volume, rel=1e-12)
+
+
 def test_a_formula_is_the_energy_that_it_says():
     named, typed = (unwrapd.Problem(*grid(4), energy=energy) for energy in ("arap", ARAP))
     x = bent(named.start)

@@ -55,8 +55,8 @@ const STEP_GAIN: f64 = 1e-4;
 
 /// Energy per weight of an optimized coarsest level beyond recovery: triangles that Tutte's map squeezed to nothing,
 /// such as at the end of a tube behind a boundary of three vertices, are not widened again by Newton's method in
-/// floating point. Good levels have 2 to 30; the one known bad one has 1e13.
-const FAR: f64 = 1e3;
+/// floating point. Good levels have 4 to 60; the one known bad one has 2e13.
+const FAR: f64 = 2e3;
 
 /// A mesh before some of its vertices were collapsed.
 struct Level {

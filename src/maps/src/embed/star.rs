@@ -21,7 +21,7 @@ const MAX_HALVINGS: usize = 8;
 /// Least curvature, as a share of the greatest: keeps steps along flat directions finite.
 const FLATTEST: f64 = 1e-9;
 
-/// Rest shape of a triangle in the form that its energy needs: ½·weight·‖J‖² = Σ edgesᵢ |edge opposite to corner i|²,
+/// Rest shape of a triangle in the form that its energy needs: weight·‖J‖² = Σ edgesᵢ |edge opposite to corner i|²,
 /// and the factor of the doubled area in det J.
 #[derive(Clone, Copy, Debug)]
 pub struct Corners {
@@ -35,7 +35,7 @@ impl Corners {
     pub fn new(rest: &RestShape) -> Self {
         let [g1, g2] = rest.inverse;
         let g0 = [-g1[0] - g2[0], -g1[1] - g2[1]];
-        let edge = |g, h| -0.5 * rest.weight * dot(g, h);
+        let edge = |g, h| -rest.weight * dot(g, h);
         Self {
             edges: [edge(g1, g2), edge(g2, g0), edge(g0, g1)],
             per_doubled_area: 0.5 / rest.size,
@@ -113,7 +113,7 @@ impl Star {
 
     /// Returns the energy with the vertex at `x`, +∞ if a triangle is not positive.
     ///
-    /// Σ over the triangles of ½·weight·‖J‖²(1 + 1/det²J). Test: `embed::taylor_star`.
+    /// Σ over the triangles of weight·‖J‖²(1 + 1/det²J). Test: `embed::taylor_star`.
     pub fn value(&self, x: [f64; 2]) -> f64 {
         self.faces.iter().map(|face| face.value(x)).sum()
     }
@@ -151,7 +151,7 @@ impl Star {
 }
 
 impl StarFace {
-    /// Returns ½·weight·‖J‖² and det J.
+    /// Returns weight·‖J‖² and det J.
     fn parts(&self, x: [f64; 2]) -> (f64, f64) {
         let [b, c] = self.ends;
         let (edge, to_b, to_c) = (sub(c, b), sub(b, x), sub(c, x));

@@ -13,8 +13,7 @@ const LARGEST: f64 = 1e6;
 /// By how much the symmetric Dirichlet energy of a map exceeds its minimum of 4 per area, summed over the area, and that area.
 pub fn excess_and_area(mapped: &MappedChart, rest: &RestShapes) -> [f64; 2] {
     summed(mapped, rest, |sigma| {
-        let halved = SymmetricDirichlet.value(&sigma);
-        (2.0 * halved - 4.0).clamp(0.0, LARGEST)
+        (SymmetricDirichlet.value(&sigma) - 4.0).clamp(0.0, LARGEST)
     })
 }
 
