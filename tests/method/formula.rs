@@ -1,11 +1,16 @@
 //! Energies by formula and by closure.
 
-use unwrapd_method::barrier::Barrier;
+use unwrapd_method::barrier::{Barrier, BarrierKind};
 use unwrapd_method::energy::{
-    Arap, Density, Formula, FormulaError, Jet, Mips, Modes, SymmetricDirichlet,
+    Arap, Batched, Density, DensityBatch, Formula, FormulaError, Jet, Mips, Modes,
+    SymmetricDirichlet, Term, Triangles,
 };
 
-use crate::terms::{assert_plane_taylor, assert_space_taylor};
+use unwrapd_method::numerics::square::Matrix;
+
+use crate::terms::{
+    PLANE, TRIANGLES, assert_plane_taylor, assert_space_taylor, derivatives, plane_rest,
+};
 
 const ARAP: [&str; 2] = [
     "((s1 - 1)^2 + (s2 - 1)^2)/2",
@@ -122,6 +127,83 @@ fn closures_are_densities() {
         closure.derivatives(&sigma),
         formula::<2>(HENCKY).derivatives(&sigma)
     );
+}
+
+/// Calls of a density for many elements, as an interpreter makes them.
+struct Mapped<T>(T);
+
+impl<const D: usize, T: Density<D>> DensityBatch<D> for Mapped<T> {
+    fn values(&self, sigmas: &[[f64; D]]) -> Vec<f64> {
+        sigmas.iter().map(|sigma| self.0.value(sigma)).collect()
+    }
+
+    fn gradients(&self, sigmas: &[[f64; D]]) -> Vec<[f64; D]> {
+        sigmas.iter().map(|sigma| self.0.gradient(sigma)).collect()
+    }
+
+    fn hessians(&self, sigmas: &[[f64; D]]) -> Vec<Matrix<D>> {
+        sigmas.iter().map(|sigma| self.0.hessian(sigma)).collect()
+    }
+}
+
+#[test]
+fn a_batch_is_the_density_that_it_computes() {
+    fn batch<const D: usize>(density: impl Density<D> + 'static) -> Batched<D> {
+        Batched::new(Mapped(density)).expect("an energy")
+    }
+    assert_same::<2>(HENCKY, &batch(Hencky));
+    assert_same::<3>(MIPS, &batch(Mips));
+    assert_plane_taylor(batch(SymmetricDirichlet), Barrier::NONE);
+    assert_space_taylor(batch(Arap), Barrier::NONE);
+
+    // The domain is found, and elements outside hide no others.
+    let (inside, inverted) = ([1.0, 0.5], [1.0, -0.5]);
+    let dirichlet = batch(SymmetricDirichlet);
+    assert_eq!(dirichlet.values(&[inverted, inside]), [f64::INFINITY, 6.25]);
+    assert_eq!(
+        [Density::<2>::floor(&batch(Arap)), dirichlet.floor()],
+        [f64::NEG_INFINITY, 0.0]
+    );
+
+    // The sum over a mesh is that of the density itself.
+    let guard = Barrier {
+        kind: BarrierKind::InverseSpline,
+        beta: 0.1,
+        ..Barrier::NONE
+    };
+    let one = Triangles::new(&TRIANGLES, &plane_rest(), Hencky, guard);
+    let many = Triangles::new(&TRIANGLES, &plane_rest(), batch(Hencky), guard);
+    assert!((one.value(&PLANE) - many.value(&PLANE)).abs() < 1e-14);
+    assert_eq!(
+        derivatives(&one, &PLANE, 0.0),
+        derivatives(&many, &PLANE, 0.0)
+    );
+}
+
+#[test]
+fn a_batch_that_is_no_energy_is_named() {
+    struct Uneven;
+    impl DensityBatch<2> for Uneven {
+        fn values(&self, sigmas: &[[f64; 2]]) -> Vec<f64> {
+            sigmas
+                .iter()
+                .map(|[a, b]| (a - 1.0).powi(2) + 2.0 * (b - 1.0).powi(2))
+                .collect()
+        }
+        fn gradients(&self, sigmas: &[[f64; 2]]) -> Vec<[f64; 2]> {
+            sigmas
+                .iter()
+                .map(|[a, b]| [2.0 * (a - 1.0), 4.0 * (b - 1.0)])
+                .collect()
+        }
+        fn hessians(&self, sigmas: &[[f64; 2]]) -> Vec<Matrix<2>> {
+            vec![[[2.0, 0.0], [0.0, 4.0]]; sigmas.len()]
+        }
+    }
+    assert!(matches!(
+        Batched::new(Uneven),
+        Err(FormulaError::NotSymmetric)
+    ));
 }
 
 #[test]

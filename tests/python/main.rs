@@ -35,6 +35,7 @@ native::tests_of_files!(
         client,
         comfyui,
         command,
+        energy,
         errors,
         examples,
         files,

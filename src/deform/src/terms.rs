@@ -160,7 +160,14 @@ fn cells_of<const D: usize>(
         },
         values("relative_size", &|sigma| sigma.iter().product()),
     ];
-    cells.extend(density.map(|density| values("energy_density", &|sigma| density.value(sigma))));
+    cells.extend(density.map(|density| CellData {
+        name: "energy_density",
+        components: 1,
+        values: match density.batch() {
+            Some(batch) => batch.values(sigma),
+            None => sigma.iter().map(|sigma| density.value(sigma)).collect(),
+        },
+    }));
     cells
 }
 

@@ -1,4 +1,4 @@
-"""An energy of one's own, typed as a formula: a strip is bent by Hencky's energy, and its iterates are looked at.
+"""An energy of one's own, as a formula and as functions: a strip is bent by Hencky's energy, and its iterates are looked at.
 
     python own_energy.py
 
@@ -11,6 +11,13 @@ import numpy as np
 import unwrapd
 
 HENCKY = "log(s1)^2 + log(s2)^2"
+
+#: The same, ψ and its derivatives as functions of the singular values of all elements, one row each.
+HENCKY_ON_ARRAYS = unwrapd.Energy(
+    value=lambda sigma: (np.log(sigma) ** 2).sum(axis=1),
+    gradient=lambda sigma: 2 * np.log(sigma) / sigma,
+    hessian=lambda sigma: (2 * (1 - np.log(sigma)) / sigma**2)[:, :, None] * np.eye(2),
+)
 
 
 def strip(length):
@@ -29,7 +36,8 @@ def main():
         37: (5.0, 5.0),
         38: (4.0, 5.0),
     }
-    for energy in ("arap", HENCKY):
+    energies_of_strips = {"arap": "arap", HENCKY: HENCKY, "on arrays": HENCKY_ON_ARRAYS}
+    for name, energy in energies_of_strips.items():
         problem = unwrapd.Problem(vertices, faces, energy=energy)
         energies = []
 
@@ -42,7 +50,7 @@ def main():
         free = np.setdiff1d(np.arange(len(vertices)), list(ends))
         slope = np.abs(problem.gradient(solution.x)[free]).max()
         print(
-            f"{energy}: {solution.status} after {len(energies) - 1} iterations, energy {solution.energy:.4f}, "
+            f"{name}: {solution.status} after {len(energies) - 1} iterations, energy {solution.energy:.4f}, "
             f"stretches {stretches.min():.3f} to {stretches.max():.3f}, largest slope {slope:.1e}"
         )
         assert solution.status == "converged" and slope < 1e-3

@@ -10,6 +10,7 @@
 )]
 
 mod call;
+mod energy;
 mod files;
 mod meshes;
 mod problem;

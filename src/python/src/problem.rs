@@ -1,6 +1,6 @@
 //! Problems of deformation: their energies at any point, and their solutions.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use numpy::{
     PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods,
@@ -8,6 +8,7 @@ use numpy::{
 use pyo3::prelude::*;
 
 use crate::call::{IterateQuestion, refused, run_shown};
+use crate::energy::{Functions, PyEnergy};
 use crate::files::{json, parsed};
 use crate::meshes::rows;
 use unwrapd::deform::{
@@ -21,6 +22,8 @@ use unwrapd::pipeline::{SolveOptions, solve_problem};
 pub struct PyProblem {
     problem: deform::Problem,
     potential: Mutex<Potential>,
+    /// The energy, if it consists of functions of Python.
+    energy: Option<Arc<PyEnergy>>,
 }
 
 /// A sparse matrix by rows: data, columns, and the start of each row.
@@ -42,16 +45,23 @@ impl PyProblem {
         elements: PyReadonlyArray2<'_, u32>,
         start: Option<PyReadonlyArray1<'_, f64>>,
         options: &str,
+        functions: Option<Functions>,
         is_normalized: bool,
     ) -> PyResult<Self> {
         let start = start.as_ref().map(|start| start.as_slice()).transpose()?;
         let body = body(py, &vertices, &elements, start)?;
-        let model: Model = parsed(py, options)?;
+        let mut model: Model = parsed(py, options)?;
+        let energy = functions.map(PyEnergy::new);
+        if let Some(energy) = &energy {
+            let kind = energy.kind(body.dim())?;
+            model.energy = kind.map_err(|error| refused(py, error))?;
+        }
         let made = problem(body, start, &model, is_normalized);
         let (problem, potential) = made.map_err(|error| refused(py, error))?;
         Ok(Self {
             problem,
             potential: Mutex::new(potential),
+            energy,
         })
     }
 
@@ -70,7 +80,7 @@ impl PyProblem {
     /// Returns the sum of energy and barriers.
     fn value(&self, py: Python<'_>, x: PyReadonlyArray1<'_, f64>) -> PyResult<f64> {
         let x = x.as_slice()?;
-        let value = py.detach(|| self.potential().value(x));
+        let value = self.released(py, || self.potential().value(x))?;
         value.map_err(|error| refused(py, error))
     }
 
@@ -81,7 +91,7 @@ impl PyProblem {
         x: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let x = x.as_slice()?;
-        let gradient = py.detach(|| self.potential().gradient(x));
+        let gradient = self.released(py, || self.potential().gradient(x))?;
         let gradient = gradient.map_err(|error| refused(py, error))?;
         Ok(PyArray1::from_vec(py, gradient))
     }
@@ -93,7 +103,7 @@ impl PyProblem {
         x: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<PyMatrix<'py>> {
         let x = x.as_slice()?;
-        let hessian = py.detach(|| self.potential().hessian(x));
+        let hessian = self.released(py, || self.potential().hessian(x))?;
         let hessian = hessian.map_err(|error| refused(py, error))?;
         Ok((
             PyArray1::from_vec(py, hessian.data),
@@ -112,7 +122,7 @@ impl PyProblem {
         let checked = self.problem.body.check(x);
         checked.map_err(|error| refused(py, error))?;
         let mut columns = Vec::new();
-        for cell in self.problem.cells(x) {
+        for cell in self.released(py, || self.problem.cells(x))? {
             let shape = [cell.values.len() / cell.components, cell.components];
             let values = PyArray1::from_vec(py, cell.values).reshape(shape)?;
             columns.push((cell.name, values));
@@ -135,14 +145,28 @@ impl PyProblem {
             .as_ref()
             .map(|callback| move |question: IterateQuestion| question.put(py, dim, callback));
         let show = show.as_ref().map(|show| show as &dyn Fn(_) -> _);
-        let (solution, report) = run_shown(py, None, show, move |observer, watch| {
+        let solved = run_shown(py, None, show, move |observer, watch| {
             solve_problem(&problem, &options, observer, watch)
-        })?;
+        });
+        // If a function of the energy failed, that is why there is no result.
+        let failure = self
+            .energy
+            .as_ref()
+            .and_then(|energy| energy.take_failure());
+        let (solution, report) = failure.map_or(solved, Err)?;
         Ok((PyArray1::from_vec(py, solution.x), json(py, &report)?))
     }
 }
 
 impl PyProblem {
+    /// Runs work with the interpreter released; a function of the energy that fails ends it.
+    fn released<T: Send>(&self, py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+        match &self.energy {
+            Some(energy) => energy.run(|| py.detach(work)),
+            None => Ok(py.detach(work)),
+        }
+    }
+
     fn potential(&self) -> MutexGuard<'_, Potential> {
         self.potential
             .lock()

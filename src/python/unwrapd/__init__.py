@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from ._arrays import bake, measure, repack, unwrap, verify
     from ._atlas import Atlas
     from ._client import Client, Outcome
+    from ._energy import Energy
     from ._errors import Error, InvalidInput, InvalidOptions, NoValidResult, ServiceError
     from ._files import measure_file, repack_file, unwrap_bytes, unwrap_file, verify_file
     from ._job import Job
@@ -42,6 +43,7 @@ _MODULES = {
     "_arrays": ("bake", "measure", "repack", "unwrap", "verify"),
     "_atlas": ("Atlas",),
     "_client": ("Client", "Outcome"),
+    "_energy": ("Energy",),
     "_errors": ("Error", "InvalidInput", "InvalidOptions", "NoValidResult", "ServiceError"),
     "_files": ("measure_file", "repack_file", "unwrap_bytes", "unwrap_file", "verify_file"),
     "_job": ("Job",),
@@ -76,6 +78,7 @@ def __dir__() -> list[str]:
 __all__ = [
     "Atlas",
     "Client",
+    "Energy",
     "Error",
     "InvalidInput",
     "InvalidOptions",

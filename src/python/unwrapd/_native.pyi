@@ -71,6 +71,7 @@ class Problem:
         elements: np.ndarray,
         start: np.ndarray | None,
         options: str,
+        functions: tuple[Callable[[np.ndarray], np.ndarray], ...] | None,
         is_normalized: bool,
     ) -> None: ...
     dim: int

@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from typing import Any, Literal, TypedDict
 
+from ._energy import Energy
+
 Resolution = int | str | tuple[int, int]
 Seams = Literal["normals"] | Sequence[Sequence[int]] | Any
 
@@ -102,7 +104,7 @@ class VerifyFileOptions(VerifyOptions, MeasureFileOptions, total=False):
 class ProblemOptions(TypedDict, total=False):
     """What a deformation costs."""
 
-    energy: str | None
+    energy: str | Energy | None
     barrier: str | None
     barrier_strength: float | None
     barrier_support: float | None

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Callable, Mapping, Optional, Sequence, Un
 
 import numpy as np
 
-from . import _bodies, _native
+from . import _bodies, _energy, _native
 from ._options import to_json
 
 if TYPE_CHECKING:
@@ -36,14 +36,14 @@ class Problem:
         size 1.
     **options
         `energy`: a name ("arap", "symmetric-dirichlet", "green", …) or a formula of the signed singular values of an element, s1
-        and s2, for tetrahedra s3, such as ``"log(s1)^2 + log(s2)^2"``. `barrier`: a name, ``"none"`` for none.
-        `barrier_strength`, `barrier_support`, `max_conformal`, `bijective`: as ``unwrapd deform`` has them.
+        and s2, for tetrahedra s3, such as ``"log(s1)^2 + log(s2)^2"``, or functions on arrays, an `Energy`. `barrier`: a name,
+        ``"none"`` for none. `barrier_strength`, `barrier_support`, `max_conformal`, `bijective`: as ``unwrapd deform`` has them.
 
     Raises
     ------
     InvalidInput
         If this is no mesh; with the code ``"invalid_formula"`` and, if it cannot be read, the `column`, if a formula is no
-        energy: it must be symmetric, and smooth and minimal at 1.
+        energy: it must be symmetric, and smooth and minimal at 1. So must functions, which may be ``"invalid_energy"``, too.
     InvalidOptions, TypeError, ValueError
     """
 
@@ -59,7 +59,9 @@ class Problem:
         if units not in ("given", "normalized"):
             raise ValueError(f'units must be "given" or "normalized", not {units!r}')
         body = _bodies.native(vertices, elements, start)
-        self._native = _native.Problem(*body, to_json("Problem", options), units == "normalized")
+        texts, functions = _energy.split(options)
+        given = to_json("Problem", texts)
+        self._native = _native.Problem(*body, given, functions, units == "normalized")
 
     @property
     def start(self) -> np.ndarray:

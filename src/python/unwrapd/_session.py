@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 class Session:
     """A body that is pulled while someone watches: each iteration starts from the map before, and every map is valid.
 
-    Takes `vertices`, `elements`, `start` and `**options` as `Problem` does; `barrier_strength` is meant in a unit in which the
-    mean element has size 1. `threads` is how many work, by default all. A body starts at rest, a surface at its `start`. A session belongs to one thread at a time.
+    Takes `vertices`, `elements`, `start` and `**options` as `Problem` does, but no `Energy` of functions; `barrier_strength` is meant
+    in a unit in which the mean element has size 1. `threads` is how many work, by default all. A body starts at rest, a surface at
+    its `start`. A session belongs to one thread at a time.
 
     >>> import unwrapd
     >>> session = unwrapd.Session([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])

@@ -1,4 +1,4 @@
-//! The interfaces of a density and of a barrier.
+//! The interfaces of a density, for one element and for many, and of a barrier.
 
 use crate::numerics::square::Matrix;
 use std::fmt;
@@ -25,6 +25,11 @@ pub trait Density<const D: usize>: Send + Sync {
         (self.gradient(sigma), self.hessian(sigma))
     }
 
+    /// Returns the functions that take all elements in one call, if the density has such.
+    fn batch(&self) -> Option<&dyn DensityBatch<D>> {
+        None
+    }
+
     /// Returns the curvature against a rotation in the plane of the axes i and j, (ψᵢ + ψⱼ)/(σᵢ + σⱼ), given the
     /// gradient.
     ///
@@ -37,6 +42,18 @@ pub trait Density<const D: usize>: Send + Sync {
                 .max(1e-8 * sigma[0])
                 .max(f64::MIN_POSITIVE)
     }
+}
+
+/// ψ(σ) of many elements, and its derivatives, as in [`Density`]. Each method returns one item per element.
+pub trait DensityBatch<const D: usize>: Send + Sync {
+    /// Returns ψ, +∞ outside the domain.
+    fn values(&self, sigmas: &[[f64; D]]) -> Vec<f64>;
+
+    /// Returns ∂ψ/∂σᵢ.
+    fn gradients(&self, sigmas: &[[f64; D]]) -> Vec<[f64; D]>;
+
+    /// Returns ∂²ψ/∂σᵢ∂σⱼ.
+    fn hessians(&self, sigmas: &[[f64; D]]) -> Vec<Matrix<D>>;
 }
 
 /// A function φ of an element's size, det J, added to the density's share before the projection.

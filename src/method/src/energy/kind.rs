@@ -112,7 +112,7 @@ impl DensityKind {
             Self::Amips => Arc::new(Amips { s: 1.0 }),
             Self::StVenantKirchhoff => Arc::new(StVenantKirchhoff { lambda, mu }),
             Self::NeoHookean => Arc::new(NeoHookean { lambda, mu }),
-            Self::Formula(own) => Arc::new(own.planar()?),
+            Self::Formula(own) => own.planar()?,
         })
     }
 
@@ -132,7 +132,7 @@ impl DensityKind {
             Self::Amips => Arc::new(Amips { s: 1.0 }),
             Self::StVenantKirchhoff => Arc::new(StVenantKirchhoff { lambda, mu }),
             Self::NeoHookean => Arc::new(NeoHookean { lambda, mu }),
-            Self::Formula(own) => Arc::new(own.spatial()?),
+            Self::Formula(own) => own.spatial()?,
         })
     }
 }

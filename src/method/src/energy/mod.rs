@@ -2,8 +2,8 @@
 //!
 //! An isotropic energy is independent of directions: an element contributes a function ψ of the signed singular values
 //! of its Jacobian J, weighted by its rest size. A density ([`Density`]) gives only ψ, ∂ψ and ∂²ψ in σ, once for
-//! triangles in the plane and tetrahedra in space. Custom densities are typed as text or written as closures
-//! ([`Formula`]).
+//! triangles in the plane and tetrahedra in space. Custom densities are typed as text, written as closures
+//! ([`Formula`]), or functions that take all elements in one call ([`Batched`]).
 //!
 //! A function of det J alone, such as a barrier, joins as a [`Guard`]. Both are summed before the one projection of the
 //! Hessian to positive semidefinite. The projection has a closed form because in the frame of the singular vectors the
@@ -25,8 +25,8 @@ mod simplices;
 mod term;
 
 pub use conformal::{Amips, FoldoverFree, Lscm, Mips};
-pub use density::{Density, Guard, Zero, prefers_a_size};
-pub use formula::{Formula, FormulaError, Jet, OwnEnergy};
+pub use density::{Density, DensityBatch, Guard, Zero, prefers_a_size};
+pub use formula::{Batched, Formula, FormulaError, Jet, OwnEnergy};
 pub use isometric::{Arap, FrozenArap, Green, NeoHookean, StVenantKirchhoff, SymmetricDirichlet};
 pub use kind::{DensityKind, DimensionError, DisplacementKind, EnergyKind};
 pub use quadratic::{Quadratic, biharmonic, dirichlet, uniform_biharmonic, voronoi_areas};

@@ -1,6 +1,6 @@
 //! The sum over a mesh.
 
-use super::{Assembly, Density, Guard, RestShape, Term};
+use super::{Assembly, Density, DensityBatch, Guard, RestShape, Term};
 use crate::numerics::roots::smallest_root_below;
 use crate::numerics::square::{Matrix, Square, apply, apply_transposed, times, transposed};
 use crate::numerics::stencils::Stencils;
@@ -126,32 +126,84 @@ where
     ) {
         let (matrices, dets) = jacobians(elements, x);
         let svds = Matrix::svds(&matrices, &dets);
-        let tau = assembly.wants_hessian().then_some(tau);
+        let density = &*self.density;
         for (k, element) in elements.iter().enumerate() {
-            let pulled = self.pulled(element, &svds[k], dets[k], tau);
-            pulled.gradients(|vertex, gradient| assembly.add_gradient(vertex, &gradient));
-            if tau.is_some() {
-                pulled.add_blocks(first + k, assembly);
-            }
+            let (sigma, weight) = (&svds[k].sigma, element.weight);
+            let modes = if assembly.wants_hessian() {
+                Modes::new(density, sigma, weight)
+            } else {
+                Modes::of_slope(density.gradient(sigma), weight)
+            };
+            let pulled = self.pulled(element, modes, &svds[k], dets[k], tau);
+            pulled.distribute(first + k, assembly);
         }
     }
 
-    /// Computes the derivatives of an element. The negative eigenvalues of the Hessian are multiplied by `tau`; without
-    /// `tau`, only the gradient is computed.
+    /// Adds the guard to the derivatives of an element's density. The negative eigenvalues of the Hessian are multiplied
+    /// by `tau`.
     fn pulled<'a>(
         &self,
         element: &'a Simplex<D>,
+        mut modes: Modes<D>,
         svd: &Svd<D>,
         det: f64,
-        tau: Option<f64>,
+        tau: f64,
     ) -> Pulled<'a, D> {
-        let (density, sigma) = (&*self.density, &svd.sigma);
-        let mut modes = match tau {
-            Some(_) => Modes::new(density, sigma, element.weight),
-            None => Modes::of_slope(density, sigma, element.weight),
-        };
         modes.add_guard(self.guard.derivatives(det, element.size), &svd.sigma);
-        element.pull(modes, svd, tau.unwrap_or(1.0))
+        element.pull(modes, svd, tau)
+    }
+}
+
+// A density that takes all elements in one call.
+
+impl<const D: usize> Simplices<D>
+where
+    Matrix<D>: Square<D>,
+{
+    /// Returns the sum.
+    fn value_of_batch(&self, batch: &dyn DensityBatch<D>, x: &[f64]) -> f64 {
+        let (mut sigmas, mut dets) = (Vec::new(), Vec::new());
+        for element in &self.elements {
+            let (matrix, det) = element.jacobian(x);
+            sigmas.push(matrix.singular_values(det));
+            dets.push(det);
+        }
+        let parts = self.elements.iter().zip(batch.values(&sigmas)).zip(dets);
+        let shares = parts.map(|((element, density), det)| {
+            element.weight * density + self.guard.value(det, element.size)
+        });
+        shares.sum()
+    }
+
+    /// Adds the derivatives.
+    fn add_derivatives_of_batch(
+        &self,
+        batch: &dyn DensityBatch<D>,
+        x: &[f64],
+        tau: f64,
+        assembly: &mut Assembly,
+    ) {
+        let (mut svds, mut dets) = (Vec::new(), Vec::new());
+        for element in &self.elements {
+            let (matrix, det) = element.jacobian(x);
+            svds.push(matrix.svd(det));
+            dets.push(det);
+        }
+        let sigmas: Vec<[f64; D]> = svds.iter().map(|svd| svd.sigma).collect();
+        let gradients = batch.gradients(&sigmas);
+        let hessians = (assembly.wants_hessian()).then(|| batch.hessians(&sigmas));
+        for (k, element) in self.elements.iter().enumerate() {
+            let (gradient, weight) = (gradients[k], element.weight);
+            let modes = match &hessians {
+                Some(hessians) => {
+                    let derivatives = (gradient, hessians[k]);
+                    Modes::of_derivatives(&*self.density, &sigmas[k], derivatives, weight)
+                }
+                None => Modes::of_slope(gradient, weight),
+            };
+            let pulled = self.pulled(element, modes, &svds[k], dets[k], tau);
+            pulled.distribute(k, assembly);
+        }
     }
 }
 
@@ -187,6 +239,9 @@ where
     }
 
     fn value(&self, x: &[f64]) -> f64 {
+        if let Some(batch) = self.density.batch() {
+            return self.value_of_batch(batch, x);
+        }
         let (blocks, rest) = self.elements.as_chunks::<LANES>();
         let sum = blocks.iter().fold(0.0, |sum, b| self.add_values(sum, b, x));
         rest.iter()
@@ -194,6 +249,11 @@ where
     }
 
     fn add_derivatives(&self, x: &[f64], tau: f64, assembly: &mut Assembly) {
+        // Without a Hessian there is nothing to project.
+        let tau = if assembly.wants_hessian() { tau } else { 1.0 };
+        if let Some(batch) = self.density.batch() {
+            return self.add_derivatives_of_batch(batch, x, tau, assembly);
+        }
         let (blocks, rest) = self.elements.as_chunks::<LANES>();
         for (k, block) in blocks.iter().enumerate() {
             self.add_derivatives_of(LANES * k, block, x, tau, assembly);
@@ -347,6 +407,14 @@ where
 }
 
 impl<const D: usize> Pulled<'_, D> {
+    /// Adds gradient and, if it is assembled, Hessian of the element with this stencil.
+    fn distribute(&self, stencil: usize, assembly: &mut Assembly) {
+        self.gradients(|vertex, gradient| assembly.add_gradient(vertex, &gradient));
+        if assembly.wants_hessian() {
+            self.add_blocks(stencil, assembly);
+        }
+    }
+
     /// Calls `add` with each vertex and its gradient.
     pub fn gradients(&self, mut add: impl FnMut(u32, [f64; D])) {
         let mut first = [0.0; D];
@@ -431,7 +499,16 @@ pub struct Modes<const D: usize> {
 impl<const D: usize> Modes<D> {
     /// Computes the derivatives of `weight`·ψ.
     pub fn new(density: &dyn Density<D>, sigma: &[f64; D], weight: f64) -> Self {
-        let (gradient, hessian) = density.derivatives(sigma);
+        Self::of_derivatives(density, sigma, density.derivatives(sigma), weight)
+    }
+
+    /// Like [`new`](Self::new), given gradient and Hessian of ψ.
+    fn of_derivatives(
+        density: &dyn Density<D>,
+        sigma: &[f64; D],
+        (gradient, hessian): ([f64; D], Matrix<D>),
+        weight: f64,
+    ) -> Self {
         let (mut twist, mut flip) = ([[0.0; D]; D], [[0.0; D]; D]);
         for i in 0..D {
             for j in i + 1..D {
@@ -453,10 +530,10 @@ impl<const D: usize> Modes<D> {
         }
     }
 
-    /// Computes only the first derivatives of `weight`·ψ; the second are 0.
-    pub fn of_slope(density: &dyn Density<D>, sigma: &[f64; D], weight: f64) -> Self {
+    /// Computes only the first derivatives of `weight`·ψ, given its gradient; the second are 0.
+    pub fn of_slope(gradient: [f64; D], weight: f64) -> Self {
         Self {
-            slope: density.gradient(sigma).map(|g| weight * g),
+            slope: gradient.map(|g| weight * g),
             scaling: [[0.0; D]; D],
             twist: [[0.0; D]; D],
             flip: [[0.0; D]; D],

@@ -40,17 +40,6 @@ impl<const D: usize> Jet<D> {
         })
     }
 
-    /// Returns whether the value and its derivatives are finite.
-    pub fn is_finite(&self) -> bool {
-        self.value.is_finite() && self.is_smooth()
-    }
-
-    /// Returns whether the derivatives are finite.
-    pub fn is_smooth(&self) -> bool {
-        let mut derivatives = self.gradient.iter().chain(self.hessian.as_flattened());
-        derivatives.all(|d| d.is_finite())
-    }
-
     /// Returns √x.
     #[must_use]
     pub fn sqrt(self) -> Self {

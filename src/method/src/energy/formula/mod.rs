@@ -1,25 +1,23 @@
-//! Densities by formula.
+//! Custom densities.
 //!
-//! A custom energy is typed as text, or is a closure on numbers that carry their derivatives ([`Jet`]). Both are a
-//! [`Density`] and share everything else with the built-in energies: a formula adds only ψ, ∂ψ and ∂²ψ in σ. It is
-//! checked once, when it is created ([`FormulaError`]).
+//! A custom energy is typed as text, is a closure on numbers that carry their derivatives ([`Jet`]), or consists of
+//! functions on arrays ([`Batched`]). All are a [`Density`] and share everything else with the built-in energies: they
+//! add only ψ, ∂ψ and ∂²ψ in σ. They are checked once, when they are created ([`FormulaError`]).
+mod batch;
+mod check;
 mod jet;
 mod parser;
 
 use super::Density;
 use crate::numerics::square::Matrix;
+pub use batch::Batched;
+use check::{check, is_finite_inverted};
 pub use jet::Jet;
 pub use parser::FormulaError;
 use parser::LONGEST;
 use serde::ser::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::sync::Arc;
-
-/// Distance from the identity at which a formula is tested for smaller values.
-const NEAR: f64 = 1e-2;
-
-/// Singular values at which ψ must be symmetric and may be finite.
-const FAR: [f64; 3] = [1.7, 0.9, 0.6];
 
 type Function<const D: usize> = dyn Fn(&[Jet<D>; D]) -> Jet<D> + Send + Sync;
 
@@ -64,8 +62,8 @@ impl<const D: usize> Formula<D> {
             function: Arc::new(function),
             floor: f64::NEG_INFINITY,
         };
-        formula.check()?;
-        if !formula.is_finite_inverted() {
+        check(&formula)?;
+        if !is_finite_inverted(&formula) {
             formula.floor = 0.0;
         }
         Ok(formula)
@@ -73,58 +71,6 @@ impl<const D: usize> Formula<D> {
 
     fn at(&self, sigma: &[f64; D]) -> Jet<D> {
         (self.function)(&Jet::variables(sigma))
-    }
-
-    /// Checks that ψ is a deformation energy, as far as sample points show.
-    fn check(&self) -> Result<(), FormulaError> {
-        let rest = self.at(&[1.0; D]);
-        if !rest.value.is_finite() {
-            return Err(FormulaError::NotFinite { value: rest.value });
-        }
-        if !rest.is_smooth() {
-            return Err(FormulaError::NotSmooth);
-        }
-        if !self.is_symmetric() {
-            return Err(FormulaError::NotSymmetric);
-        }
-        // A symmetric quadratic form has the eigenvectors (1, …, 1) and all that are normal to it: its sign is known from
-        // singular values that are all moved alike or one against the others.
-        let size = rest.value.abs() + 1.0;
-        for ways in 0..3_usize.pow(D as u32) {
-            let step = |i: usize| [0.0, NEAR, -NEAR][ways / 3_usize.pow(i as u32) % 3];
-            let sigma: [f64; D] = std::array::from_fn(|i| 1.0 + step(i));
-            let slope: f64 = (0..D).map(|i| rest.gradient[i] * step(i)).sum();
-            let tolerance = 1e-12 * size;
-            if self.value(&sigma) < rest.value - tolerance || slope < -tolerance {
-                let at = sigma.to_vec();
-                return Err(FormulaError::NotMinimal { at });
-            }
-        }
-        Ok(())
-    }
-
-    /// Returns whether ψ is the same for every order of unequal singular values. Exchanges with the first generate all
-    /// orders.
-    fn is_symmetric(&self) -> bool {
-        let sigma: [f64; D] = std::array::from_fn(|i| FAR[i]);
-        let value = self.value(&sigma);
-        let exchanged = |mut sigma: [f64; D], i: usize| {
-            sigma.swap(0, i);
-            self.value(&sigma)
-        };
-        (1..D).all(|i| {
-            let other = exchanged(sigma, i);
-            other == value || (other - value).abs() <= 1e-12 * value.abs().max(1.0)
-        })
-    }
-
-    /// Returns whether ψ and its derivatives are finite for flat and inverted elements.
-    fn is_finite_inverted(&self) -> bool {
-        [0.0, -0.3, -0.6].iter().all(|&last| {
-            let mut sigma: [f64; D] = std::array::from_fn(|i| FAR[i]);
-            sigma[D - 1] = last;
-            self.at(&sigma).is_finite()
-        })
     }
 }
 
@@ -165,16 +111,16 @@ impl<const D: usize> std::fmt::Debug for Formula<D> {
 
 // A formula before the dimension of the deformed elements is known.
 
-/// A custom energy for triangles, tetrahedra or both: a text, or a [`Formula`] of one dimension.
+/// A custom energy for triangles, tetrahedra or both: a text, or a density of one dimension.
 ///
 /// Any text can be one, so that reading it cannot fail. [`check`](Self::check) tests whether it is an energy at all;
 /// [`planar`](Self::planar) and [`spatial`](Self::spatial), whether it is one of triangles or of tetrahedra.
 #[derive(Clone, Debug)]
 pub struct OwnEnergy {
-    /// The text; `None` for closures.
+    /// The text; `None` for densities.
     text: Option<Arc<str>>,
-    planar: Result<Formula<2>, FormulaError>,
-    spatial: Result<Formula<3>, FormulaError>,
+    planar: Result<Arc<dyn Density<2>>, FormulaError>,
+    spatial: Result<Arc<dyn Density<3>>, FormulaError>,
 }
 
 impl OwnEnergy {
@@ -182,12 +128,12 @@ impl OwnEnergy {
     pub const LONGEST: usize = LONGEST;
 
     /// Returns the energy of triangles.
-    pub fn planar(&self) -> Result<Formula<2>, FormulaError> {
+    pub fn planar(&self) -> Result<Arc<dyn Density<2>>, FormulaError> {
         self.planar.clone()
     }
 
     /// Returns the energy of tetrahedra.
-    pub fn spatial(&self) -> Result<Formula<3>, FormulaError> {
+    pub fn spatial(&self) -> Result<Arc<dyn Density<3>>, FormulaError> {
         self.spatial.clone()
     }
 
@@ -210,14 +156,14 @@ impl From<&str> for OwnEnergy {
     fn from(text: &str) -> Self {
         Self {
             text: Some(text.into()),
-            planar: Formula::parse(text),
-            spatial: Formula::parse(text),
+            planar: Formula::parse(text).map(|formula| Arc::new(formula) as _),
+            spatial: Formula::parse(text).map(|formula| Arc::new(formula) as _),
         }
     }
 }
 
-impl From<Formula<2>> for OwnEnergy {
-    fn from(planar: Formula<2>) -> Self {
+impl From<Arc<dyn Density<2>>> for OwnEnergy {
+    fn from(planar: Arc<dyn Density<2>>) -> Self {
         Self {
             text: None,
             planar: Ok(planar),
@@ -226,8 +172,8 @@ impl From<Formula<2>> for OwnEnergy {
     }
 }
 
-impl From<Formula<3>> for OwnEnergy {
-    fn from(spatial: Formula<3>) -> Self {
+impl From<Arc<dyn Density<3>>> for OwnEnergy {
+    fn from(spatial: Arc<dyn Density<3>>) -> Self {
         Self {
             text: None,
             planar: Err(FormulaError::OtherDimension { dim: 2 }),
@@ -236,22 +182,57 @@ impl From<Formula<3>> for OwnEnergy {
     }
 }
 
+impl From<Formula<2>> for OwnEnergy {
+    fn from(planar: Formula<2>) -> Self {
+        Self::from(Arc::new(planar) as Arc<dyn Density<2>>)
+    }
+}
+
+impl From<Formula<3>> for OwnEnergy {
+    fn from(spatial: Formula<3>) -> Self {
+        Self::from(Arc::new(spatial) as Arc<dyn Density<3>>)
+    }
+}
+
+impl From<Batched<2>> for OwnEnergy {
+    fn from(planar: Batched<2>) -> Self {
+        Self::from(Arc::new(planar) as Arc<dyn Density<2>>)
+    }
+}
+
+impl From<Batched<3>> for OwnEnergy {
+    fn from(spatial: Batched<3>) -> Self {
+        Self::from(Arc::new(spatial) as Arc<dyn Density<3>>)
+    }
+}
+
 impl PartialEq for OwnEnergy {
     fn eq(&self, other: &Self) -> bool {
         match (&self.text, &other.text) {
             (Some(text), Some(other)) => text == other,
-            (None, None) => self.planar == other.planar && self.spatial == other.spatial,
+            (None, None) => {
+                same(&self.planar, &other.planar) && same(&self.spatial, &other.spatial)
+            }
             _ => false,
         }
     }
 }
 
-/// Serializes the text; a closure cannot be serialized.
+/// Returns whether two densities are one, or are missing for the same reason.
+fn same<T: ?Sized>(a: &Result<Arc<T>, FormulaError>, b: &Result<Arc<T>, FormulaError>) -> bool {
+    match (a, b) {
+        (Ok(a), Ok(b)) => Arc::ptr_eq(a, b),
+        (Err(a), Err(b)) => a == b,
+        _ => false,
+    }
+}
+
+/// Serializes the text; a density cannot be serialized.
 impl Serialize for OwnEnergy {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match &self.text {
             Some(text) => serializer.serialize_str(text),
-            None => Err(S::Error::custom("a closure cannot be written")),
+            None => Err(S::Error::custom("a density cannot be written")),
         }
     }
 }

@@ -331,25 +331,25 @@ pub enum FormulaError {
         last: usize,
     },
     /// ψ is not finite at the identity.
-    #[error("the formula is not finite at the identity: it is {value}")]
+    #[error("the energy is not finite at the identity: it is {value}")]
     NotFinite {
         /// Value at the identity.
         value: f64,
     },
     /// ψ has no first or second derivatives at the identity.
-    #[error("the formula is not smooth at the identity: it has no second derivatives there")]
+    #[error("the energy is not smooth at the identity: it has no second derivatives there")]
     NotSmooth,
     /// ψ changes when singular values are exchanged.
-    #[error("the formula is not symmetric: it changes when singular values are exchanged")]
+    #[error("the energy is not symmetric: it changes when singular values are exchanged")]
     NotSymmetric,
     /// ψ is smaller at some singular values near the identity than at the identity.
-    #[error("the formula is not minimal at the identity: it is less at singular values {at:?}")]
+    #[error("the energy is not minimal at the identity: it is less at singular values {at:?}")]
     NotMinimal {
         /// Singular values at which ψ is smaller.
         at: Vec<f64>,
     },
-    /// A closure was given for the other dimension only.
-    #[error("there is no formula of {dim} singular values")]
+    /// A density was given for the other dimension only.
+    #[error("there is no energy of {dim} singular values")]
     OtherDimension {
         /// Number of singular values.
         dim: usize,
