@@ -5,6 +5,7 @@ use std::sync::Arc;
 use unwrapd_api::options::{options, within};
 use unwrapd_layout::atlas::{Rotation, Texture};
 use unwrapd_layout::charts::{Bound, Bounded, Cut, Quality, Symmetry};
+use unwrapd_maps::embed;
 use unwrapd_maps::mesh::Resolution;
 use unwrapd_method::barrier::BarrierKind;
 use unwrapd_method::energy::{Density, DensityKind};
@@ -204,8 +205,9 @@ options! {
         /// Barrier that keeps every triangle from inverting. With none, for comparison, flipped
         /// triangles are written and the result is not certified.
         pub barrier: BarrierKind = BarrierKind::InverseSpline;
-        /// Barrier strength β. The default is 0.01, and 1e-8 for conformal energies (lscm, mips):
-        /// at their minimum triangles are far from the rest sizes that the barrier prefers.
+        /// Barrier strength β. The default is 0.01, for symmetric-dirichlet 0.02, and 1e-8 for
+        /// conformal energies (lscm, mips): at their minimum triangles are far from the rest sizes
+        /// that the barrier prefers.
         pub barrier_strength: Option<f64>, in 1e-9..=1e9, value "BETA";
         /// Support s of the inverse-spline barrier, relative to the rest area of an element.
         pub barrier_support: f64 = 1.0, in 1e-6..=1e6, value "S";
@@ -224,7 +226,18 @@ options! {
     }
 }
 
+/// β beside the symmetric Dirichlet energy: the paper's 0.01 is meant for energies that have half of its curvature.
+const SYMMETRIC_DIRICHLET_BETA: f64 = 0.02;
+
 impl Mapping {
+    /// Returns β: the one given, or that which fits the energy and its density.
+    pub(crate) fn beta(&self, density: &dyn Density<2>) -> f64 {
+        self.barrier_strength.unwrap_or(match self.energy {
+            DensityKind::SymmetricDirichlet => SYMMETRIC_DIRICHLET_BETA,
+            _ => embed::default_beta(density),
+        })
+    }
+
     /// Returns the energy of a triangle. The error names the option.
     pub(crate) fn density(&self) -> Result<Arc<dyn Density<2>>, String> {
         self.energy.planar().map_err(|error| {

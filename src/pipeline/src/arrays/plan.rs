@@ -154,7 +154,7 @@ fn embedding(mapping: &Mapping) -> Result<embed::Options, PipelineError> {
     let density = mapping.density().map_err(PipelineError::InvalidOptions)?;
     Ok(embed::Options {
         barrier: mapping.barrier,
-        beta: (mapping.barrier_strength).unwrap_or_else(|| embed::default_beta(&*density)),
+        beta: mapping.beta(&*density),
         s: mapping.barrier_support,
         barrier_continuation: mapping.barrier_continuation,
         density,
