@@ -74,79 +74,40 @@ impl FoldedMesh {
             let vertices = planar(&mesh.vertices)?;
             let places = given.map(|given| planar(&given.vertices));
             let places = places.transpose()?;
-            Self::of_triangles(&vertices, &mesh.triangles, rest, places.as_deref())
+            Self::of(
+                &TRIANGLES,
+                &vertices,
+                &mesh.triangles,
+                rest,
+                places.as_deref(),
+            )
         } else {
             let places = given.map(|given| &*given.vertices);
-            Self::of_tetrahedra(&mesh.vertices, &mesh.tets, rest, places)
+            Self::of(&TETRAHEDRA, &mesh.vertices, &mesh.tets, rest, places)
         }
     }
 
-    fn of_triangles(
-        vertices: &[[f64; 2]],
-        triangles: &[[u32; 3]],
+    fn of<const D: usize, const N: usize>(
+        kind: &ElementKind<D, N>,
+        vertices: &[[f64; D]],
+        elements: &[[u32; N]],
         rest: RestOfFolded,
-        given: Option<&[[f64; 2]]>,
+        given: Option<&[[f64; D]]>,
     ) -> Result<Self, ProblemError> {
-        validate(vertices, triangles, "triangles")?;
+        validate(vertices, elements, kind.noun)?;
         let places = given.unwrap_or(vertices);
-        let corners = |t: &[u32; 3]| t.map(|v| places[v as usize]);
-        let wound = Wound::new(triangles, |t| {
-            let [a, b, c] = corners(t);
-            0.5 * doubled_area(a, b, c)
-        })?;
-        let present = |t: &[u32; 3]| {
-            let [a, b, c] = corners(t);
-            RestShape::from_edges(sub(b, a), sub(c, a))
-        };
-        let regular = RestShape::from_edges([1.0, 0.0], [0.5, 0.75_f64.sqrt()]);
+        let corners = |element: &[u32; N]| element.map(|v| places[v as usize]);
+        let present = |element: &[u32; N]| (kind.shape)(corners(element));
+        let wound = Wound::new(elements, |element| (kind.size)(corners(element)))?;
         let shapes = match given {
             Some(_) => wound.given_shapes(present)?,
-            None => wound.shapes(present, &regular, rest),
+            None => wound.shapes(present, &(kind.shape)(kind.regular), rest),
         };
         Ok(Self {
             turned: wound.turned,
             body: Body {
                 rest: vertices.as_flattened().to_vec(),
-                elements: BodyElements::Triangles {
-                    corners: wound.elements,
-                    rest: shapes,
-                },
-            },
-        })
-    }
-
-    fn of_tetrahedra(
-        vertices: &[[f64; 3]],
-        tets: &[[u32; 4]],
-        rest: RestOfFolded,
-        given: Option<&[[f64; 3]]>,
-    ) -> Result<Self, ProblemError> {
-        validate(vertices, tets, "tetrahedra")?;
-        let places = given.unwrap_or(vertices);
-        let present = |t: &[u32; 4]| RestShape::from_tetrahedron(t.map(|v| places[v as usize]));
-        let wound = Wound::new(tets, |t| {
-            let [a, b, c, d] = t.map(|v| places[v as usize]);
-            [b, c, d].map(|p| vec3::sub(p, a)).det() / 6.0
-        })?;
-        // Four corners of a cube, no two of them adjacent.
-        let regular = RestShape::from_tetrahedron([
-            [0.0, 0.0, 0.0],
-            [1.0, 1.0, 0.0],
-            [0.0, 1.0, 1.0],
-            [1.0, 0.0, 1.0],
-        ]);
-        let shapes = match given {
-            Some(_) => wound.given_shapes(present)?,
-            None => wound.shapes(present, &regular, rest),
-        };
-        Ok(Self {
-            turned: wound.turned,
-            body: Body {
-                rest: vertices.as_flattened().to_vec(),
-                elements: BodyElements::Tetrahedra {
-                    corners: wound.elements,
-                    rest: shapes,
-                },
+                elements: (kind.join)(wound.elements, shapes),
             },
         })
     }
@@ -259,6 +220,41 @@ fn planar(vertices: &[[f64; 3]]) -> Result<Vec<[f64; 2]>, ElementError> {
         None => Ok(vertices.iter().map(|p| [p[0], p[1]]).collect()),
     }
 }
+
+// Triangles and tetrahedra.
+
+/// Elements with N corners in D dimensions.
+struct ElementKind<const D: usize, const N: usize> {
+    noun: &'static str,
+    /// Signed size.
+    size: fn([[f64; D]; N]) -> f64,
+    shape: fn([[f64; D]; N]) -> RestShape<D>,
+    /// Corners of a regular element, of any size.
+    regular: [[f64; D]; N],
+    join: fn(Vec<[u32; N]>, Vec<RestShape<D>>) -> BodyElements,
+}
+
+const TRIANGLES: ElementKind<2, 3> = ElementKind {
+    noun: "triangles",
+    size: |[a, b, c]| 0.5 * doubled_area(a, b, c),
+    shape: |[a, b, c]| RestShape::from_edges(sub(b, a), sub(c, a)),
+    regular: [[0.0, 0.0], [1.0, 0.0], [0.5, 0.866_025_403_784_438_6]],
+    join: |corners, rest| BodyElements::Triangles { corners, rest },
+};
+
+const TETRAHEDRA: ElementKind<3, 4> = ElementKind {
+    noun: "tetrahedra",
+    size: |[a, b, c, d]| [b, c, d].map(|p| vec3::sub(p, a)).det() / 6.0,
+    shape: RestShape::from_tetrahedron,
+    // Four corners of a cube, no two of them adjacent.
+    regular: [
+        [0.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 1.0],
+        [1.0, 0.0, 1.0],
+    ],
+    join: |corners, rest| BodyElements::Tetrahedra { corners, rest },
+};
 
 // Elements wound alike.
 
