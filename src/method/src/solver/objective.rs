@@ -71,14 +71,13 @@ impl Objective {
         self.model.hold(vertices);
     }
 
-    /// Sets which rigid motions the fixed vertices leave; free ones unless set. Where they leave none, the Hessian needs
-    /// hardly any regularization, and thin bodies converge as fast as others. If it turns out to be singular all the
-    /// same, it is regularized from then on.
+    /// Sets which rigid motions the fixed vertices leave; free ones unless set. Where they leave none, the Hessian is not
+    /// regularized unless a factorization fails, and thin bodies converge as fast as others.
     pub fn set_rigid_motions(&mut self, motions: RigidMotions) {
         self.model.set_rigid_motions(motions);
     }
 
-    /// Regularizes the Hessian from the next [`linearize`](Self::linearize) on as if rigid motions were free; returns
+    /// Regularizes the Hessian of the next [`linearize`](Self::linearize) more than that of the last one; returns
     /// `false` if it is so already.
     pub(super) fn regularize(&mut self) -> bool {
         self.model.regularize()

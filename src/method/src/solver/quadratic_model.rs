@@ -32,11 +32,14 @@ pub(super) struct QuadraticModel {
 /// shift slows the softest modes, a smaller one leaves the rigid motions to rounding.
 const FREE_SHIFT: f64 = 1e-7;
 
-/// The shift where held vertices leave no rigid motion: about the rounding of the diagonal. Elements that are `a` times
-/// as long as high are `a`² times softer along than across, so a shift of 1e-7 would damp the steps of bodies with
-/// aspects of 1,000 and more: pulled by a fifth of its length, a sheet of aspect 10⁴ took over 5,000 iterations with
-/// 1e-7, 40 with 1e-10 and 3 with 1e-13; one of aspect 10⁶ takes 297 with 1e-13, and 11 with this.
-const HELD_SHIFT: f64 = 1e-15;
+/// The least shift after a factorization that failed although held vertices leave no rigid motion: several times the
+/// rounding of a diagonal entry. Until then there is none: elements that are `a` times as long as high are `a`² times
+/// softer along than across, so a shift damps the steps of thin bodies. A sheet of aspect 10⁶ that is bent
+/// (`tests/deform/thin.rs`) takes 15 iterations without one, 126 with 1e-15 and over 1,900 with 1e-13.
+const LEAST_SHIFT: f64 = 1e-15;
+
+/// Factor by which that shift grows with each failure, as the shift of the paper, and falls with each success.
+const SHIFT_STEP: f64 = 10.0;
 
 /// Rigid motions that the fixed vertices leave to a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -77,13 +80,23 @@ impl QuadraticModel {
     pub fn set_rigid_motions(&mut self, motions: RigidMotions) {
         self.least_shift = match motions {
             RigidMotions::Free => FREE_SHIFT,
-            RigidMotions::Held => HELD_SHIFT,
+            RigidMotions::Held => 0.0,
         };
     }
 
-    /// Regularizes as if rigid motions were free; returns `false` if it does so already.
+    /// Raises the shift after a factorization that failed, at most to that of free rigid motions; returns `false` if it
+    /// is there already.
     pub fn regularize(&mut self) -> bool {
-        std::mem::replace(&mut self.least_shift, FREE_SHIFT) < FREE_SHIFT
+        let raised = (SHIFT_STEP * self.least_shift).clamp(LEAST_SHIFT, FREE_SHIFT);
+        std::mem::replace(&mut self.least_shift, raised) < FREE_SHIFT
+    }
+
+    /// Lowers a shift that was raised.
+    fn lower_shift(&mut self) {
+        if self.least_shift < FREE_SHIFT {
+            let lowered = self.least_shift / SHIFT_STEP;
+            self.least_shift = if lowered < LEAST_SHIFT { 0.0 } else { lowered };
+        }
     }
 
     /// Replaces the pattern by another one with the same number of unknowns and zeros as values. The last factorization
@@ -192,6 +205,9 @@ impl QuadraticModel {
         let (system, _, hessian) = self.prepare();
         let factored = system.prepare(hessian);
         self.is_factored = factored.is_ok();
+        if self.is_factored {
+            self.lower_shift();
+        }
         factored
     }
 
