@@ -214,7 +214,7 @@ async fn a_worker_stops_while_the_database_is_down() {
     let mut cluster = Cluster::start();
     let api = cluster.api();
     let mut worker = cluster.worker();
-    let job = api.submit(meshes::hills(250), "cut=disk").await;
+    let job = api.submit(meshes::hills(400), "cut=disk").await;
     api.mapping(&job).await;
     cluster.postgres.kill();
     worker.signal(Signal::SIGTERM);
