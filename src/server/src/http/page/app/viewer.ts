@@ -19,7 +19,7 @@ import { analyzed } from "./analyst";
 import { byId } from "./dom";
 import { Pointing } from "./pointing";
 import { type Facts, type Source, uvsOf } from "./source";
-import type { Store } from "./store";
+import { modelOfJob, type Store } from "./store";
 
 /** Shows files in both views. */
 export class Viewer {
@@ -180,8 +180,9 @@ export class Viewer {
     const camera = stage.solid.isMoved ? stage.solid.place : null;
     const plane = stage.plane.isMoved ? stage.plane.place : null;
     if (camera || plane) this.store.remember(this.#seen, { camera, plane });
-    // The address names no chosen file, so a camera in it would look at another one.
-    if (this.store.job) this.store.go({ camera, plane });
+    // The address names no chosen file, so a camera in it would look at another one. A job may be open that is not seen yet.
+    const { job } = this.store;
+    if (job && modelOfJob(job) === this.#seen) this.store.go({ camera, plane });
   }
 
   #take({ source, set, texture }: Facts, loaded: Loaded, analysis: Analysis): void {
