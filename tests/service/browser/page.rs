@@ -88,7 +88,7 @@ async fn a_job_that_a_worker_runs_says_so() {
     let cluster = Cluster::with_lease("60");
     let service = cluster.api();
     let _worker = cluster.worker();
-    let job = service.submit(meshes::large(), "cut=disk").await;
+    let job = service.submit(meshes::hills(800), "cut=disk").await;
     scenario("elsewhere", with_job(&service, &job), &[]).await;
 }
 
