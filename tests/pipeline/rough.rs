@@ -40,7 +40,7 @@ fn only_noise_is_smoothed() {
     for mesh in [
         zoo::grid(24, 24),
         zoo::voxels(&[[0; 3]]),
-        // Smoothing takes all of its curvature, but none of it cancels.
+        // Smoothing flattens it, but its curvature does not cancel.
         zoo::cone(32),
         zoo::sphere(20, 30),
         noisy_sheet(0.05),

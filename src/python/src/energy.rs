@@ -9,8 +9,8 @@ use pyo3::prelude::*;
 use unwrapd::deform::ProblemError;
 use unwrapd::energy::{Batched, DensityBatch, DensityKind, EnergyKind, FormulaError, OwnEnergy};
 
-/// Three functions of singular values (n, D), each of which returns n items as one flat array: ψ, its gradient and its
-/// Hessian. The package checks their shapes and numbers.
+/// ψ, its gradient and its Hessian as functions of the singular values (n, D). Each returns its n items as one flat array.
+/// The package checks their shapes and numbers.
 #[derive(FromPyObject)]
 pub struct Functions(Py<PyAny>, Py<PyAny>, Py<PyAny>);
 

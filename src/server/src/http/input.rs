@@ -35,7 +35,7 @@ struct FromJob {
     file: Option<JobFile>,
 }
 
-/// What is taken of a job if the query names only the job.
+/// Kind and files of a computation whose query names only the job.
 pub(super) struct Defaults {
     pub kind: Kind,
     pub file: JobFile,

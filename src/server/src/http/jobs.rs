@@ -23,7 +23,7 @@ use crate::jobs::{
 use crate::webhooks;
 use unwrapd_api::Kind;
 
-/// What a new job takes of an earlier one unless the query says otherwise.
+/// A job unwraps the input of the job that its query names, unless the query says otherwise.
 const DEFAULTS: Defaults = Defaults {
     kind: Kind::Unwrap,
     file: JobFile::Input,

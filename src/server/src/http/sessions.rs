@@ -96,7 +96,7 @@ fn view(app: &App, session: &OpenSession) -> SessionView {
     }
 }
 
-/// What a session takes of a job unless the query says otherwise: the UVs that it made, to be edited.
+/// A session edits the UVs that the job of its query made, unless the query says otherwise.
 const DEFAULTS: Defaults = Defaults {
     kind: Kind::EditUv,
     file: JobFile::Result,

@@ -10,8 +10,8 @@ use unwrapd_maps::mesh::{CUT, UnionFind};
 use unwrapd_method::solver::Watch;
 
 /// A push helps if it leaves at most this share of the overlapping pairs; at the first that does not a fold is given up. Allowing two
-/// or three such pushes changes no layout by more than 1 % but five of 29, in both directions, and takes up to 1.3 times the time
-/// of the search (`cargo bench --bench search`).
+/// or three such pushes changes seams and charts by more than 1 % on five of 29 meshes, in both directions, and takes up to 1.3 times
+/// the time of the search (`cargo bench --bench search`).
 const HELPS: f64 = 0.9;
 
 /// The most folds to push apart: a chart with more is cut anyway.
@@ -136,7 +136,7 @@ impl<'a> Pushing<'a> {
         embed::is_positive(&self.local.chart.disk.triangles, &pushed).then_some(pushed)
     }
 
-    /// Pushes until none of the pairs of a fold is left, and no new one is there; or changes nothing and returns false.
+    /// Pushes the pairs of a fold apart without making new ones. Returns whether that succeeds; otherwise the map is unchanged.
     fn push_apart(&mut self, mut fold: Vec<[u32; 2]>) -> bool {
         let mut others: Option<BTreeSet<[u32; 2]>> = None;
         let before = self.uv.clone();
