@@ -27,24 +27,47 @@ fn settings(cut: Cut) -> Settings {
 }
 
 #[test]
-fn no_chart_mixes_windings() {
+fn faces_wound_against_their_neighbors_change_no_seam() {
     for mesh in [zoo::grid(8, 8), zoo::sphere(8, 12), zoo::torus(12, 8)] {
-        for every in [2, 3, 7] {
-            let mut mesh = mesh.clone();
-            for triangle in mesh.triangles.iter_mut().step_by(every) {
-                triangle.swap(1, 2);
-            }
-            let positions: Vec<[f64; 3]> =
-                mesh.positions.iter().map(|p| p.map(f64::from)).collect();
-            for cut in [Cut::Auto, Cut::Disk, Cut::Fast] {
-                let unwrapped =
-                    unwrap(&positions, &mesh.triangles, &settings(cut), &Unobserved).unwrap();
-                for [a, b, c] in unwrapped.corner_uvs() {
+        let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|p| p.map(f64::from)).collect();
+        for cut in [Cut::Auto, Cut::Disk, Cut::Fast] {
+            let unwrap = |triangles: &[[u32; 3]]| {
+                unwrap(&positions, triangles, &settings(cut), &Unobserved).unwrap()
+            };
+            let consistent = unwrap(&mesh.triangles);
+            for every in [3, 7] {
+                let mut triangles = mesh.triangles.clone();
+                for triangle in triangles.iter_mut().step_by(every) {
+                    triangle.swap(1, 2);
+                }
+                let mixed = unwrap(&triangles);
+                assert_eq!(
+                    mixed.charts.len(),
+                    consistent.charts.len(),
+                    "{cut:?} {}",
+                    mesh.name
+                );
+                for (face, [a, b, c]) in mixed.corner_uvs().into_iter().enumerate() {
                     let doubled = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-                    assert!(doubled > 0.0, "{cut:?} {}", mesh.name);
+                    assert_eq!(doubled < 0.0, face % every == 0, "{cut:?} {}", mesh.name);
                 }
             }
         }
+    }
+}
+
+#[test]
+fn a_chart_wound_one_way_as_much_as_the_other_is_cut_between_them() {
+    let mesh = zoo::grid(8, 8);
+    let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|p| p.map(f64::from)).collect();
+    let mut triangles = mesh.triangles.clone();
+    for triangle in &mut triangles[64..] {
+        triangle.swap(1, 2);
+    }
+    let mixed = unwrap(&positions, &triangles, &settings(Cut::Auto), &Unobserved).unwrap();
+    assert_eq!(mixed.charts.len(), 2);
+    for [a, b, c] in mixed.corner_uvs() {
+        assert!((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0);
     }
 }
 

@@ -16,6 +16,10 @@ use unwrapd_method::solver::{Control, Iterate, Summary};
 /// Triangles of a part of a chart from which on it stays as it lies: what little it gains from being minimized again takes seconds.
 const RELAXED: usize = 60_000;
 
+/// Least difference between the areas wound either way, as a share of a chart's area, that rounding cannot turn round: coordinates
+/// are rounded to at least 12 bits, which changes areas by some thousandths.
+const FRONT: f64 = 0.01;
+
 /// A chart, its map and how long the map took.
 #[derive(Clone, Debug)]
 pub struct MappedChart {
@@ -302,7 +306,35 @@ impl MappedChart {
     /// Charts are wound as most of their area is in space. Where that is a tie, as in a wall modeled from both sides, the
     /// map decides.
     pub(crate) fn facing_front(mut self) -> Self {
-        let area = |(t, triangle): (usize, &[u32; 3])| {
+        if self.area_by_winding().iter().sum::<f64>() < 0.0 {
+            self.chart.turn_over();
+            for p in &mut self.embedding.uv {
+                p[0] = -p[0];
+            }
+        }
+        self
+    }
+
+    /// Cuts the chart where its winding changes if as much of its area is wound one way as the other: rounding would decide
+    /// from which side it is seen.
+    pub fn parted_without_front(self) -> Vec<Self> {
+        let area = self.area_by_winding();
+        let total: f64 = area.iter().map(|area| area.abs()).sum();
+        if area.iter().sum::<f64>().abs() >= FRONT * total {
+            return vec![self];
+        }
+        let is_front: Vec<bool> = area.iter().map(|&area| area > 0.0).collect();
+        let twin = parted(&self.chart.disk.twins(), &is_front);
+        parts(&self.chart, &twin)
+            .into_iter()
+            .map(|(chart, faces)| self.restricted(chart, &faces).facing_front())
+            .collect()
+    }
+
+    /// Returns twice the area of each triangle in the plane, negative where the surface winds it the other way.
+    fn area_by_winding(&self) -> Vec<f64> {
+        let triangles = self.chart.disk.triangles.iter().enumerate();
+        let doubled = triangles.map(|(t, triangle)| {
             let [a, b, c] = triangle.map(|v| self.embedding.uv[v as usize]);
             let doubled = doubled_area(a, b, c);
             if self.chart.is_wound_as_surface(t) {
@@ -310,15 +342,8 @@ impl MappedChart {
             } else {
                 -doubled
             }
-        };
-        let facing: f64 = self.chart.disk.triangles.iter().enumerate().map(area).sum();
-        if facing < 0.0 {
-            self.chart.turn_over();
-            for p in &mut self.embedding.uv {
-                p[0] = -p[0];
-            }
-        }
-        self
+        });
+        doubled.collect()
     }
 }
 

@@ -95,18 +95,6 @@ impl Surface {
         self.is_cut = true;
     }
 
-    /// Cuts the surface along the edges at which its winding changes, so that each piece has one front. A chart across
-    /// such an edge would show a texture mirrored on one side of it.
-    pub fn cut_where_winding_changes(&mut self) {
-        let triangles = &self.triangles;
-        let is_change = |h: u32, t: u32| same_direction(triangles, h, t);
-        let twin = &self.adjacency.twin;
-        let mut glued = (0..).zip(twin).filter(|(_, t)| **t != CUT);
-        if glued.any(|(h, &t)| is_change(h, t)) {
-            self.adjacency.cut(triangles, is_change);
-        }
-    }
-
     /// Returns whether it was cut along given edges.
     pub fn is_cut(&self) -> bool {
         self.is_cut

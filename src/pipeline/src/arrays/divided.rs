@@ -12,7 +12,7 @@ use super::settings::Settings;
 use super::soup::{Piece, Soup};
 use crate::PipelineError;
 use crate::tracker::Tracker;
-use unwrapd_layout::charts::MappedChart;
+use unwrapd_layout::charts::{Cut, MappedChart};
 use unwrapd_maps::mesh::{Defects, Surface, canonical_order};
 
 /// Largest difference of a size from 1 if a density is given.
@@ -33,13 +33,7 @@ impl<'a> Divided<'a> {
         let is_one = plan.most_charts.is_some();
         let pieces: Vec<Vec<Piece>> = meshes
             .par_iter()
-            .map(|mesh| {
-                if is_one {
-                    mesh.whole()
-                } else {
-                    mesh.pieces(plan)
-                }
-            })
+            .map(|mesh| if is_one { mesh.whole() } else { mesh.pieces() })
             .collect::<Result<_, _>>()?;
         let mut next = 0;
         let of_mesh = pieces.iter().map(|of_mesh| {
@@ -50,7 +44,7 @@ impl<'a> Divided<'a> {
         let pieces: Vec<Piece> = pieces.into_iter().flatten().collect();
         let surfaces: Vec<Surface> = pieces
             .par_iter()
-            .map(|piece| piece.surface(plan))
+            .map(Piece::surface)
             .collect::<Result<_, _>>()?;
         if surfaces.iter().all(|surface| surface.triangles.is_empty()) {
             return Err(match meshes.iter().map(|mesh| mesh.triangles.len()).sum() {
@@ -126,7 +120,12 @@ impl<'a> Divided<'a> {
             {
                 *corner = 3 * order[*corner as usize / 3] + *corner % 3;
             }
-            mapped[piece] = charts;
+            mapped[piece] = match plan.cut {
+                Cut::Keep => charts,
+                _ => (charts.into_iter())
+                    .flat_map(MappedChart::parted_without_front)
+                    .collect(),
+            };
         }
         mapped
     }

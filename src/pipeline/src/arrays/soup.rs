@@ -7,11 +7,9 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::alike::alike;
-use super::plan::Plan;
 use super::position_key::{PositionKey, position_key};
 use super::seams::Seams;
 use crate::PipelineError;
-use unwrapd_layout::charts::Cut;
 use unwrapd_maps::mesh::Surface;
 
 /// A mesh as arrays.
@@ -47,13 +45,10 @@ pub struct Piece<'a> {
 }
 
 impl Piece<'_> {
-    /// Returns the surface, cut along its seams, and where its winding changes unless the present charts are kept.
-    pub fn surface(&self, plan: &Plan) -> Result<Surface, PipelineError> {
+    /// Returns the surface, cut along its seams.
+    pub fn surface(&self) -> Result<Surface, PipelineError> {
         let mut surface = Surface::new(&self.positions, &self.triangles)?;
         self.seams.cut(&mut surface, &self.positions);
-        if plan.cut != Cut::Keep {
-            surface.cut_where_winding_changes();
-        }
         Ok(surface)
     }
 
@@ -84,9 +79,9 @@ impl<'a> Soup<'a> {
     ///
     /// A part that touches another one, except for exact copies in the same place, may belong to it and stays with
     /// the others.
-    pub fn pieces(&self, plan: &Plan) -> Result<Vec<Piece<'a>>, PipelineError> {
+    pub fn pieces(&self) -> Result<Vec<Piece<'a>>, PipelineError> {
         self.seams.check(self.positions, self.triangles)?;
-        let repeated: Vec<&Part> = self.repeated_parts(plan);
+        let repeated: Vec<&Part> = self.repeated_parts();
         if repeated.is_empty() {
             return self.whole();
         }
@@ -124,7 +119,7 @@ impl<'a> Soup<'a> {
         }
     }
 
-    fn repeated_parts(&self, plan: &Plan) -> Vec<&'a Part> {
+    fn repeated_parts(&self) -> Vec<&'a Part> {
         let mut of_size: HashMap<_, usize> = HashMap::new();
         for part in self.parts {
             *of_size.entry(part.size()).or_default() += 1;
@@ -136,7 +131,7 @@ impl<'a> Soup<'a> {
         let surfaces: Vec<(&Part, Piece, Surface)> = (candidates.into_par_iter())
             .filter_map(|part| {
                 let piece = self.piece(part);
-                let surface = piece.surface(plan).ok()?;
+                let surface = piece.surface().ok()?;
                 Some((part, piece, surface))
             })
             .collect();

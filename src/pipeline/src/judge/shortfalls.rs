@@ -15,7 +15,7 @@ use unwrapd_maps::certificate::{Certificate, Overlap, PaddingVerdict, chart_ids}
 /// Maximum number of warnings per code; the last one counts the rest.
 const MOST_OF_A_CODE: usize = 8;
 
-/// Returns warnings about everything that prevents certification, and about missed bounds.
+/// Returns warnings about everything that prevents certification, missed bounds and faces wound against their chart.
 pub fn shortfalls(groups: &[(&GroupUvs, &GroupReport)]) -> Vec<Warning> {
     let found = groups.iter().flat_map(|(uvs, report)| {
         let name = &uvs.label;
@@ -27,9 +27,28 @@ pub fn shortfalls(groups: &[(&GroupUvs, &GroupReport)]) -> Vec<Warning> {
             .and_then(BoundReport::caveat)
             .map(|caveat| Warning::new("rough_surface", format!("{name}: {caveat}")));
         let unproven = of_certificate(uvs, &report.certificate, Mirrored::Refused);
-        unproven.into_iter().chain(distorted).chain(rough)
+        let caveats = distorted.into_iter().chain(rough);
+        let caveats = caveats.chain(mixed_winding(name, report));
+        unproven.into_iter().chain(caveats)
     });
     limited(found)
+}
+
+/// Warns of charts whose faces the file winds in both directions.
+fn mixed_winding(name: &str, report: &GroupReport) -> Option<Warning> {
+    let mixed = report.measures.validity.winding_inconsistent_faces > 0;
+    let edges = report
+        .defects
+        .as_ref()
+        .filter(|_| mixed)?
+        .inconsistent_edges;
+    Some(Warning::new(
+        "mixed_winding",
+        format!(
+            "{name}: the winding of faces changes at {}; a chart across one shows its texture mirrored on the fronts of one side",
+            count(edges, "edge")
+        ),
+    ))
 }
 
 /// Returns warnings about everything that prevents the certification of UVs.
