@@ -1,6 +1,6 @@
 //! Exact orientation, convex hulls, random numbers.
 
-use unwrapd_method::numerics::hull::convex_hull;
+use unwrapd_method::numerics::hull::{convex_hull, smallest_page};
 use unwrapd_method::numerics::predicates::orient2d_sign;
 use unwrapd_method::numerics::random::Random;
 use unwrapd_method::numerics::support::{Directions, Support};
@@ -34,6 +34,38 @@ fn a_hull_has_the_outer_corners_only() {
     let hull = convex_hull(corners.into_iter().chain(inner));
     assert_eq!(hull, corners);
     assert_eq!(convex_hull([[1.0, 2.0], [1.0, 2.0]]).len(), 0);
+}
+
+#[test]
+fn the_smallest_page_is_found_at_any_angle() {
+    let turned = |corners: &[[f64; 2]], angle: f64| {
+        let (sin, cos) = f64::sin_cos(angle);
+        let turned = corners
+            .iter()
+            .map(|[x, y]| [cos * x - sin * y, sin * x + cos * y]);
+        convex_hull(turned)
+    };
+    let rectangle = |w: f64, h: f64| [[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]];
+    for angle in [0.0, 0.1, 0.7, 1.4, 2.9] {
+        let page = |corners: &[[f64; 2]], aspect| smallest_page(&turned(corners, angle), aspect);
+        let cases = [
+            // A square has itself around it, a page of its own shape too.
+            (page(&rectangle(1.0, 1.0), 1.0), 1.0),
+            (page(&rectangle(2.0, 1.0), 2.0), 2.0),
+            (page(&rectangle(1.0, 2.0), 2.0), 2.0),
+            // A strip lies on the diagonal.
+            (page(&rectangle(10.0, 0.1), 1.0), 10.1_f64.powi(2) / 2.0),
+            // A regular triangle leans in its square by 15 degrees.
+            (
+                page(&[[0.0, 0.0], [1.0, 0.0], [0.5, 0.75_f64.sqrt()]], 1.0),
+                (std::f64::consts::PI / 12.0).cos().powi(2),
+            ),
+        ];
+        for (found, expected) in cases {
+            assert!((found - expected).abs() < 1e-12, "{found} for {expected}");
+        }
+    }
+    assert_eq!(smallest_page(&[], 1.0), 0.0);
 }
 
 #[test]

@@ -79,24 +79,23 @@ impl Adjacency {
         self.turned = consistent_winding(triangles, &self.twin);
     }
 
-    /// Returns the adjacency for faces in another order.
+    /// Returns the adjacency for faces and corners in another order: face `k` begins with halfedge `order[k]`.
     pub(super) fn reordered(&self, order: &[u32]) -> Self {
-        let mut place = vec![0; order.len()];
-        for (new, &old) in (0u32..).zip(order) {
+        let halfedges = || order.iter().flat_map(|&h| [h, next(h), next(next(h))]);
+        let mut place = vec![0; self.twin.len()];
+        for (new, old) in (0u32..).zip(halfedges()) {
             place[old as usize] = new;
         }
         let anew = |t: u32| match t {
             CUT => CUT,
-            t => 3 * place[t as usize / 3] + t % 3,
+            t => place[t as usize],
         };
+        let faces: Vec<u32> = order.iter().map(|h| h / 3).collect();
         Self {
-            twin: order
-                .iter()
-                .flat_map(|f: &u32| [0, 1, 2].map(|c| anew(self.twin[3 * *f as usize + c])))
-                .collect(),
-            turned: order.iter().map(|&f| self.turned[f as usize]).collect(),
-            piece: relabeled(&self.piece, self.n_pieces, order),
-            component: relabeled(&self.component, self.n_components, order),
+            twin: halfedges().map(|h| anew(self.twin[h as usize])).collect(),
+            turned: faces.iter().map(|&f| self.turned[f as usize]).collect(),
+            piece: relabeled(&self.piece, self.n_pieces, &faces),
+            component: relabeled(&self.component, self.n_components, &faces),
             ..*self
         }
     }

@@ -4,8 +4,10 @@ use super::adjacency::copy_ranks;
 use super::edges::Edges;
 use super::{Adjacency, CUT, UnionFind, next, origin, same_direction};
 use serde::Serialize;
+use std::cmp::Ordering;
 use std::collections::{HashMap, VecDeque};
 use unwrapd_method::numerics::principal_axes::PrincipalAxes;
+use unwrapd_method::numerics::ties::tied;
 use unwrapd_method::numerics::vec3::{add_scaled, area_vector, cross, distance, dot, norm, sub};
 
 /// Triangles over distinct positions, with their defects counted.
@@ -18,6 +20,8 @@ pub struct Surface {
     pub triangles: Vec<[u32; 3]>,
     /// For each triangle its face in the input; increasing until the surface is reordered.
     pub faces: Vec<u32>,
+    /// For each triangle the corner of that face that it begins with; 0 until the surface is reordered.
+    begins_with: Vec<u8>,
     /// Defects of the input's faces.
     pub defects: Defects,
     adjacency: Adjacency,
@@ -81,6 +85,7 @@ impl Surface {
         Ok(Self {
             positions: distinct,
             triangles: kept,
+            begins_with: vec![0; faces.len()],
             faces,
             defects,
             adjacency,
@@ -100,7 +105,8 @@ impl Surface {
         self.is_cut
     }
 
-    /// Permutes the triangles by `order`, in which each occurs once, and renumbers vertices by their first use.
+    /// Permutes the triangles and their corners: triangle `k` begins with halfedge `order[k]`, and each triangle has one halfedge in
+    /// `order`. Vertices are renumbered by their first use.
     #[must_use]
     pub fn reordered(&self, order: &[u32]) -> Self {
         let mut number = vec![u32::MAX; self.positions.len()];
@@ -112,17 +118,31 @@ impl Surface {
             }
             number[v as usize]
         };
-        let triangles = order
-            .iter()
-            .map(|&t| self.triangles[t as usize].map(&mut numbered));
+        let triangles = order.iter().map(|&h| {
+            // Number the vertices alike whatever the winding.
+            for h in self.wound_alike(h) {
+                numbered(self.begin(h));
+            }
+            sides(h).map(|h| numbered(origin(&self.triangles, h)))
+        });
         Self {
             triangles: triangles.collect(),
-            faces: order.iter().map(|&t| self.faces[t as usize]).collect(),
+            faces: order.iter().map(|&h| self.faces[h as usize / 3]).collect(),
+            begins_with: (order.iter())
+                .map(|&h| (self.begins_with[h as usize / 3] + (h % 3) as u8) % 3)
+                .collect(),
             positions,
             defects: self.defects,
             adjacency: self.adjacency.reordered(order),
             is_cut: self.is_cut,
         }
+    }
+
+    /// Returns face and corner in the input of corner `3 t + k`, corner k of triangle t.
+    pub fn input_corner(&self, corner: u32) -> [u32; 2] {
+        let triangle = corner as usize / 3;
+        let k = (u32::from(self.begins_with[triangle]) + corner % 3) % 3;
+        [self.faces[triangle], k]
     }
 
     /// Returns the gluing of triangles.
@@ -350,60 +370,202 @@ fn across_fan(triangles: &[[u32; 3]], twin: &[u32], h: u32, vertex: u32) -> u32 
 
 // Canonical order of a surface's triangles, derived from its shape.
 
-/// Direction in which an order begins, in coordinates along the principal axes: far out along the longest. The others
-/// decide between mirror images.
+/// Direction that decides where an order begins among places that the shape does not tell apart, in coordinates along the
+/// principal axes.
 const BEGINNING: [f64; 3] = [1.0, 0.37, 0.61];
 
-/// Returns the triangles of a surface in canonical order: independent of the order of triangles and vertices in the
-/// input and of translation, rotation and scale, up to rounding and symmetry.
+/// Faces that are compared to tell places apart, over all faces. Those of a surface that is its own image under many motions are
+/// alike to the end, and any of them will do.
+const COMPARED: usize = 8;
+
+/// Returns the triangles of a surface in canonical order, each as the halfedge that it begins with: independent of the order of
+/// triangles, their corners and vertices in the input, and of translation, rotation and scale, up to symmetry. Lengths count
+/// [rounded](tied), so that rounding decides nothing where shapes are alike.
 ///
 /// The piece with the most triangles comes first. In each piece the triangles are traversed breadth first, from a
 /// halfedge that its shape singles out.
 pub fn canonical_order(surface: &Surface) -> Vec<u32> {
-    let n = surface.triangles.len();
-    let twin = &surface.adjacency().twin;
-    let mut is_reached = vec![false; n];
-    let mut order = Vec::with_capacity(n);
-    let mut open = VecDeque::new();
+    let mut walk = Walk::new(surface);
+    let mut order = Vec::with_capacity(surface.triangles.len());
     for first in beginnings(surface) {
-        is_reached[first as usize / 3] = true;
-        open.push_back(first);
-        while let Some(h) = open.pop_front() {
-            order.push(h / 3);
-            for t in [h, next(h), next(next(h))].map(|h| twin[h as usize]) {
-                if t != CUT && !std::mem::replace(&mut is_reached[t as usize / 3], true) {
-                    open.push_back(t);
-                }
-            }
-        }
+        walk.begin(first);
+        order.extend(walk.by_ref());
     }
     order
 }
 
-/// Returns for each piece the halfedge to begin at: the one that starts farthest along [`BEGINNING`] and, among equals,
-/// ends farthest.
+/// Breadth-first walk over the triangles of a piece.
+struct Walk<'a> {
+    surface: &'a Surface,
+    /// For each triangle the last walk that reached it.
+    reached: Vec<u32>,
+    number: u32,
+    open: VecDeque<u32>,
+}
+
+impl<'a> Walk<'a> {
+    fn new(surface: &'a Surface) -> Self {
+        Self {
+            surface,
+            reached: vec![0; surface.triangles.len()],
+            number: 0,
+            open: VecDeque::new(),
+        }
+    }
+
+    /// Begins a new walk at a halfedge.
+    fn begin(&mut self, first: u32) {
+        self.number += 1;
+        self.open.clear();
+        self.reached[first as usize / 3] = self.number;
+        self.open.push_back(first);
+    }
+}
+
+impl Iterator for Walk<'_> {
+    type Item = u32;
+
+    /// Returns the next triangle as the halfedge across which it was reached.
+    fn next(&mut self) -> Option<u32> {
+        let h = self.open.pop_front()?;
+        for t in (self.surface.wound_alike(h)).map(|h| self.surface.adjacency.twin[h as usize]) {
+            if t != CUT && self.reached[t as usize / 3] != self.number {
+                self.reached[t as usize / 3] = self.number;
+                self.open.push_back(t);
+            }
+        }
+        Some(h)
+    }
+}
+
+/// Returns the halfedges of a triangle, from one of them on.
+fn sides(h: u32) -> [u32; 3] {
+    [h, next(h), next(next(h))]
+}
+
+impl Surface {
+    /// Returns the halfedges of a triangle from one of them on, in the winding that its piece has in common.
+    fn wound_alike(&self, h: u32) -> [u32; 3] {
+        let [h, next, last] = sides(h);
+        if self.adjacency.turned[h as usize / 3] {
+            [h, last, next]
+        } else {
+            [h, next, last]
+        }
+    }
+
+    /// Returns the vertex at which a halfedge begins in the winding that its piece has in common.
+    fn begin(&self, h: u32) -> u32 {
+        let is_turned = self.adjacency.turned[h as usize / 3];
+        origin(&self.triangles, if is_turned { next(h) } else { h })
+    }
+}
+
+/// Returns for each piece the halfedge to begin at. It starts as far from the center of the surface as any, and among those of
+/// this kind it ends farthest; among these the walk with the longest edges at first begins there.
 fn beginnings(surface: &Surface) -> Vec<u32> {
+    let unit = total_area(surface).sqrt().max(f64::MIN_POSITIVE);
+    let reach = reaches(surface, unit);
     let height = heights(surface);
-    let key = |h: u32| [h, next(h)].map(|h| height[origin(&surface.triangles, h) as usize]);
-    let higher = |a: [f64; 2], b: [f64; 2]| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]));
+    let key = |h: u32| (surface.wound_alike(h)).map(|h| reach[surface.begin(h) as usize]);
+    let by_key = |a: u32, b: u32| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal);
+    let by_height = |a: u32, b: u32| {
+        let heights = |h: u32| (surface.wound_alike(h)).map(|h| height[surface.begin(h) as usize]);
+        let order = heights(a).partial_cmp(&heights(b));
+        order.unwrap_or(Ordering::Equal)
+    };
+    // Collect the halfedges of each piece whose ends are farthest out.
     let adjacency = surface.adjacency();
-    let mut first: Vec<Option<u32>> = vec![None; adjacency.n_pieces];
+    let mut farthest: Vec<Vec<u32>> = vec![Vec::new(); adjacency.n_pieces];
     let mut n_triangles = vec![0_u32; adjacency.n_pieces];
     for (triangle, &piece) in (0u32..).zip(&adjacency.piece) {
         n_triangles[piece as usize] += 1;
-        for h in 3 * triangle..3 * triangle + 3 {
-            let highest = &mut first[piece as usize];
-            if highest.is_none_or(|known| higher(key(h), key(known)).is_gt()) {
-                *highest = Some(h);
+        let all = &mut farthest[piece as usize];
+        for h in sides(3 * triangle) {
+            let order = all
+                .first()
+                .map_or(Ordering::Greater, |&known| by_key(h, known));
+            if order.is_gt() {
+                all.clear();
+            }
+            if order.is_ge() {
+                all.push(h);
             }
         }
     }
-    let mut pieces: Vec<(u32, u32)> = n_triangles
-        .into_iter()
-        .zip(first.into_iter().flatten())
-        .collect();
-    pieces.sort_by(|a, b| b.0.cmp(&a.0).then_with(|| higher(key(b.1), key(a.1))));
+    // Tell them apart by the edges that a walk meets.
+    let mut walks = [0, 1].map(|_| Walk::new(surface));
+    let mut most = COMPARED * surface.triangles.len();
+    let mut pieces: Vec<(u32, u32)> = Vec::with_capacity(farthest.len());
+    for (mut all, n) in farthest.into_iter().zip(n_triangles) {
+        all.sort_by(|&a, &b| by_height(b, a));
+        let mut all = all.into_iter();
+        let Some(mut first) = all.next() else {
+            continue;
+        };
+        for other in all {
+            if is_longer(&mut walks, [other, first], unit, &mut most) {
+                first = other;
+            }
+        }
+        pieces.push((n, first));
+    }
+    pieces.sort_by(|&(n, a), &(m, b)| {
+        let by_place = by_key(b, a).then_with(|| by_height(b, a));
+        m.cmp(&n).then(by_place)
+    });
     pieces.into_iter().map(|(_, first)| first).collect()
+}
+
+/// Returns whether the first triangle that differs is larger on a walk from one halfedge than on one from another; compares at most
+/// `most` triangles, from which it takes those that it compared.
+fn is_longer(walks: &mut [Walk; 2], begins: [u32; 2], unit: f64, most: &mut usize) -> bool {
+    let surface = walks[0].surface;
+    let lengths = |h: u32| {
+        surface.wound_alike(h).map(|h| {
+            let [a, b] = surface.ends(h).map(|v| surface.positions[v as usize]);
+            tied(distance(a, b) / unit)
+        })
+    };
+    let [one, other] = walks;
+    one.begin(begins[0]);
+    other.begin(begins[1]);
+    for (a, b) in one.zip(other) {
+        if *most == 0 {
+            return false;
+        }
+        *most -= 1;
+        let (a, b) = (lengths(a), lengths(b));
+        if a != b {
+            return a > b;
+        }
+    }
+    false
+}
+
+/// Returns the distance of each vertex from the center of the surface's area over a unit, [rounded](tied).
+fn reaches(surface: &Surface, unit: f64) -> Vec<f64> {
+    let mut center = [0.0; 3];
+    for triangle in 0..surface.triangles.len() {
+        let [a, b, c] = surface.corners(triangle);
+        let share = norm(area_vector(a, b, c)) / (2.0 * unit * unit);
+        for p in [a, b, c] {
+            center = add_scaled(center, share / 3.0, p);
+        }
+    }
+    let positions = surface.positions.iter();
+    positions
+        .map(|&p| tied(distance(p, center) / unit))
+        .collect()
+}
+
+fn total_area(surface: &Surface) -> f64 {
+    let triangles = 0..surface.triangles.len();
+    let doubled = triangles.map(|triangle| {
+        let [a, b, c] = surface.corners(triangle);
+        norm(area_vector(a, b, c))
+    });
+    doubled.sum::<f64>() / 2.0
 }
 
 /// Returns the coordinate of each vertex along [`BEGINNING`].

@@ -1,6 +1,7 @@
 //! Convex hulls in the plane.
 
-use super::vec2::doubled_area;
+use super::vec2::{doubled_area, sub};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Returns the corners of the convex hull of points, counter-clockwise; an empty list if all points are equal.
 ///
@@ -24,4 +25,85 @@ pub fn convex_hull(points: impl IntoIterator<Item = [f64; 2]>) -> Vec<[f64; 2]> 
         sorted.reverse();
     }
     hull
+}
+
+/// Returns the area of the smallest page around a convex hull, at any angle: a rectangle whose sides are as 1 to `aspect`. 0 for a point.
+///
+/// Between the angles at which an edge of the hull lies along a side, width and height turn about fixed corners, so the smallest
+/// page has an edge along a side, or the hull fills it both ways. O(n log n).
+pub fn smallest_page(hull: &[[f64; 2]], aspect: f64) -> f64 {
+    if hull.len() < 2 {
+        return 0.0;
+    }
+    let corners = Corners::of(hull);
+    let root = aspect.sqrt();
+    // Side of the square that is left when the page is squeezed to one of the same area.
+    let side = |angle: f64, across: [[f64; 2]; 2]| {
+        let (sin, cos) = angle.sin_cos();
+        let [[a, b], [c, d]] = across;
+        let [width, height] = [a * cos + b * sin, d * cos - c * sin];
+        (width * root).max(height / root)
+    };
+    let mut angles: Vec<f64> = (corners.edge_angles.iter())
+        .map(|angle| angle.rem_euclid(FRAC_PI_2))
+        .collect();
+    angles.sort_by(f64::total_cmp);
+    angles.dedup();
+    let ends = angles
+        .iter()
+        .skip(1)
+        .copied()
+        .chain([angles[0] + FRAC_PI_2]);
+    let mut smallest = f64::INFINITY;
+    for (&from, to) in angles.iter().zip(ends) {
+        for quarter in [0.0, FRAC_PI_2] {
+            let [from, to] = [from + quarter, to + quarter];
+            let middle = f64::midpoint(from, to);
+            let across = [corners.across(middle), corners.across(middle + FRAC_PI_2)];
+            let [[a, b], [c, d]] = across;
+            let even = (d / root - a * root).atan2(b * root + c / root);
+            let turned = from + (even - from).rem_euclid(PI);
+            for angle in [from, turned.min(to)] {
+                smallest = smallest.min(side(angle, across));
+            }
+        }
+    }
+    smallest * smallest
+}
+
+/// Corners of a convex hull by direction.
+struct Corners<'a> {
+    hull: &'a [[f64; 2]],
+    /// Angle of the edge from each corner to the next, ascending within one turn from the first.
+    edge_angles: Vec<f64>,
+}
+
+impl<'a> Corners<'a> {
+    fn of(hull: &'a [[f64; 2]]) -> Self {
+        let next = hull.iter().cycle().skip(1);
+        let angles = hull.iter().zip(next).map(|(&p, &q)| {
+            let [x, y] = sub(q, p);
+            y.atan2(x)
+        });
+        let mut edge_angles: Vec<f64> = angles.collect();
+        let first = edge_angles[0];
+        for angle in &mut edge_angles {
+            *angle = first + (*angle - first).rem_euclid(TAU);
+        }
+        Self { hull, edge_angles }
+    }
+
+    /// Returns the corner farthest along a direction.
+    fn farthest(&self, angle: f64) -> [f64; 2] {
+        // It lies between the edges that turn from ahead of the direction's left to behind it.
+        let first = self.edge_angles[0];
+        let along = first + (angle + FRAC_PI_2 - first).rem_euclid(TAU);
+        let after = self.edge_angles.partition_point(|&edge| edge <= along);
+        self.hull[after % self.hull.len()]
+    }
+
+    /// Returns the vector between the corners farthest apart along a direction.
+    fn across(&self, angle: f64) -> [f64; 2] {
+        sub(self.farthest(angle), self.farthest(angle + PI))
+    }
 }

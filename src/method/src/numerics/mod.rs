@@ -22,5 +22,6 @@ pub mod stencils;
 pub mod support;
 pub mod svd;
 pub mod symmetric;
+pub mod ties;
 pub mod vec2;
 pub mod vec3;

@@ -118,7 +118,8 @@ impl<'a> Divided<'a> {
                 .iter_mut()
                 .flat_map(|map| map.chart.corners.as_flattened_mut())
             {
-                *corner = 3 * order[*corner as usize / 3] + *corner % 3;
+                let first = order[*corner as usize / 3];
+                *corner = 3 * (first / 3) + (first + *corner) % 3;
             }
             mapped[piece] = match plan.cut {
                 Cut::Keep => charts,

@@ -129,9 +129,9 @@ fn uvs_of(
     let mut of_vertex = vec![[0.0; 2]; chart.disk.n_vertices];
     for (triangle, corners) in chart.disk.triangles.iter().zip(&chart.corners) {
         for (&vertex, &corner) in triangle.iter().zip(corners) {
-            let face = surface.faces[corner as usize / 3] as usize;
+            let [face, k] = surface.input_corner(corner).map(|x| x as usize);
             let is_finite = |uv: &&[f64; 2]| uv.iter().all(|x| x.is_finite());
-            let own = Some(&uvs[face][corner as usize % 3]).filter(is_finite);
+            let own = Some(&uvs[face][k]).filter(is_finite);
             let another = || uvs[face].iter().find(is_finite);
             let [u, v] = own.or_else(another).copied().unwrap_or_default();
             of_vertex[vertex as usize] = [u * sides[0], v * sides[1]];
