@@ -19,7 +19,7 @@ use unwrapd_layout::charts::{
 };
 use unwrapd_layout::search::{Effort, Terms, from_charts, from_pieces};
 use unwrapd_maps::embed::Options;
-use unwrapd_maps::mesh::Surface;
+use unwrapd_maps::mesh::{Surface, canonical_order};
 use unwrapd_method::energy::SymmetricDirichlet;
 
 /// Price at which no seam is cut for fill alone.
@@ -54,6 +54,7 @@ fn report(file: &str, bound: &Bound) {
         return;
     };
     let surface = Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh");
+    let surface = surface.reordered(&canonical_order(&surface));
     let options = Options {
         density: Arc::new(SymmetricDirichlet),
         ..Options::default()

@@ -1,6 +1,7 @@
 //! Lengths, angles and areas of a surface, in units of the root of its area.
 
 use unwrapd_maps::mesh::{CUT, Surface, next};
+use unwrapd_method::numerics::ties::tied;
 use unwrapd_method::numerics::vec3::{area_vector, cross, distance, dot, norm, sub, unit};
 
 /// Largest height of a needle over its longest side: such a face looks like an edge, and decides nothing.
@@ -27,7 +28,7 @@ pub struct Metric<'a> {
     pub edge: Vec<u32>,
     /// For each edge its first halfedge.
     pub halfedge: Vec<u32>,
-    /// Length of each edge.
+    /// Length of each edge, [rounded](tied).
     pub length: Vec<f64>,
     /// Angle between the normals of the faces at each edge; π at the boundary.
     pub fold: Vec<f64>,
@@ -146,7 +147,7 @@ impl<'a> Metric<'a> {
             self.edge[h as usize] = self.halfedge.len() as u32;
             self.halfedge.push(h);
             let [a, b] = self.ends(h).map(|v| self.position(v));
-            self.length.push(distance(a, b));
+            self.length.push(tied(distance(a, b)));
             self.fold.push(if t == CUT {
                 std::f64::consts::PI
             } else {

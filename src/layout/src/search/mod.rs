@@ -27,6 +27,9 @@
 //! On panels the excess counts 16 times, in the map, the prediction and the bound (`panels`): they stay straight, and what is round
 //! beside them takes the distortion. The bound on this weighted mean is one on the plain mean as well.
 //!
+//! Lengths and whatever else decides are rounded, so that parts that are alike tie, and the order of the faces decides between them,
+//! not the rounding of their vertices ([`tied`](unwrapd_method::numerics::ties::tied)): pose, scale and digits do not change the cut.
+//!
 //! The search starts from given charts, or from facets, joined while they stay nearly developable (`pieces`).
 //!
 //! Every face is in exactly one net, and every net is a disk, possibly with holes, whose map has neither flips nor overlaps.

@@ -2,7 +2,7 @@
 
 use super::cut_mesh::CutMesh;
 use super::net::Net;
-use super::opening::{MAPPED, Ways};
+use super::opening::{GAIN, MAPPED, Ways};
 use super::sets::{branching, chains, difference, halves, union};
 use super::state::Search;
 use std::cmp::Ordering;
@@ -13,8 +13,6 @@ use std::collections::{BTreeSet, BinaryHeap};
 const SHARP: f64 = 0.01;
 /// Number of stretches of a contact that are tried as the only hinge, the longest ones. Taken from a prototype, not tuned.
 const HINGES: usize = 3;
-/// Least gain of a move, so that rounding makes none.
-const GAIN: f64 = 1e-6;
 
 /// A move: one net, or two neighbors, whose faces may be opened in another way.
 struct Move {

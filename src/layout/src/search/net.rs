@@ -2,11 +2,12 @@
 
 use super::cut_mesh::CutMesh;
 use super::metric::Metric;
-use super::opening::Opening;
+use super::opening::{Opening, price};
 use crate::charts::{Chart, MappedChart, Observer, Watching, all_pushed_apart, overlaps};
 use unwrapd_maps::embed::{self, Embedding};
 use unwrapd_maps::mesh::{CUT, Disk, next};
-use unwrapd_method::numerics::support::{Directions, Support};
+use unwrapd_method::numerics::hull::{convex_hull, smallest_page};
+use unwrapd_method::numerics::ties::tied;
 use unwrapd_method::solver::Summary;
 
 /// Excess at which a face cannot be called more distorted: one squeezed to nothing in floating point would outweigh all others.
@@ -35,7 +36,7 @@ pub struct Net {
 impl Net {
     /// Returns the price at a price of the excess.
     pub fn price(&self, lambda: f64) -> f64 {
-        self.length + lambda * self.excess
+        price(self.length, self.excess, lambda)
     }
 
     fn new(
@@ -48,7 +49,7 @@ impl Net {
         Self {
             excess: excess(metric, &faces, &uv),
             length: metric.length_of(&slits),
-            page: page(&uv),
+            page: tied(page(&uv)),
             summary,
             seconds: 0.0,
             faces,
@@ -247,12 +248,7 @@ fn slits(metric: &Metric, faces: &[u32], uv: &[[[f64; 2]; 3]]) -> Vec<u32> {
 
 /// Returns the area of the smallest square around a map.
 fn page(uv: &[[[f64; 2]; 3]]) -> f64 {
-    let directions = Directions::default();
-    let mut support = Support::EMPTY;
-    for &p in uv.as_flattened() {
-        support.add(p, &directions);
-    }
-    support.square()
+    smallest_page(&convex_hull(uv.as_flattened().iter().copied()), 1.0)
 }
 
 fn doubled_area(&[a, b, c]: &[[f64; 2]; 3]) -> f64 {

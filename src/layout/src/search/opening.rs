@@ -7,14 +7,17 @@ use super::prediction::{Grounded, Prediction};
 use super::sets::union;
 use std::collections::BTreeSet;
 use unwrapd_maps::cut::Neighbors;
+use unwrapd_method::numerics::ties::tied;
 use unwrapd_method::numerics::vec3::distance;
 
 /// Number of starts along the inner loop of a ring from which a slit to the other loop is tried.
 const STARTS: usize = 4;
 /// Number of ways to open some faces that are mapped before they are given up. Taken from a prototype, not tuned.
 pub const MAPPED: usize = 4;
-/// Least gain of a slit, so that rounding adds none.
-const GAIN: f64 = 1e-9;
+/// Excess up to which two maps of the same faces may differ: the solver ends when little is left to gain.
+const ACCURACY: f64 = 1.0 / 8192.0;
+/// Least gain of a slit or move, as a share of the root of the area, so that rounding makes none.
+pub const GAIN: f64 = 1e-4;
 
 /// A way to cut some faces open to a disk, with its predicted price.
 #[derive(Clone, Debug)]
@@ -30,8 +33,13 @@ pub struct Opening {
 impl Opening {
     /// Returns the predicted price at a price of the excess.
     pub fn price(&self, lambda: f64) -> f64 {
-        self.length + lambda * self.excess
+        price(self.length, self.excess, lambda)
     }
+}
+
+/// Returns the price of slits and excess at a price of the excess, which counts as far as it is known: of equals none is cheaper.
+pub fn price(length: f64, excess: f64, lambda: f64) -> f64 {
+    length + lambda * (excess / ACCURACY).round() * ACCURACY
 }
 
 /// Openings of some faces that follow from starting slits, each predicted only once it may be the cheapest.
@@ -113,7 +121,7 @@ fn opened_further(
             return None;
         }
         let mut best: Option<(Vec<u32>, Grounded)> = None;
-        let mut cost = lambda * prediction.excess();
+        let mut cost = price(0.0, prediction.excess(), lambda);
         for path in paths(&mesh, &neighbors, &prediction) {
             let edges = mesh.edges(&path);
             let added = metric.length_of(&edges);
@@ -122,9 +130,9 @@ fn opened_further(
             }
             effort.predicted_faces += faces.len();
             let trial = prediction.grounded(path.iter().flat_map(|&h| mesh.sheet.ends(h)));
-            let price = added + lambda * trial.excess;
-            if price < cost - GAIN {
-                cost = price;
+            let slit = price(added, trial.excess, lambda);
+            if slit < cost - GAIN {
+                cost = slit;
                 best = Some((edges, trial));
             }
         }
@@ -142,11 +150,11 @@ fn opened_further(
 
 /// Returns a path on a closed surface from the vertex of largest defect to the one farthest from it.
 fn first_slit(mesh: &CutMesh) -> Option<Vec<u32>> {
-    let defect = |v: usize| (2.0 * std::f64::consts::PI - mesh.angle[v]).abs();
+    let defect = |v: usize| tied((2.0 * std::f64::consts::PI - mesh.angle[v]).abs());
     let position = |v: usize| mesh.sheet.positions[v];
     let n = mesh.welded.len();
     let from = (0..n).max_by(|&a, &b| defect(a).total_cmp(&defect(b)).then(b.cmp(&a)))?;
-    let reach = |v: usize| distance(position(v), position(from));
+    let reach = |v: usize| tied(distance(position(v), position(from)));
     let to = (0..n).max_by(|&a, &b| reach(a).total_cmp(&reach(b)).then(b.cmp(&a)))?;
     let neighbors = Neighbors::new(&mesh.sheet);
     mesh.path(&neighbors, [from as u32], |v| v as usize == to)

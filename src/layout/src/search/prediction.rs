@@ -17,6 +17,7 @@
 use super::cut_mesh::CutMesh;
 use unwrapd_maps::mesh::CUT;
 use unwrapd_method::numerics::cholesky::{Cholesky, SymmetricPattern};
+use unwrapd_method::numerics::ties::tied;
 use unwrapd_method::numerics::vec3::distance;
 
 /// Largest charge, in radians, that is treated as none: rounding of coordinates in `f32`.
@@ -126,7 +127,7 @@ impl<'a> Prediction<'a> {
 
     /// Returns the inner vertex whose scale differs most from that of the boundary; the first of equals.
     pub fn peak(&self) -> Option<u32> {
-        let scale = |v: usize| self.log_scale[self.node[v] as usize].abs();
+        let scale = |v: usize| tied(self.log_scale[self.node[v] as usize].abs());
         let inner = (0..self.node.len()).filter(|&v| self.mesh.is_inner[v]);
         let peak = inner.max_by(|&a, &b| scale(a).total_cmp(&scale(b)).then(b.cmp(&a)));
         peak.filter(|&v| scale(v) > 0.0).map(|v| v as u32)
@@ -137,7 +138,7 @@ impl<'a> Prediction<'a> {
         let scale = |k: usize| {
             let node = self.node_of_loop[k] as usize;
             let is_charged = !self.is_grounded[node] && self.charge[node].abs() > UNCHARGED;
-            is_charged.then(|| self.log_scale[node].abs())
+            is_charged.then(|| tied(self.log_scale[node].abs()))
         };
         let holes = (0..self.node_of_loop.len()).filter_map(|k| Some((k, scale(k)?)));
         let hole = holes.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
@@ -265,7 +266,7 @@ fn outer_loop(mesh: &CutMesh) -> usize {
             let [p, q] = [a, b].map(|v| mesh.sheet.positions[v as usize]);
             distance(p, q)
         };
-        ends.map(side).sum::<f64>()
+        tied(ends.map(side).sum())
     };
     let lengths: Vec<f64> = mesh.loops.iter().map(length).collect();
     (0..lengths.len()).fold(
