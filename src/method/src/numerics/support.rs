@@ -50,33 +50,14 @@ impl Support {
     /// Returns the area of the smallest square around the polygon among those at 32 angles; 0 without points. Around a
     /// square it comes out up to a fifth too large.
     pub fn square(&self) -> f64 {
-        self.page(1.0)
-    }
-
-    /// Returns the area of the smallest page of this aspect around the polygon, as [`square`](Self::square) does.
-    pub fn page(&self, aspect: f64) -> f64 {
         if self.0[0] == f64::NEG_INFINITY {
             return 0.0;
         }
-        // Squares around what is left when the page is squeezed to a square, upright or on its side.
-        let root = aspect.sqrt();
-        let side = |[width, height]: [f64; 2]| {
-            let upright = (width * root).max(height / root);
-            upright.min((width / root).max(height * root))
-        };
-        self.rectangles()
-            .map(side)
-            .fold(f64::INFINITY, f64::min)
-            .powi(2)
+        self.sides().fold(f64::INFINITY, f64::min).powi(2)
     }
 
     /// Returns the sides of squares around the polygon, at 32 angles.
     fn sides(&self) -> impl Iterator<Item = f64> {
-        self.rectangles().map(|[width, height]| width.max(height))
-    }
-
-    /// Returns the sides of rectangles around the polygon, at 32 angles.
-    fn rectangles(&self) -> impl Iterator<Item = [f64; 2]> {
         let between = &*BETWEEN;
         (0..N / 4).flat_map(move |i| {
             between.iter().map(move |weights| {
@@ -85,7 +66,7 @@ impl Support {
                     let j = i + quarter * N / 4;
                     weights[0] * self.0[j % N] + weights[1] * self.0[(j + 1) % N]
                 };
-                [reach(0) + reach(2), reach(1) + reach(3)]
+                (reach(0) + reach(2)).max(reach(1) + reach(3))
             })
         })
     }

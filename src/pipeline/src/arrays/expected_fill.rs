@@ -2,6 +2,7 @@
 
 use super::objective::Pages;
 use unwrapd_layout::charts::MappedChart;
+use unwrapd_method::numerics::hull::{convex_hull, smallest_page};
 use unwrapd_method::numerics::support::{Directions, Support};
 
 /// Coefficients of the fill: per area of the hulls; per excess of the largest page around a chart over a limit; and
@@ -32,10 +33,11 @@ impl Extent {
         for &p in &chart.embedding.uv {
             support.add(p, &directions);
         }
+        let hull = convex_hull(chart.embedding.uv.iter().copied());
         Self {
             area: chart.area(),
             hull: support.area(),
-            pages: [1.0, 2.0, 4.0, 8.0].map(|aspect| support.page(aspect)),
+            pages: [1.0, 2.0, 4.0, 8.0].map(|aspect| smallest_page(&hull, aspect)),
         }
     }
 }
