@@ -180,9 +180,10 @@ export class Viewer {
     const camera = stage.solid.isMoved ? stage.solid.place : null;
     const plane = stage.plane.isMoved ? stage.plane.place : null;
     if (camera || plane) this.store.remember(this.#seen, { camera, plane });
-    // The address names no chosen file, so a camera in it would look at another one. A job may be open that is not seen yet.
+    // The address names no chosen file, so a camera in it would look at another one. It may name a job already that is
+    // not known yet, and a job may be known that is not seen yet.
     const { job } = this.store;
-    if (job && modelOfJob(job) === this.#seen) this.store.go({ camera, plane });
+    if (job && job.id === this.place.job && modelOfJob(job) === this.#seen) this.store.go({ camera, plane });
   }
 
   #take({ source, set, texture }: Facts, loaded: Loaded, analysis: Analysis): void {
