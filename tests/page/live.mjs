@@ -14,7 +14,7 @@ export function frameOf(bytes) {
   const [width, dim] = [bytes[1], bytes[3]];
   const vertices = bytes.readUInt32LE(32);
   const positions = Array.from({ length: dim * vertices }, (_, k) => (width === 4 ? bytes.readFloatLE(40 + 4 * k) : bytes.readDoubleLE(40 + 8 * k)));
-  return { step: bytes.readUInt32LE(4), message: bytes.readUInt32LE(8), flips: bytes.readUInt32LE(12), positions };
+  return { isMoving: bytes[2] === 0, step: bytes.readUInt32LE(4), message: bytes.readUInt32LE(8), flips: bytes.readUInt32LE(12), positions };
 }
 
 /** How many elements do not have the orientation that they have at rest. */

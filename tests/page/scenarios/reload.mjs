@@ -23,8 +23,12 @@ export async function run(page, url) {
   await page.mouse.move(box.x + 160, box.y + 120, { steps: 4 });
   await page.mouse.up();
   await settled(page);
-  await page.waitForFunction(() => location.hash.includes("camera="));
-  await page.waitForTimeout(600);
+  await page.waitForFunction(() => {
+    const written = new URLSearchParams(location.hash.slice(1));
+    const { solid, plane } = window.unwrapd.viewer.stage;
+    const isWritten = (name, place) => String(place.map((x) => Number(x.toPrecision(5)))) === written.get(name);
+    return isWritten("camera", solid.place) && isWritten("plane", plane.place);
+  });
   const before = await state(page);
   assert.notEqual(before.chart, null);
   await page.reload();
