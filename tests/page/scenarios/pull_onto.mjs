@@ -1,8 +1,16 @@
-// A chart that is pulled onto another: the page says so at once, and takes nothing that was proven of the job for it.
+// Charts are pulled onto another and off the page: the page says so at once, the surface beside shows it, and nothing that was proven
+// of the job is taken for it. Handles survive a lost service and a reload.
 import assert from "node:assert/strict";
-import { shown } from "../look.mjs";
+import { colorsOf, difference, shown, variety } from "../look.mjs";
+
+const SOLID = "#pull-pane .pane >> nth=1";
+const differing = (some, others) => some.filter((color, k) => 16 < difference(color, others[k])).length;
+const grips = (page, n) => page.waitForFunction((n) => document.querySelectorAll(".grip").length === n, n);
+const faults = (page, said) => page.waitForFunction((said) => new RegExp(said).test(document.querySelector("#pull-faults").textContent), said);
 
 export async function run(page, url, picture) {
+  page.on("dialog", (dialog) => dialog.accept());
+  const lost = await losable(page);
   await page.goto(url);
   await shown(page);
   await page.waitForSelector(".verdict.certified");
@@ -34,9 +42,17 @@ export async function run(page, url, picture) {
   assert.ok(!(await page.isVisible(".verdict")), "nothing is certified of what is pulled");
   assert.match(await page.textContent("#pull-facts"), /Nothing is proven/);
   assert.equal(await page.textContent("#pull-faults"), "");
-  // The page of UVs with a margin of 15 % fills the smaller side.
-  const box = await page.locator("#pull-pane .pane:visible").boundingBox();
-  const size = Math.min(box.width, box.height) / 1.3;
+  // The page of UVs with a margin of 15 % and then of 8 % fills the smaller side.
+  const box = await page.locator("#pull-pane .pane >> nth=0").boundingBox();
+  const solid = await page.locator(SOLID).boundingBox();
+  assert.deepEqual([solid.width, solid.height], [box.width, box.height], "the surface has as much room as its UVs");
+  await page.selectOption("#pull-fill", "checker");
+  const checker = await colorsOf(page, SOLID);
+  assert.ok(4 < variety(checker), "the surface is seen");
+  await page.selectOption("#pull-fill", "heat");
+  assert.ok(20 < differing(await colorsOf(page, SOLID), checker), "the heat map is another fill");
+  await page.selectOption("#pull-fill", "checker");
+  const size = Math.min(box.width, box.height) / (1.3 * 1.08);
   const at = ([u, v]) => [box.x + box.width / 2 + (u - 0.5) * size, box.y + box.height / 2 - (v - 0.5) * size];
   await page.mouse.click(...at(first));
   await page.waitForSelector(".grip");
@@ -44,11 +60,50 @@ export async function run(page, url, picture) {
   await page.mouse.down();
   await page.mouse.move(...at(first), { steps: 20 });
   await page.mouse.up();
-  await page.waitForFunction(() => /\d+ overlap/.test(document.querySelector("#pull-faults").textContent));
+  await faults(page, "\\d+ overlap.*nearer than the padding");
+  assert.ok(20 < differing(await colorsOf(page, SOLID), checker), "the checkerboard follows");
   if (picture) await page.screenshot({ path: picture });
   // Where it was, all is well again.
   await page.keyboard.press("Control+z");
-  await page.waitForFunction(() => document.querySelector("#pull-faults").textContent === "");
+  await faults(page, "^$");
+  await page.mouse.move(...at(second));
+  await page.mouse.down();
+  await page.mouse.move(box.x + 3, box.y + 3, { steps: 20 });
+  await page.mouse.up();
+  await faults(page, "\\d+ faces? beyond the page");
+
+  // The service goes and comes back.
+  await grips(page, 2);
+  await lost.go();
+  await page.waitForSelector("#pull-note >> text=Your handles are kept");
+  await grips(page, 0);
+  await lost.come();
+  await grips(page, 2);
+  await faults(page, "\\d+ faces? beyond the page");
+  // So does the page.
+  await page.reload();
+  await shown(page);
+  await page.waitForSelector("#pull-note >> text=2 handles");
+  await page.click("#pull-start");
+  await grips(page, 2);
+  await faults(page, "\\d+ faces? beyond the page");
   await page.click("#pull-tools >> text=End");
   await page.waitForSelector(".verdict.certified");
+}
+
+/** A service that can be lost: its sessions end as when it stops, and no other one is opened until it is back. */
+async function losable(page) {
+  const sockets = [];
+  await page.routeWebSocket(/\/v1\/sessions\//, (socket) => {
+    socket.connectToServer();
+    sockets.push(socket);
+  });
+  const opened = /\/v1\/sessions\?/;
+  return {
+    async go() {
+      await page.route(opened, (route) => route.abort());
+      await sockets.at(-1).close({ code: 1001, reason: "stopping" });
+    },
+    come: () => page.unroute(opened),
+  };
 }

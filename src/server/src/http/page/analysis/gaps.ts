@@ -9,7 +9,7 @@ import { next } from "./weld";
 const TOLERANCE = 1e-3;
 
 /** Marks each of `charts.borders` that is nearer than the padding to a border of another chart of its group. */
-export function nearBorders(faces: Faces, charts: Charts, texture: Texture): Uint8Array {
+export function nearBorders(faces: Pick<Faces, "uvs" | "group">, charts: Pick<Charts, "borders" | "ofFace">, texture: Texture): Uint8Array {
   const near = new Uint8Array(charts.borders.length);
   const limit = texture.padding - TOLERANCE;
   if (!(0 < limit)) return near;
@@ -31,7 +31,7 @@ export function nearBorders(faces: Faces, charts: Charts, texture: Texture): Uin
   return near;
 }
 
-function borderEnds(faces: Faces, charts: Charts, { width, height }: Texture): Float64Array {
+function borderEnds(faces: Pick<Faces, "uvs">, charts: Pick<Charts, "borders">, { width, height }: Texture): Float64Array {
   const ends = new Float64Array(4 * charts.borders.length);
   charts.borders.forEach((edge, k) => {
     [edge, next(edge)].forEach((corner, end) => {

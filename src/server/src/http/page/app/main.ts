@@ -36,7 +36,7 @@ const toolbar = new Toolbar(viewer, change, compare);
 const list = new JobList(store, (id) => void open(id), (listed) => jobs.listed(listed));
 const setup = new Setup(store, { shown: (chosen) => void preview(chosen), made, failed });
 const jobs = new JobView({ store, viewer, list, setup, failed, ended: solved, removed: () => void open(null), made });
-const pull = new PullView(store, { failed, changed: refresh, baked: (job) => { void list.refresh(); void open(job.id, { ...elsewhere(store.place) }); } });
+const pull = new PullView(store, { failed, changed: refresh, shown: () => (store.state.inHand ? null : viewer.shown), baked: (job) => { void list.refresh(); void open(job.id, { ...elsewhere(store.place) }); } });
 const arrange = new ArrangeView(viewer, { failed, open: (job) => open(job, { ...store.place, face: null, chart: null, seam: null }), changed: refresh });
 /** Analysis of the input of the shown job, which the report compares with the result. */
 let before: { job: Job; analysis: Analysis } | null = null;

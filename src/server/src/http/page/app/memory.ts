@@ -1,5 +1,6 @@
 // What the page remembers in this browser.
 
+import type { Grip } from "../pull/grips";
 import type { Place } from "./address";
 import type { FormKind } from "./definitions";
 import type { Values } from "./option_form";
@@ -15,9 +16,11 @@ interface Memory {
   looks: Partial<Place>;
   /** Cameras by model, least recent first. */
   cameras: [string, Camera][];
+  /** Handles by what is pulled and how, least recent first. */
+  grips: [string, Grip[]][];
 }
 
-const EMPTY: Memory = { form: {}, looks: {}, cameras: [] };
+const EMPTY: Memory = { form: {}, looks: {}, cameras: [], grips: [] };
 const key = (name: keyof Memory) => `unwrapd.${name}`;
 
 /** Returns a remembered value, or an empty one if there is none or the browser refuses. */

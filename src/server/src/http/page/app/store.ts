@@ -1,5 +1,6 @@
 // The state of the page. It has one owner, and views are functions of it.
 
+import type { Grip } from "../pull/grips";
 import type { Origin } from "../pull/what";
 import type { Job } from "./api";
 import { type Place, START, writePlace } from "./address";
@@ -40,6 +41,9 @@ export interface State {
 /** Maximum number of models whose cameras are remembered. A camera takes some 100 bytes of the browser's 5 MB. */
 const MOST_CAMERAS = 100;
 
+/** Maximum number of files whose handles are remembered. A handle takes some 150 bytes. */
+const MOST_PULLED = 20;
+
 /** Owner of the state. */
 export class Store {
   #state: State;
@@ -48,6 +52,8 @@ export class Store {
   #isStale = false;
   /** Cameras by model, least recent first. */
   readonly #cameras = new Map(kept("cameras"));
+  /** Handles by what is pulled and how, least recent first. */
+  readonly #grips = new Map(kept("grips"));
 
   constructor(place: Place) {
     const { kind = "unwrap", options = {} } = kept("form");
@@ -111,6 +117,19 @@ export class Store {
     this.#cameras.set(model, camera);
     for (const oldest of [...this.#cameras.keys()].slice(0, -MOST_CAMERAS)) this.#cameras.delete(oldest);
     keep("cameras", [...this.#cameras]);
+  }
+
+  /** Remembers the handles of what is pulled, or forgets them if there are none. */
+  hold(pulled: string, grips: Grip[]): void {
+    this.#grips.delete(pulled);
+    if (grips.length) this.#grips.set(pulled, grips);
+    for (const oldest of [...this.#grips.keys()].slice(0, -MOST_PULLED)) this.#grips.delete(oldest);
+    keep("grips", [...this.#grips]);
+  }
+
+  /** Returns the handles of what was pulled before. */
+  gripsOf(pulled: string): Grip[] {
+    return this.#grips.get(pulled) ?? [];
   }
 
   /** Returns the cameras of a model as they were left. */

@@ -8,6 +8,7 @@ import { imageOf } from "../viewer/image";
 import { load, type Loaded } from "../viewer/loading";
 import { SHADES, type Uniforms, uniformsBeside } from "../viewer/look";
 import { Model } from "../viewer/model";
+import type { Shown } from "../pull/beside";
 import type { Relaxing } from "../viewer/relaxing";
 import { pagesOf, Sheet } from "../viewer/sheet";
 import { originsOf, soupOf } from "../viewer/soups";
@@ -274,6 +275,12 @@ export class Viewer {
   range(): [number, number] {
     const spread = this.analysis?.atlases[this.atlas]?.spreads[MEASURES.indexOf(this.place.measure)];
     return spread ? rangeOf(this.place.measure, spread, this.place.scale) : [0, 1];
+  }
+
+  /** What is shown of the file, to be seen elsewhere; null without a view. */
+  get shown(): Shown | null {
+    const { analysis, facts, model } = this;
+    return analysis && facts && model && { analysis, origins: facts.origins, texture: facts.texture, picture: model.picture() ?? this.#image };
   }
 
   /** Fills faces with the user's picture. */

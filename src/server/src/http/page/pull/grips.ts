@@ -47,6 +47,12 @@ export class Grips {
     return grip;
   }
 
+  /** Takes the grips of an earlier session. */
+  restore(grips: Grip[]): void {
+    this.all = grips.map((grip) => ({ ...grip }));
+    this.#next = Math.max(0, ...grips.map(({ name }) => name + 1));
+  }
+
   drop(name: number): void {
     this.all = this.all.filter((grip) => grip.name !== name);
     this.selected.delete(name);

@@ -75,7 +75,7 @@ export class Pointer {
   }
 
   #down(event: PointerEvent, pane: HTMLElement): void {
-    if (event.button !== 0) return;
+    if (event.button !== 0 || pane !== this.scene.pane) return;
     this.#at = placeIn(pane, event);
     if (this.#motion) {
       stop(event);
@@ -102,6 +102,7 @@ export class Pointer {
   }
 
   #move(event: PointerEvent, pane: HTMLElement): void {
+    if (pane !== this.scene.pane) return;
     this.#at = placeIn(pane, event);
     if (!this.#motion) {
       pane.style.cursor = this.#gripAt(this.#at) ? "grab" : "";

@@ -1,21 +1,25 @@
 // The page's third view: a file that is pulled live.
 
-import { call, type Job } from "../app/api";
+import { call, type Job, Refused } from "../app/api";
 import { LiveClient, type Reply, type Wish } from "../live/client";
 import type { LiveFrame, LiveMesh } from "../live/decode";
 import type { Store } from "../app/store";
 import { extension } from "../viewer/loading";
 import { type Grip, Grips, handleOf } from "./grips";
 import { type Doer, Pointer } from "./pointer";
+import type { Shown } from "./beside";
 import { sceneOn, showMarks } from "./pane";
 import type { PullScene, Touched } from "./scene";
 import { PullTools } from "./tools";
-import { type Known, type Origin, openSession, type Session, socketOf, type Way, waysOf } from "./what";
+import { type Known, type Origin, openSession, pulledOf, type Session, socketOf, type Way, waysOf } from "./what";
 
 /** Reasons for the end of a session, in words. */
 const ENDS: Record<string, string> = {
   expired: "The session ended: nothing was pulled for a while.", stopping: "The service stops.", closed: "The session was ended.",
 };
+
+/** Pause between attempts to go on after the service was lost. Shorter ones mean more requests. */
+const RETRY_MS = 1000;
 
 /** Callbacks to the page. */
 export interface Told {
@@ -24,6 +28,8 @@ export interface Told {
   changed(): void;
   /** A session was baked to a job. */
   baked(job: Job): void;
+  /** Returns what the page shows of the file that is offered. */
+  shown(): Shown | null;
 }
 
 /** Pulls one file at a time. */
@@ -45,6 +51,10 @@ export class PullView implements Doer {
   #latestStep = -1;
   /** Set if something was pulled since the last bake. */
   #isUnsaved = false;
+  /** Number of attempts to open a session, by which those that were given up are recognized. */
+  #openings = 0;
+  /** Set while the service is lost. */
+  #isLost = false;
   /** Size of the next grip, as a share of the mesh. */
   #size = 0;
 
@@ -54,12 +64,13 @@ export class PullView implements Doer {
     if (this.#scene) this.#scene.drawn = () => this.#drawGrips();
     this.#tools = new PullTools({
       start: (way) => void this.start(this.#ways[way] ?? null), take: (files) => this.takeFiles(files), resize: (share) => (this.#size = share),
-      does: (wish) => this.does(wish),
+      does: (wish) => this.does(wish), fill: (shade) => store.go({ shade }),
     });
+    store.show(() => this.#fill());
     addEventListener("beforeunload", (event) => {
       if (this.#session && this.#isUnsaved) event.preventDefault();
     });
-    addEventListener("pagehide", () => void this.leave());
+    addEventListener("pagehide", () => void this.#close());
   }
 
   /** Set while something is pulled. */
@@ -69,49 +80,99 @@ export class PullView implements Doer {
 
   /** Offers the file that the page shows for pulling. */
   offer(origin: Origin | null, known: Known | null): void {
-    if (this.#session) return;
+    if (this.#session || this.#isLost) return;
     this.#origin = origin;
     if (!this.#scene) {
-      this.#tools.offer(null, []);
+      this.#tools.offer(null, [], 0);
       return this.#tools.say("Pulling needs WebGL, which this browser does not show here.");
     }
     this.#ways = origin ? waysOf(origin.name, known) : [];
-    this.#tools.offer(origin?.name ?? null, this.#ways);
+    const held = origin ? this.#ways.map((way) => this.store.gripsOf(pulledOf(origin, way)).length) : [];
+    this.#tools.offer(origin?.name ?? null, this.#ways, held.find(Boolean) ?? 0);
   }
 
   /** Takes files that are chosen here. */
   takeFiles(files: File[]): void {
     const [first, ...others] = files;
     if (!first) return;
-    void this.leave();
+    void this.#close();
     this.store.change({ inHand: { name: first.name, content: first, resources: new Map(others.map((file) => [file.name, file as Blob])) } });
   }
 
   /** Opens a session. */
   async start(way: Way | null): Promise<void> {
     if (!way || !this.#origin) return;
-    await this.leave();
+    await this.#close();
     this.#tools.say("Reading the file …");
     try {
-      this.#session = await openSession(this.#origin, way);
+      await this.#open(this.#origin, way);
     } catch (error) {
       this.#tools.say("Nothing is held. Choose another way, or another file.");
-      return this.told.failed(error);
+      this.told.failed(error);
     }
+  }
+
+  /** Opens a session with the handles that were held before. */
+  async #open(origin: Origin, way: Way): Promise<void> {
+    const mine = ++this.#openings;
+    const session = await openSession(origin, way);
+    if (mine !== this.#openings) return void call(session.links.self, { method: "DELETE" }).catch(() => null);
+    [this.#session, this.#isLost] = [session, false];
     this.#way = way;
     this.#size = way.kind === "deform" ? 0.05 : 0;
     this.#client = new LiveClient(socketOf(this.#session), {
       mesh: (mesh) => (this.#shown = this.#show(mesh)),
       frame: (frame, waited) => void this.#shown.then(() => this.#frame(frame, waited)),
       reply: (reply, wish) => this.#replied(reply, wish),
-      closed: (_, reason) => this.#ended(ENDS[reason] ?? `The computation ended: ${reason || "the connection was lost"}.`),
+      closed: (code, reason) => this.#closed(code, reason),
     });
-    this.#tools.started(this.#origin.name, way, this.#size);
+    this.grips.restore(this.store.gripsOf(pulledOf(origin, way)));
+    for (const grip of this.grips.all) this.#client.say({ add: { name: grip.name, handle: handleOf(grip) } });
+    this.#isUnsaved = 0 < this.grips.all.length;
+    this.#tools.started(origin.name, way, this.#size);
     this.told.changed();
   }
 
-  /** Ends the session if there is one. */
+  /** The connection has ended: a service that is lost is asked again until it is back, and takes the handles again. */
+  #closed(code: number, reason: string): void {
+    const [origin, way] = [this.#origin, this.#way];
+    const isLost = reason === "stopping" || code === 1006;
+    this.#isLost = isLost;
+    this.#ended(isLost ? "The service does not answer. Your handles are kept, and taken again as soon as it is back." : ENDS[reason] ?? `The computation ended: ${reason}.`);
+    if (isLost && origin && way) void this.#goOn(origin, way, this.#openings);
+  }
+
+  async #goOn(origin: Origin, way: Way, opening: number): Promise<void> {
+    while (this.#isLost && opening === this.#openings) {
+      await new Promise((over) => setTimeout(over, RETRY_MS));
+      if (!this.#isLost || opening !== this.#openings) return;
+      try {
+        return await this.#open(origin, way);
+      } catch (error) {
+        opening = this.#openings;
+        // A service that answers, but not for a while, is asked again, too.
+        if (!(error instanceof Refused) || 500 <= error.problem.status) continue;
+        this.#isLost = false;
+        this.#tools.say("Nothing is held any more.");
+        this.told.failed(error);
+      }
+    }
+  }
+
+  /** Ends the session if there is one, and forgets its handles. */
   async leave(): Promise<void> {
+    if (this.#session) this.#keep([]);
+    await this.#close();
+  }
+
+  /** Remembers the handles. */
+  #keep(grips: Grip[]): void {
+    if (this.#origin && this.#way) this.store.hold(pulledOf(this.#origin, this.#way), grips);
+  }
+
+  async #close(): Promise<void> {
+    this.#openings += 1;
+    this.#isLost = false;
     const session = this.#session;
     this.#client?.close();
     this.#ended("");
@@ -133,8 +194,20 @@ export class PullView implements Doer {
     const { name } = this.#origin!;
     const isDown = mesh.picture[1] > 0 || (this.#way!.isMap && ["glb", "gltf"].includes(extension(name)));
     const picture = mesh.picture[1] > 0 && "content" in this.#origin! ? this.#origin.content : null;
-    await this.#scene?.show(mesh, { down: isDown ? mesh.picture[1] || 1 : null, picture, isMap: this.#way!.isMap });
+    await this.#scene?.show(mesh, { down: isDown ? mesh.picture[1] || 1 : null, picture, isMap: this.#way!.isMap, shown: this.told.shown() });
+    this.#fill();
     this.#tools.say("");
+  }
+
+  /** Fills the surface beside as the views of the page are filled, with a checkerboard instead of what tells nothing of UVs. */
+  #fill(): void {
+    const { beside } = this.#scene ?? {};
+    if (!beside) return;
+    const { shade } = this.store.place;
+    const filled = shade === "heat" || (shade === "material" && beside.hasPicture) ? shade : "checker";
+    beside.fill(filled);
+    this.#tools.filled(filled, beside.hasPicture);
+    this.#scene!.refill();
   }
 
   /** Draws a frame; of several between two drawings only the latest is drawn. */
@@ -214,6 +287,7 @@ export class PullView implements Doer {
   }
 
   refresh(): void {
+    if (this.#session) this.#keep(this.grips.all);
     this.#tools.refresh(this.grips, this.#pointer?.gesture ?? null);
     this.#scene?.redraw();
   }

@@ -8,8 +8,10 @@ import type { LiveMesh } from "../live/decode";
 import { PlanePane } from "../viewer/plane_pane";
 import { SolidPane } from "../viewer/solid_pane";
 import { color } from "../viewer/theme_color";
-import { overlapsOf } from "../analysis/overlaps";
+import type { Texture as Page } from "../analysis/soup";
 import { sheetOf } from "../viewer/sheet";
+import { Beside, type Shown } from "./beside";
+import { type Faults, Islands } from "./islands";
 import { Seen } from "./seen";
 
 /** Maximum number of triangles whose sides are drawn. Beyond it, lines would cover the mesh and slow down the
@@ -23,14 +25,8 @@ export interface Look {
   picture: Blob | null;
   /** Set if UVs are pulled, whose pages are drawn below. */
   isMap: boolean;
-}
-
-/** Defects of UVs that are pulled. */
-export interface Faults {
-  /** Number of pairs of faces that overlap. */
-  pairs: number;
-  /** Set if a chart lies beyond the pages. */
-  leaves: boolean;
+  /** What the page shows of the file whose UVs are pulled. */
+  shown: Shown | null;
 }
 
 /** A place on the mesh: at rest, and now. */
@@ -42,10 +38,14 @@ export class PullScene {
   readonly #plane: PlanePane;
   readonly #solid: SolidPane;
   #seen: Seen | null = null;
-  #look: Look = { down: null, picture: null, isMap: false };
+  #look: Look = { down: null, picture: null, isMap: false, shown: null };
+  #islands: Islands | null = null;
+  /** The surface of pulled UVs, which is seen beside them. */
+  beside: Beside | null = null;
   #body: Mesh | null = null;
   #things: (Mesh | LineSegments)[] = [];
   readonly #wrong = new BufferGeometry();
+  readonly #near = new BufferGeometry();
   #isAsked = false;
   /** Number of times that the vertices were moved. */
   step = 0;
@@ -72,8 +72,12 @@ export class PullScene {
     this.clear();
     this.#look = look;
     this.#seen = new Seen(mesh, look.down);
+    if (look.isMap) this.#islands = new Islands(mesh.triangles, this.#seen.uvs());
+    if (look.isMap) this.beside = Beside.of(look.shown, this.#seen.uvs());
     this.places.plane.hidden = mesh.dim === 3;
-    this.places.solid.hidden = mesh.dim === 2;
+    this.places.solid.hidden = mesh.dim === 2 && !this.beside;
+    this.places.solid.setAttribute("aria-label", this.beside ? "Surface of the UVs: drag to turn, wheel to zoom" : this.places.plane.getAttribute("aria-label")!);
+    this.places.plane.parentElement!.classList.toggle("beside", this.beside !== null);
     const texture = look.picture ? await textureOf(look.picture) : null;
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", this.#seen.attribute);
@@ -85,11 +89,12 @@ export class PullScene {
     if (!texture && mesh.triangles.length <= 3 * MOST_WIRED) this.#things.push(this.#wire(mesh));
     const key = new DirectionalLight(0xffffff, 2);
     key.position.set(1, 2, 3);
-    if (look.isMap) this.#things.push(this.#marks());
+    if (look.isMap) this.#things.push(this.#marks(), this.#gaps());
     const lights = [new HemisphereLight(0xffffff, 0x8a8f98, 2), key];
     geometry.computeBoundingSphere();
     if (mesh.dim === 3) this.#solid.show([...this.#things, ...lights], geometry.boundingSphere);
     else this.#plane.show(this.#things);
+    if (this.beside) this.#solid.show(this.beside.things, this.beside.sphere);
     this.#resize();
     this.frame();
   }
@@ -100,7 +105,17 @@ export class PullScene {
     return new MeshStandardMaterial({ color: color("--pulled"), flatShading: true, roughness: 0.8, ...offset });
   }
 
-  /** Creates the mesh of faces that overlap others. */
+  /** Creates the lines of borders that are too near to others. */
+  #gaps(): LineSegments {
+    this.#near.setAttribute("position", this.#seen!.attribute);
+    this.#near.setIndex([]);
+    const gaps = new LineSegments(this.#near, new LineBasicMaterial({ color: color("--alarm"), depthTest: false, toneMapped: false }));
+    gaps.frustumCulled = false;
+    gaps.renderOrder = 2;
+    return gaps;
+  }
+
+  /** Creates the mesh of faces that overlap others or leave the pages. */
   #marks(): Mesh {
     this.#wrong.setAttribute("position", this.#seen!.attribute);
     this.#wrong.setIndex([]);
@@ -122,7 +137,14 @@ export class PullScene {
   /** Moves the vertices to their current places. */
   move(positions: Float32Array | Float64Array): void {
     this.#seen?.move(positions);
+    if (this.beside) this.beside.move(this.#seen!.uvs());
     this.step += 1;
+    this.redraw();
+  }
+
+  /** Draws the surface beside with another fill. */
+  refill(): void {
+    this.beside?.move(this.#seen!.uvs());
     this.redraw();
   }
 
@@ -131,16 +153,20 @@ export class PullScene {
     return this.#look.isMap && this.#seen !== null;
   }
 
-  /** Counts the pairs of overlapping faces of UVs, marks them in red, and finds out whether any face leaves the
-   * pages it was on at rest. */
+  /** Finds the defects of UVs and marks them in red: faces that overlap or leave the pages that they were on at rest, and
+   * borders that are nearer to another island than the padding. */
   faults(): Faults {
-    const uvs = this.#seen!.uvs();
     const { triangles } = this.#seen!.mesh;
-    const wrong = new Set<number>();
-    const pairs = overlapsOf({ uvs }, Uint32Array.from({ length: triangles.length / 3 }, (_, k) => k), (one, other) => wrong.add(one).add(other));
-    this.#wrong.setIndex([...wrong].flatMap((k) => [...triangles.subarray(3 * k, 3 * k + 3)]));
+    const { faults, marked } = this.#islands!.judge(this.#seen!.uvs(), this.#page);
+    this.#wrong.setIndex([...marked.faces].flatMap((k) => [...triangles.subarray(3 * k, 3 * k + 3)]));
+    this.#near.setIndex(marked.borders.flatMap((edge) => [triangles[edge]!, triangles[edge % 3 === 2 ? edge - 2 : edge + 1]!]));
     this.redraw();
-    return { pairs, leaves: this.#seen!.leavesPages() };
+    return faults;
+  }
+
+  /** The texture with its padding, known if the page shows these UVs. */
+  get #page(): Page | null {
+    return this.beside ? this.#look.shown!.texture : null;
   }
 
   clear(): void {
@@ -149,7 +175,9 @@ export class PullScene {
       for (const material of [thing.material].flat()) material.dispose();
     }
     this.#things = [];
-    this.#body = this.#seen = null;
+    this.#body = this.#seen = this.#islands = null;
+    this.beside?.dispose();
+    this.beside = null;
     this.#plane.show([]);
     this.#solid.show([], null);
     this.redraw();
@@ -158,7 +186,8 @@ export class PullScene {
   /** Fits everything into the view. */
   frame(): void {
     if (!this.#seen) return;
-    if (!this.isPlanar) return this.#solid.frame();
+    if (!this.isPlanar || this.beside) this.#solid.frame();
+    if (!this.isPlanar) return;
     const [u0, v0, u1, v1] = this.#look.isMap ? [0, 0, 1, 1] : this.#seen.box();
     const [du, dv] = [0.15 * (u1 - u0), 0.15 * (v1 - v0)];
     this.#plane.frame([u0 - du, v0 - dv, u1 + du, v1 + dv]);
@@ -174,12 +203,28 @@ export class PullScene {
   }
 
   #draw(): void {
-    const pane = this.isPlanar ? this.#plane : this.#solid;
-    if (!this.isPlanar && this.#solid.update()) this.redraw();
+    const isSolid = !this.isPlanar || this.beside !== null;
+    if (isSolid && this.#solid.update()) this.redraw();
     this.#renderer.setClearColor(new Color(color("--stage")), 1);
+    this.#renderer.setScissorTest(false);
     this.#renderer.clear();
-    if (this.#seen) this.#renderer.render(pane.scene, pane.camera);
+    if (this.#seen && this.isPlanar) this.#drawIn(this.places.plane, this.#plane);
+    if (this.#seen && isSolid) this.#drawIn(this.places.solid, this.#solid);
     this.drawn();
+  }
+
+  #drawIn(place: HTMLElement, { scene, camera }: PlanePane | SolidPane): void {
+    const canvas = this.#renderer.domElement.getBoundingClientRect();
+    const { left, bottom, width, height } = place.getBoundingClientRect();
+    if (width < 1 || height < 1) return;
+    const box = [left - canvas.left, canvas.bottom - bottom, width, height] as const;
+    const ratio = this.#renderer.getPixelRatio();
+    this.beside?.uniforms.uViewport.value.set(width * ratio, height * ratio);
+    if (this.beside) this.beside.uniforms.uPixelRatio.value = ratio;
+    this.#renderer.setViewport(...box);
+    this.#renderer.setScissor(...box);
+    this.#renderer.setScissorTest(true);
+    this.#renderer.render(scene, camera);
   }
 
   #resize(): void {
@@ -187,8 +232,10 @@ export class PullScene {
     if (width < 1 || height < 1) return;
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.#renderer.setSize(width, height, false);
-    this.#plane.resize(width, height);
-    this.#solid.resize(width, height);
+    for (const [pane, place] of [[this.#plane, this.places.plane], [this.#solid, this.places.solid]] as const) {
+      const box = place.getBoundingClientRect();
+      pane.resize(box.width, box.height);
+    }
     this.redraw();
   }
 

@@ -48,14 +48,6 @@ export class Seen {
     return Float32Array.from({ length: 2 * this.mesh.triangles.length }, (_, k) => array[3 * this.mesh.triangles[k >> 1]! + (k & 1)]!);
   }
 
-  /** Returns whether a vertex lies beyond the pages, side by side, that contained all vertices at rest. */
-  leavesPages(): boolean {
-    const { dim } = this.mesh;
-    const pages = this.#rest.reduce((most, u, k) => (k % dim ? most : Math.max(most, Math.ceil(u - 1e-6))), 1);
-    const [u0, v0, u1, v1] = this.box();
-    return Math.min(u0, v0) < -1e-6 || pages + 1e-6 < u1 || 1 + 1e-6 < v1;
-  }
-
   #turned(y: number): number {
     return this.down === null ? y : this.down - y;
   }

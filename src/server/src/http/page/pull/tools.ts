@@ -4,8 +4,9 @@ import { button, byId, element } from "../app/dom";
 import { counted, short } from "../app/format";
 import type { LiveFrame } from "../live/decode";
 import type { Gesture } from "../viewer/gesture";
+import type { Shade } from "../viewer/look";
 import type { Grips } from "./grips";
-import type { Faults } from "./scene";
+import type { Faults } from "./islands";
 import { ACCEPTED, type Way } from "./what";
 
 /** Requests of the tools. */
@@ -14,6 +15,7 @@ export interface Asked {
   take(files: File[]): void;
   resize(share: number): void;
   does(wish: string): void;
+  fill(shade: Shade): void;
 }
 
 /** Buttons while pulling: name, key, command. */
@@ -23,6 +25,9 @@ const ACTS = [
 const GESTURES = [["Grab", "G", "grab"], ["Rotate", "R", "rotate"], ["Scale", "S", "scale"]] as const;
 const HELDS = [["Lock", "L", "lock"], ["Let go", "X", "let_go"], ["Next", "Tab", "next"]] as const;
 
+/** Fills of the surface that is seen beside pulled UVs. */
+const FILLS = [["checker", "Checker"], ["heat", "Heat map"], ["material", "Texture"]] as const;
+
 /** Hints about keys, shown below the view while something is pulled. */
 const HINTS = [["Press", "hold"], ["Drag", "pull"], ["P", "pin"], ["G R S", "grab, rotate, scale"], ["L", "lock"], ["Tab", "next handle"], ["X", "let go"], ["Ctrl Z", "undo"]] as const;
 
@@ -31,6 +36,7 @@ export class PullTools {
   readonly #ways = element("select", { id: "pull-way", aria: { label: "What to pull" } });
   readonly #start: HTMLButtonElement;
   readonly #size = element("input", { type: "range", id: "pull-size", min: "0", max: "0.3", step: "0.01", aria: { label: "Size of a handle" } });
+  readonly #fill = element("select", { id: "pull-fill", aria: { label: "Fill of the surface" } });
   readonly #name = element("strong", { id: "pull-name" });
   readonly #before: HTMLElement[];
   readonly #during: HTMLElement[];
@@ -45,6 +51,8 @@ export class PullTools {
     });
     this.#start = button("Take hold", () => asked.start(this.#ways.selectedIndex), { id: "pull-start", className: "primary" });
     this.#size.addEventListener("input", () => asked.resize(Number(this.#size.value)));
+    this.#fill.append(...FILLS.map(([value, textContent]) => element("option", { value, textContent })));
+    this.#fill.addEventListener("change", () => asked.fill(this.#fill.value as Shade));
     const act = ([text, key, wish]: readonly [string, string, string]) =>
       button(text, () => asked.does(wish), { title: key ? `${text} (${key})` : text, data: { does: wish } });
     const group = (label: string, acts: readonly (readonly [string, string, string])[]) =>
@@ -52,7 +60,7 @@ export class PullTools {
     this.#before = [this.#ways, this.#start, button("Choose a file", () => files.click(), { id: "pull-choose" })];
     this.#during = [
       this.#name, group("Change", ACTS), group("Move", GESTURES), group("Handles", HELDS),
-      element("label", { className: "size", textContent: "Handle size " }, this.#size),
+      element("label", { className: "size", textContent: "Handle size " }, this.#size), this.#fill,
       button("Bake", () => asked.does("bake"), { id: "pull-bake", className: "primary", title: "Make a job of what is shown: written and certified (B)" }),
       button("End", () => asked.does("end"), { title: "End the session" }),
     ];
@@ -61,11 +69,11 @@ export class PullTools {
     this.ended("");
   }
 
-  /** Offers ways to pull a file; none if it cannot be shown. */
-  offer(name: string | null, ways: Way[]): void {
+  /** Offers ways to pull a file, which may have been held by a number of handles before; none if it cannot be shown. */
+  offer(name: string | null, ways: Way[], held: number): void {
     this.#ways.replaceChildren(...ways.map(({ name: text, title }) => element("option", { textContent: text, title })));
     this.#start.disabled = !ways.length;
-    this.say(name ? `${name} can be pulled here: its shape follows your handles, live, and no element is ever inverted.` : "Choose a mesh, a picture or a drawing to pull.");
+    this.say(name ? `${name} can be pulled here: its shape follows your handles, live, and no element is ever inverted.${held ? ` ${counted(held, "handle")} of last time will be there.` : ""}` : "Choose a mesh, a picture or a drawing to pull.");
   }
 
   started(name: string, way: Way, size: number): void {
@@ -74,13 +82,14 @@ export class PullTools {
     this.#name.title = way.title;
     this.#size.value = String(size);
     this.#size.parentElement!.hidden = way.kind !== "deform";
+    this.filled(null, false);
     this.#waits = [];
   }
 
   ended(why: string): void {
     this.#show(false);
     this.say(why);
-    this.judged({ pairs: 0, leaves: false });
+    this.judged({ pairs: 0, beyond: 0, near: 0 });
     byId("pull-figures").textContent = "";
   }
 
@@ -111,9 +120,16 @@ export class PullTools {
     }
   }
 
+  /** Offers the fills of the surface beside and shows which one it has; null if there is no surface beside. */
+  filled(shade: Shade | null, hasPicture: boolean): void {
+    this.#fill.hidden = shade === null;
+    this.#fill.value = shade ?? "checker";
+    this.#fill.options[2]!.disabled = !hasPicture;
+  }
+
   /** Shows the current defects of UVs. */
-  judged({ pairs, leaves }: Faults): void {
-    const faults = [pairs ? counted(pairs, "overlap") : "", leaves ? "beyond the page" : ""].filter(Boolean);
+  judged({ pairs, beyond, near }: Faults): void {
+    const faults = [pairs ? counted(pairs, "overlap") : "", beyond ? `${counted(beyond, "face")} beyond the page` : "", near ? `${counted(near, "edge")} nearer than the padding` : ""].filter(Boolean);
     byId("pull-faults").textContent = faults.join(" · ");
   }
 

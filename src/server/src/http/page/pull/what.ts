@@ -1,6 +1,7 @@
 // Ways to pull a file, and the session that does so.
 
 import { address, call } from "../app/api";
+import { modelOf } from "../app/store";
 import { extension } from "../viewer/loading";
 
 /** A way to pull a file. */
@@ -45,6 +46,11 @@ export function waysOf(name: string, known: Known | null): Way[] {
 
 /** Input of a session: a file, or the result of a job. */
 export type Origin = { name: string; content: Blob; resources: Map<string, Blob> } | { name: string; job: string };
+
+/** Identifies what is pulled and how. */
+export function pulledOf(origin: Origin, way: Way): string {
+  return `${"job" in origin ? origin.job : modelOf(origin)} ${way.name}`;
+}
 
 /** A session, in the JSON of the service. */
 export interface Session {

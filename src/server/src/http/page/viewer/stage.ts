@@ -104,6 +104,8 @@ export class Stage {
 
   resize(): void {
     const box = this.#places.canvas.parentElement!.getBoundingClientRect();
+    // A hidden view has no size, and no camera could see it.
+    if (box.width < 1 || box.height < 1) return;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(box.width, box.height, false);
     for (const view of ["solid", "plane"] as const) {
