@@ -173,6 +173,13 @@ async fn before_and_after_are_seen_side_by_side() {
 }
 
 #[tokio::test]
+async fn every_pane_has_room_at_every_width() {
+    let server = Server::start();
+    let url = unwrapped(&server, "cat_head.obj").await;
+    scenario("layouts", url, &[]).await;
+}
+
+#[tokio::test]
 async fn the_surface_hides_seams_behind_it() {
     let server = Server::start();
     let url = unwrapped(&server, "spot.ply").await;

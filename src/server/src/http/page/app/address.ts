@@ -29,6 +29,10 @@ export interface Place {
   face: number | null;
   chart: number | null;
   seam: number | null;
+  /** The view that is shown alone; null for both. */
+  alone: "solid" | "plane" | null;
+  /** Width of the surface in percent of both views. */
+  split: number;
   /** Six numbers for the camera, three for the plane. */
   camera: number[] | null;
   plane: number[] | null;
@@ -37,12 +41,15 @@ export interface Place {
 /** Element that is hovered and selected. */
 export type Aim = "face" | "chart" | "seam";
 
+/** Greatest width of a view in percent of both, so that the other one can still be worked in. */
+export const MOST_SPLIT = 80;
+
 /** Choices for the number of cells of the checkerboard along u. */
 export const CELLS = [8, 16, 32, 64, 128] as const;
 
 export const START: Place = {
   job: null, tab: "view", shade: "charts", measure: "sym-dirichlet", scale: "fixed", seams: true, wire: false, problems: true, only: false, cells: 32, set: null, uvs: "after", atlas: null,
-  aim: "chart", face: null, chart: null, seam: null, camera: null, plane: null,
+  aim: "chart", face: null, chart: null, seam: null, alone: null, split: 50, camera: null, plane: null,
 };
 
 /** Reads the fragment of the address. Without one, files look as they did last time. */
@@ -53,6 +60,8 @@ export function readPlace(): Place {
     if (!(name in START)) continue;
     if (name === "camera" || name === "plane") place[name] = numbers(text, name === "camera" ? 6 : 3);
     else if (name === "cells") place[name] = CELLS.find((cells) => String(cells) === text) ?? START.cells;
+    else if (name === "split") place[name] = Math.min(Math.max(Number.parseInt(text, 10) || START.split, 100 - MOST_SPLIT), MOST_SPLIT);
+    else if (name === "alone") place[name] = text === "solid" || text === "plane" ? text : null;
     else if (["face", "chart", "seam", "set"].includes(name)) place[name] = /^\d+$/.test(text) ? Number(text) : null;
     else if (typeof START[name as keyof Place] === "boolean") place[name] = text === "1";
     else place[name] = text;

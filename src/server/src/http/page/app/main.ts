@@ -7,6 +7,7 @@ import { ArrangeView } from "../arrange/arrange_view";
 import { arrangeKeys } from "../arrange/keys";
 import { address, call, connection, download, fileOf, type Job } from "./api";
 import { byId, element, pairs } from "./dom";
+import { startDivider } from "./divider";
 import { takeDropped } from "./dropped";
 import { followStage } from "./follow_stage";
 import { bytes, short, whole } from "./format";
@@ -226,6 +227,7 @@ function wire(): void {
     byId("connection").hidden = isUp;
     if (!isUp) void list.refresh();
   };
+  startDivider(store, change);
   startTheme(() => viewer.apply());
   addEventListener("popstate", () => {
     const place = readPlace();

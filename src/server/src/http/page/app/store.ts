@@ -138,9 +138,9 @@ export class Store {
   }
 }
 
-/** Returns the part of a state that holds for all files: how they are filled, marked and pointed at. */
-export function looksOf({ shade, measure, scale, seams, wire, problems, cells, aim }: Place): Partial<Place> {
-  return { shade, measure, scale, seams, wire, problems, cells, aim };
+/** Returns the part of a state that holds for all files: how they are filled, marked, pointed at and laid out. */
+export function looksOf({ shade, measure, scale, seams, wire, problems, cells, aim, alone, split }: Place): Partial<Place> {
+  return { shade, measure, scale, seams, wire, problems, cells, aim, alone, split };
 }
 
 /** Returns the place of another file or job: with the same looks, and nothing selected. */

@@ -11,6 +11,7 @@ export const MEASURE_NAMES = { "sym-dirichlet": "Symmetric Dirichlet", angle: "A
 const AIMS: Record<Aim, string> = { face: "Face", chart: "Chart", seam: "Seam" };
 const SWITCHES = { seams: "Seams", wire: "Wire", problems: "Problems", only: "Isolate" } as const;
 type Switch = keyof typeof SWITCHES;
+export const ALONE = [["solid", "3D", "The surface alone (M)"], ["plane", "UV", "The UVs alone (M)"]] as const;
 
 /** The tools; each changes the state. */
 export class Toolbar {
@@ -32,10 +33,11 @@ export class Toolbar {
     this.#both = button("Side by side", () => compare("both"), { title: "The UVs of the result above those of the input, with one camera and one scale (D)", aria: { pressed: "false" } });
     byId("toolbar").append(
       group("Fill", ...SHADES.map((shade) => this.#choice("shade", shade, SHADE_NAMES[shade]))),
-      group("Show", ...(Object.keys(SWITCHES) as Switch[]).map((name) => this.#toggle(name))),
-      group("Point at", ...(Object.keys(AIMS) as Aim[]).map((aim) => this.#choice("aim", aim, AIMS[aim]))),
+      group("Alone", ...ALONE.map(([alone, text, title]) => button(text, () => changed({ alone: viewer.place.alone === alone ? null : alone }), { title, data: { alone }, aria: { pressed: "false" } }))),
       button("Frame", () => viewer.frame(), { title: "Show everything (F)" }), this.#before, this.#both, this.#set, this.#atlas, this.#image,
     );
+    byId("pointed").after(group("Point at", ...(Object.keys(AIMS) as Aim[]).map((aim) => this.#choice("aim", aim, AIMS[aim]))));
+    byId("legend").after(group("Show", ...(Object.keys(SWITCHES) as Switch[]).map((name) => this.#toggle(name))));
   }
 
   #choice(name: "shade" | "aim", value: string, text: string): HTMLElement {
@@ -60,9 +62,9 @@ export class Toolbar {
   /** Updates the tools from the state. */
   refresh(hasBefore: boolean): void {
     const { place, analysis } = this.#viewer;
-    for (const tool of byId("toolbar").querySelectorAll<HTMLElement>(".tools button")) {
-      const { shade, aim, switch: name } = tool.dataset;
-      tool.setAttribute("aria-pressed", String(shade === place.shade || aim === place.aim || (name !== undefined && place[name as Switch])));
+    for (const tool of byId("view").querySelectorAll<HTMLElement>(".tools button")) {
+      const { shade, aim, alone, switch: name } = tool.dataset;
+      tool.setAttribute("aria-pressed", String(shade === place.shade || aim === place.aim || alone === (place.alone ?? "") || (name !== undefined && place[name as Switch])));
     }
     this.#before.setAttribute("aria-pressed", String(place.uvs === "before"));
     this.#both.setAttribute("aria-pressed", String(place.uvs === "both"));

@@ -42,6 +42,7 @@ export function viewKeys(page: Page): Key[] {
     { key: "b", does: "Before and after", act: () => page.compare("before") },
     { key: "d", does: "Before and after, side by side", act: () => page.compare("both") },
     { key: "t", does: "Next UV set of the file", act: () => { const sets = viewer.facts?.sets ?? []; if (1 < sets.length) page.change(otherSet(viewer, cycle(sets, viewer.facts!.set))); } },
+    { key: "m", does: "The surface alone, the UVs alone, or both", act: () => page.change({ alone: cycle([null, "solid", "plane"] as const, viewer.place.alone) }) },
     { key: " ", does: "Turn, or stop", act: () => { viewer.stage?.solid.turn(!viewer.stage.solid.isTurning); viewer.stage?.redraw(); } },
     { key: "r", does: "View and report", act: () => page.change({ tab: viewer.place.tab === "view" ? "report" : "view" }) },
     { key: "Tab", does: "Arrange islands", act: () => page.arrange.does("toggle"), shift: false, inPane: true, byPointer: true },

@@ -15,7 +15,7 @@ import { originsOf, soupOf } from "../viewer/soups";
 import { lights, type Places, Stage } from "../viewer/stage";
 import { color } from "../viewer/theme_color";
 import type { View } from "../viewer/surface";
-import type { Place } from "./address";
+import { type Place, START } from "./address";
 import { analyzed } from "./analyst";
 import { byId } from "./dom";
 import { Pointing } from "./pointing";
@@ -35,6 +35,8 @@ export class Viewer {
   /** Another file beside, and its background. */
   #beside: { model: Model; uniforms: Uniforms } | null = null;
   readonly #sheetBeside = new Sheet();
+  /** Width of the surface in percent as the views have it. */
+  #split = START.split;
   /** Number of requests to show a file, by which late answers are recognized and dropped. */
   #shown = 0;
   /** The model that the cameras look at. */
@@ -234,6 +236,14 @@ export class Viewer {
   apply(): void {
     const { stage, model, place } = this;
     if (!stage) return;
+    const panes = byId("panes");
+    if ((panes.dataset.alone ?? null) !== place.alone || place.split !== this.#split) {
+      if (place.alone) panes.dataset.alone = place.alone;
+      else delete panes.dataset.alone;
+      panes.style.setProperty("--split", `${place.split}%`);
+      this.#split = place.split;
+      stage.resize();
+    }
     stage.background = color("--stage");
     stage.redraw();
     if (!model) return;

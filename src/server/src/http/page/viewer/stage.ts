@@ -110,6 +110,7 @@ export class Stage {
     this.renderer.setSize(box.width, box.height, false);
     for (const view of ["solid", "plane"] as const) {
       const { width, height } = this.#places[view].getBoundingClientRect();
+      if (width < 1 || height < 1) continue;
       this[view].resize(width, height);
     }
     this.redraw();

@@ -1,0 +1,62 @@
+// Every pane has room at every width, the tools are in one row, and a person can give either view more room.
+import assert from "node:assert/strict";
+import { shown, settled, colorsOf, variety } from "../look.mjs";
+
+/** Widths of a phone, a tablet, two laptops and a large screen, with the least visible width and height of each pane. */
+const WIDTHS = [[390, 390, 200], [768, 380, 400], [1024, 270, 500], [1280, 400, 500], [1440, 440, 500], [2560, 950, 500]];
+
+/** The part of an element that is on the screen. */
+async function visible(page, selector) {
+  const { x, y, width, height } = await page.locator(selector).boundingBox();
+  const screen = page.viewportSize();
+  return [Math.min(x + width, screen.width) - Math.max(x, 0), Math.min(y + height, screen.height) - Math.max(y, 0)];
+}
+
+const width = async (page, pane) => (await page.locator(pane).boundingBox()).width;
+
+export async function run(page, url) {
+  await page.goto(url);
+  await shown(page);
+  for (const [screen, least, high] of WIDTHS) {
+    await page.setViewportSize({ width: screen, height: 844 });
+    await settled(page);
+    for (const pane of ["#solid", "#plane"]) {
+      const [w, h] = await visible(page, pane);
+      assert.ok(least <= w && high <= h, `${pane} at ${screen}: ${w} by ${h}`);
+    }
+    const tools = await page.evaluate(() => [...document.querySelectorAll("#toolbar > *")].map((one) => one.getBoundingClientRect()).filter(({ height }) => height).map(({ top, bottom }) => (top + bottom) / 2));
+    if (1280 <= screen) assert.ok(Math.max(...tools) - Math.min(...tools) < 8, `one row of tools at ${screen}: ${tools}`);
+  }
+  await page.setViewportSize({ width: 1440, height: 844 });
+  await settled(page);
+  // One view alone, then both again, by key and button.
+  const half = await width(page, "#plane");
+  await page.locator("#plane").hover();
+  await page.keyboard.press("m");
+  await settled(page);
+  assert.ok(await page.isHidden("#plane"));
+  assert.ok(1.9 * half < (await width(page, "#solid")));
+  assert.ok(4 < variety(await colorsOf(page, "#solid")), "the surface is drawn alone");
+  await page.click("button[data-alone=plane]");
+  await settled(page);
+  assert.ok(await page.isHidden("#solid"));
+  assert.ok(4 < variety(await colorsOf(page, "#plane")), "the UVs are drawn alone");
+  await page.click("button[data-alone=plane]");
+  // The divider, by pointer and by keys; what was set survives a reload.
+  const { x, y, height } = await page.locator("#divider").boundingBox();
+  await page.mouse.move(x + 4, y + height / 2);
+  await page.mouse.down();
+  await page.mouse.move(x + 4 + 0.4 * half, y + height / 2, { steps: 5 });
+  await page.mouse.up();
+  await settled(page);
+  assert.ok(Math.abs((await width(page, "#plane")) - 0.6 * half) < 12, "the UVs have less room");
+  await page.focus("#divider");
+  await page.keyboard.press("ArrowRight");
+  await settled(page);
+  const narrow = await width(page, "#plane");
+  assert.ok(Math.abs(narrow - 0.5 * half) < 12, `${narrow} of ${half}`);
+  await page.reload();
+  await shown(page);
+  assert.equal(await width(page, "#plane"), narrow);
+  assert.ok(4 < variety(await colorsOf(page, "#plane")), "the UVs are drawn there");
+}
