@@ -58,7 +58,7 @@ export async function run(page, url, picture) {
   await page.waitForSelector(".grip");
   await page.mouse.move(...at(second));
   await page.mouse.down();
-  await page.mouse.move(...at(first), { steps: 20 });
+  await page.mouse.move(...at(first), { steps: 8 });
   await page.mouse.up();
   await faults(page, "\\d+ overlap.*nearer than the padding");
   assert.ok(20 < differing(await colorsOf(page, SOLID), checker), "the checkerboard follows");
@@ -68,7 +68,7 @@ export async function run(page, url, picture) {
   await faults(page, "^$");
   await page.mouse.move(...at(second));
   await page.mouse.down();
-  await page.mouse.move(box.x + 3, box.y + 3, { steps: 20 });
+  await page.mouse.move(box.x + 3, box.y + 3, { steps: 8 });
   await page.mouse.up();
   await faults(page, "\\d+ faces? beyond the page");
 
