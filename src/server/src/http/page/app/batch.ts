@@ -9,13 +9,24 @@ import { outcome } from "./outcome";
 /** Maximum number of jobs that are asked for at once: that of the service. */
 const MOST = 200;
 
-/** Returns the section of a job's batch, which is filled when its jobs are known; null if it has none. */
+/** Time between two looks at the jobs of a batch that have not ended, in milliseconds. */
+const BETWEEN_LOOKS = 3_000;
+
+/** Returns the section of a job's batch, which follows its jobs until they have ended; null if it has none. */
 export function batchOf({ metadata }: Job): HTMLElement | null {
   const { batch } = metadata;
   if (typeof batch !== "string") return null;
-  const section = element("section", { className: "batch" }, element("h2", { textContent: "Batch" }));
-  void jobsOf(batch).then((jobs) => section.append(...totals(jobs), zipButton(jobs, batch)), () => {});
+  const section = element("section", { className: "batch" });
+  void follow(section, batch);
   return section;
+}
+
+/** Fills the section of a batch again and again while it is on the page and jobs of the batch have not ended. */
+async function follow(section: HTMLElement, batch: string): Promise<void> {
+  const jobs = await jobsOf(batch).catch(() => null);
+  if (jobs) section.replaceChildren(element("h2", { textContent: "Batch" }), ...totals(jobs), zipButton(jobs, batch));
+  if (jobs?.every(({ state }) => isFinal(state))) return;
+  setTimeout(() => { if (section.isConnected) void follow(section, batch); }, BETWEEN_LOOKS);
 }
 
 async function jobsOf(batch: string): Promise<Job[]> {
