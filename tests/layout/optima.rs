@@ -180,3 +180,38 @@ fn stacked_charts_form_no_layout() {
     };
     assert_eq!(layout(Positions::Layout), layout(Positions::Unrelated));
 }
+
+/// A search that ends where it knows all arrangements around finds one more only from another place.
+#[test]
+fn charts_that_lie_rotated_fill_as_much() {
+    let charts = [steps(10), rectangle([10.0, 25.0]), rectangle([10.0, 23.0])];
+    let fill = |rotated: &[usize]| {
+        let mut charts = charts.clone();
+        for &chart in rotated {
+            for [x, y] in &mut charts[chart].0 {
+                (*x, *y) = (-*y, *x);
+            }
+        }
+        packed(&charts, &AtlasOptions::default()).utilization
+    };
+    let fills = [&[][..], &[0], &[1], &[2], &[0, 1], &[0, 2], &[1, 2]].map(fill);
+    let [least, most] = [f64::min, f64::max].map(|of| fills.into_iter().reduce(of).unwrap());
+    assert!(most - least < 0.005, "{fills:?}");
+}
+
+/// Returns a chart of `n` steps on either side of a column, the widest at the top.
+fn steps(n: u32) -> Chart {
+    let height = 3.34;
+    let mut uv = vec![[10.0, 0.0], [20.0, 0.0], [10.0, 5.34], [20.0, 5.34]];
+    let mut triangles = vec![[0, 1, 2], [1, 3, 2]];
+    for step in 1..=n {
+        let by = f64::from(step);
+        let [bottom, top] = [by, by + 1.0].map(|k| 2.0 + height * k);
+        let (left, right) = (10.0 - by, 20.0 + by);
+        let [l, r] = [uv.len() as u32 - 2, uv.len() as u32 - 1];
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| uv.len() as u32 + k);
+        uv.extend([[left, bottom], [right, bottom], [left, top], [right, top]]);
+        triangles.extend([[a, l, c], [l, r, c], [r, d, c], [r, b, d]]);
+    }
+    (uv, triangles)
+}
