@@ -213,12 +213,17 @@ impl Raster {
         if best.way == [0.0; 2] {
             return;
         }
-        let mut least = best.by(is_free[index]);
+        let is_free = is_free[index];
+        let mut least = best.by(is_free);
         for [x, y] in neighbors {
             let (column, row) = (i.wrapping_add_signed(x), j.wrapping_add_signed(y));
             if column < width && row < height {
-                let known = nearest[row * width + column].seen_from([x, y]);
-                let by = known.by(is_free[index]);
+                let neighbor = nearest[row * width + column];
+                if neighbor.is_unknown() {
+                    continue;
+                }
+                let known = neighbor.seen_from([x, y]);
+                let by = known.by(is_free);
                 if by < least {
                     (best, least) = (known, by);
                 }
@@ -250,6 +255,10 @@ impl Nearest {
         }
     }
 
+    fn is_unknown(self) -> bool {
+        self.way[0] == f64::INFINITY
+    }
+
     /// Returns the known node of a neighbor, `way` columns and rows ahead, as this node sees it.
     fn seen_from(self, way: [isize; 2]) -> Self {
         Self {
@@ -262,6 +271,7 @@ impl Nearest {
     /// is free, too, and subtracts it if it lies in the region. Infinite if no node is known.
     fn by(self, is_free: bool) -> f64 {
         let rest = if is_free { self.rest } else { -self.rest };
-        dot(self.way, self.way).sqrt() + rest
+        let [x, y] = self.way;
+        (x * x + y * y).sqrt() + rest
     }
 }
