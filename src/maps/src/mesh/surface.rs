@@ -468,12 +468,9 @@ fn beginnings(surface: &Surface) -> Vec<u32> {
     let reach = reaches(surface, unit);
     let height = heights(surface);
     let key = |h: u32| (surface.wound_alike(h)).map(|h| reach[surface.begin(h) as usize]);
-    let by_key = |a: u32, b: u32| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal);
-    let by_height = |a: u32, b: u32| {
-        let heights = |h: u32| (surface.wound_alike(h)).map(|h| height[surface.begin(h) as usize]);
-        let order = heights(a).partial_cmp(&heights(b));
-        order.unwrap_or(Ordering::Equal)
-    };
+    let heights = |h: u32| (surface.wound_alike(h)).map(|h| height[surface.begin(h) as usize]);
+    let by_key = |a: u32, b: u32| in_order(key(a), key(b));
+    let by_height = |a: u32, b: u32| in_order(heights(a), heights(b));
     // Collect the halfedges of each piece whose ends are farthest out.
     let adjacency = surface.adjacency();
     let mut farthest: Vec<Vec<u32>> = vec![Vec::new(); adjacency.n_pieces];
@@ -515,6 +512,12 @@ fn beginnings(surface: &Surface) -> Vec<u32> {
         m.cmp(&n).then(by_place)
     });
     pieces.into_iter().map(|(_, first)| first).collect()
+}
+
+/// Compares numbers, the first ones first.
+fn in_order(a: [f64; 3], b: [f64; 3]) -> Ordering {
+    let each = a.iter().zip(&b).map(|(a, b)| a.total_cmp(b));
+    each.fold(Ordering::Equal, Ordering::then)
 }
 
 /// Returns whether the first triangle that differs is larger on a walk from one halfedge than on one from another; compares at most
