@@ -382,7 +382,7 @@ const COMPARED: usize = 8;
 /// triangles, their corners and vertices in the input, and of translation, rotation and scale, up to symmetry. Lengths count
 /// [rounded](tied), so that rounding decides nothing where shapes are alike.
 ///
-/// The piece with the most triangles comes first. In each piece the triangles are traversed breadth first, from a
+/// The piece with the most triangles comes first, the largest among equals. In each piece the triangles are traversed breadth first, from a
 /// halfedge that its shape singles out.
 pub fn canonical_order(surface: &Surface) -> Vec<u32> {
     let mut walk = Walk::new(surface);
@@ -454,6 +454,11 @@ impl Surface {
         }
     }
 
+    fn area(&self, triangle: usize) -> f64 {
+        let [a, b, c] = self.corners(triangle);
+        norm(area_vector(a, b, c)) / 2.0
+    }
+
     /// Returns the vertex at which a halfedge begins in the winding that its piece has in common.
     fn begin(&self, h: u32) -> u32 {
         let is_turned = self.adjacency.turned[h as usize / 3];
@@ -474,9 +479,11 @@ fn beginnings(surface: &Surface) -> Vec<u32> {
     // Collect the halfedges of each piece whose ends are farthest out.
     let adjacency = surface.adjacency();
     let mut farthest: Vec<Vec<u32>> = vec![Vec::new(); adjacency.n_pieces];
-    let mut n_triangles = vec![0_u32; adjacency.n_pieces];
+    let mut sizes = vec![(0_u32, 0.0); adjacency.n_pieces];
     for (triangle, &piece) in (0u32..).zip(&adjacency.piece) {
-        n_triangles[piece as usize] += 1;
+        let (n, area) = &mut sizes[piece as usize];
+        *n += 1;
+        *area += surface.area(triangle as usize) / (unit * unit);
         let all = &mut farthest[piece as usize];
         for h in sides(3 * triangle) {
             let order = all
@@ -493,8 +500,8 @@ fn beginnings(surface: &Surface) -> Vec<u32> {
     // Tell them apart by the edges that a walk meets.
     let mut walks = [0, 1].map(|_| Walk::new(surface));
     let mut most = COMPARED * surface.triangles.len();
-    let mut pieces: Vec<(u32, u32)> = Vec::with_capacity(farthest.len());
-    for (mut all, n) in farthest.into_iter().zip(n_triangles) {
+    let mut pieces: Vec<((u32, f64), u32)> = Vec::with_capacity(farthest.len());
+    for (mut all, (n, area)) in farthest.into_iter().zip(sizes) {
         all.sort_by(|&a, &b| by_height(b, a));
         let mut all = all.into_iter();
         let Some(mut first) = all.next() else {
@@ -505,11 +512,11 @@ fn beginnings(surface: &Surface) -> Vec<u32> {
                 first = other;
             }
         }
-        pieces.push((n, first));
+        pieces.push(((n, tied(area)), first));
     }
-    pieces.sort_by(|&(n, a), &(m, b)| {
-        let by_place = by_key(b, a).then_with(|| by_height(b, a));
-        m.cmp(&n).then(by_place)
+    pieces.sort_by(|&((n, area), a), &((m, other), b)| {
+        let by_size = m.cmp(&n).then(other.total_cmp(&area));
+        by_size.then_with(|| by_key(b, a).then_with(|| by_height(b, a)))
     });
     pieces.into_iter().map(|(_, first)| first).collect()
 }
@@ -550,9 +557,8 @@ fn is_longer(walks: &mut [Walk; 2], begins: [u32; 2], unit: f64, most: &mut usiz
 fn reaches(surface: &Surface, unit: f64) -> Vec<f64> {
     let mut center = [0.0; 3];
     for triangle in 0..surface.triangles.len() {
-        let [a, b, c] = surface.corners(triangle);
-        let share = norm(area_vector(a, b, c)) / (2.0 * unit * unit);
-        for p in [a, b, c] {
+        let share = surface.area(triangle) / (unit * unit);
+        for p in surface.corners(triangle) {
             center = add_scaled(center, share / 3.0, p);
         }
     }
@@ -564,11 +570,7 @@ fn reaches(surface: &Surface, unit: f64) -> Vec<f64> {
 
 fn total_area(surface: &Surface) -> f64 {
     let triangles = 0..surface.triangles.len();
-    let doubled = triangles.map(|triangle| {
-        let [a, b, c] = surface.corners(triangle);
-        norm(area_vector(a, b, c))
-    });
-    doubled.sum::<f64>() / 2.0
+    triangles.map(|triangle| surface.area(triangle)).sum()
 }
 
 /// Returns the coordinate of each vertex along [`BEGINNING`].
