@@ -14,14 +14,21 @@ export async function run(page, url, picture) {
   await page.goto(url);
   await shown(page);
   await page.waitForSelector(".verdict.certified");
-  // Where charts of the job are: the middles of the two largest, in UVs.
+  // Where charts of the job are: the middles of the two of which most faces the camera, in UVs.
   const [first, second] = await page.evaluate(() => {
     const { chart, texels, drawn } = window.unwrapd.viewer.analysis;
+    const eye = window.unwrapd.viewer.stage.solid.camera.position.toArray();
+    const facesCamera = (k) => {
+      const [a, b, c] = [0, 3, 6].map((i) => drawn.positions.slice(9 * k + i, 9 * k + i + 3));
+      const minus = (p, q) => [0, 1, 2].map((axis) => p[axis] - q[axis]);
+      const [u, v, w] = [minus(b, a), minus(c, a), minus(eye, a)];
+      return 0 < [0, 1, 2].reduce((sum, i) => sum + w[i] * (u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3]), 0);
+    };
     const best = new Map();
     for (let k = 0; k < drawn.count; k++) {
       const face = drawn.face[k];
-      const known = best.get(chart[face]) ?? { area: 0, sum: [0, 0], n: 0, face, largest: 0 };
-      known.area += Math.abs(texels[face]);
+      const known = best.get(chart[face]) ?? { area: 0, largest: 0 };
+      if (facesCamera(k)) known.area += Math.abs(texels[face]);
       const middle = [0, 1].map((axis) => [0, 2, 4].reduce((sum, i) => sum + drawn.uvs[6 * k + axis + i], 0) / 3);
       if (known.largest < Math.abs(texels[face])) Object.assign(known, { largest: Math.abs(texels[face]), middle });
       best.set(chart[face], known);
@@ -61,7 +68,8 @@ export async function run(page, url, picture) {
   await page.mouse.move(...at(first), { steps: 8 });
   await page.mouse.up();
   await faults(page, "\\d+ overlap.*nearer than the padding");
-  assert.ok(20 < differing(await colorsOf(page, SOLID), checker), "the checkerboard follows");
+  // Some ten of the hundred places that show the surface lie on the chart and change between light and dark.
+  assert.ok(5 < differing(await colorsOf(page, SOLID), checker), "the checkerboard follows");
   if (picture) await page.screenshot({ path: picture });
   // Where it was, all is well again.
   await page.keyboard.press("Control+z");

@@ -62,7 +62,7 @@ async fn any_service_shows_cancels_and_finishes_any_job() {
     let cluster = Cluster::start();
     let (one, other) = (cluster.api(), cluster.api());
     let mut worker = cluster.worker();
-    let job = one.submit(meshes::large(), "cut=disk").await;
+    let job = one.submit(meshes::hills(800), "cut=disk").await;
     let path = job["links"]["self"].as_str().expect("a link").to_owned();
     let mut socket = Socket::connect(&other.socket_url(&format!("{path}/events"))).await;
     let mut last: Option<(Instant, Value)> = None;
@@ -97,7 +97,7 @@ async fn any_service_shows_cancels_and_finishes_any_job() {
     assert_eq!(worker.children(), Vec::<i32>::new());
     assert_eq!(cluster.s3.objects(), Vec::<String>::new());
 
-    let job = other.submit(meshes::large(), "cut=disk").await;
+    let job = other.submit(meshes::hills(800), "cut=disk").await;
     one.mapping(&job).await;
     let path = job["links"]["self"].as_str().expect("a link");
     let finish = one.post(&format!("{path}/finish")).send().await;
