@@ -51,7 +51,9 @@ export class SolidPane {
   /** Fits everything into the view, from the front and a little above by default. */
   frame(from: readonly [number, number, number] = FRONT): void {
     const { center, radius } = this.#around;
-    const distance = (radius / Math.sin((this.camera.fov * Math.PI) / 360)) * 0.94 * Math.max(1, 1 / this.camera.aspect);
+    const upright = (this.camera.fov * Math.PI) / 360;
+    const narrowest = Math.min(upright, Math.atan(Math.tan(upright) * this.camera.aspect));
+    const distance = radius / Math.sin(narrowest);
     this.isMoved = false;
     this.#look(center.clone().add(new Vector3(...from).normalize().multiplyScalar(distance)), center);
   }
