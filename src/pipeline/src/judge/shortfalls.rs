@@ -45,7 +45,7 @@ fn mixed_winding(name: &str, report: &GroupReport) -> Option<Warning> {
     Some(Warning::new(
         "mixed_winding",
         format!(
-            "{name}: the winding of faces changes at {}; a chart across one shows its texture mirrored on the fronts of one side",
+            "{name}: faces are wound against their neighbors at {}; seen from their front, they show the texture mirrored",
             count(edges, "edge")
         ),
     ))
