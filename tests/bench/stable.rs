@@ -1,7 +1,7 @@
 //! Packing of equal charts in other forms.
 //!
-//! `cargo bench -p unwrapd-layout --bench stable -- [--as-given] [--variants N] FILE.obj …`. The charts of each file with UVs are packed as they are, then in
-//! other orders of the charts, vertices and triangles, each chart rotated by an angle of its own, at other scales, and with one vertex moved
+//! `cargo bench -p unwrapd-layout --bench stable -- [--as-given] [--variants N] FILE.obj …`. The charts of each file
+//! with UVs are packed as they are, then in other orders of the charts, vertices and triangles, each chart rotated by an angle of its own, at other scales, and with one vertex moved
 //! by 1e-4 of the longest side of its chart. `--as-given` also tries the layout that the UVs form, as `repack` does; the charts are then not
 //! rotated. N is the number of variants of each kind, 3 by default.
 //!
@@ -16,6 +16,7 @@ use std::f64::consts::TAU;
 
 use clock::Clock;
 use unwrapd_layout::atlas::{Atlas, AtlasOptions, ChartMap, GRID_BITS, Positions, pack};
+use unwrapd_maps::mesh::UnionFind;
 use unwrapd_method::numerics::bounds::bounds_of;
 use unwrapd_method::numerics::random::Random;
 
@@ -92,7 +93,7 @@ fn packed(charts: &[Chart], options: &AtlasOptions) -> Atlas {
     pack(&maps, options).expect("a layout")
 }
 
-/// The same charts in another form.
+/// Changed charts, with their places in the original.
 struct Variant {
     charts: Vec<Chart>,
     /// Chart of the original at each place, and the vertex of that chart at each of its places.
@@ -157,7 +158,7 @@ impl Variant {
         }
     }
 
-    /// Returns the number of charts of which a vertex lies elsewhere.
+    /// Counts the charts with a vertex that lies elsewhere.
     fn n_elsewhere(&self, atlas: &Atlas, other: &Atlas) -> usize {
         let most = ELSEWHERE / 1024.0 * f64::from(1_u32 << GRID_BITS);
         let placed = self.origin.iter().zip(&other.placed);
@@ -210,17 +211,15 @@ fn charts(text: &str) -> Vec<Chart> {
             _ => {}
         }
     }
-    let mut parent: Vec<usize> = (0..uv.len()).collect();
-    for [a, b, c] in &triangles {
-        for (p, q) in [(*a, *b), (*b, *c)] {
-            let [p, q] = [root(&mut parent, p), root(&mut parent, q)];
-            parent[p.max(q)] = p.min(q);
-        }
+    let mut sets = UnionFind::new(uv.len());
+    for &[a, b, c] in &triangles {
+        sets.unite(a as u32, b as u32);
+        sets.unite(b as u32, c as u32);
     }
-    let mut parts: BTreeMap<usize, (BTreeMap<usize, u32>, Chart)> = BTreeMap::new();
+    let mut parts: BTreeMap<u32, (BTreeMap<usize, u32>, Chart)> = BTreeMap::new();
     for triangle in triangles {
-        let (numbers, (positions, faces)) =
-            parts.entry(root(&mut parent, triangle[0])).or_default();
+        let part = sets.find(triangle[0] as u32);
+        let (numbers, (positions, faces)) = parts.entry(part).or_default();
         faces.push(triangle.map(|v| {
             *numbers.entry(v).or_insert_with(|| {
                 positions.push(uv[v]);
@@ -229,13 +228,4 @@ fn charts(text: &str) -> Vec<Chart> {
         }));
     }
     parts.into_values().map(|(_, chart)| chart).collect()
-}
-
-/// Returns the root of an element in a forest, and shortens the way to it.
-fn root(parent: &mut [usize], mut element: usize) -> usize {
-    while parent[element] != element {
-        parent[element] = parent[parent[element]];
-        element = parent[element];
-    }
-    element
 }

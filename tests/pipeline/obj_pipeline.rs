@@ -38,6 +38,22 @@ fn reread(files: &[(String, Vec<u8>)]) -> Document {
 }
 
 #[test]
+fn faces_wound_against_their_neighbors_are_warned_of() {
+    let text = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nf 1 2 5\nf 1 5 4\nf 2 3 6\n";
+    let codes = |last: &str| {
+        let upload = Upload::single("strip.obj", format!("{text}{last}").into_bytes());
+        let options = Options::default();
+        let outcome = unwrap_document(&upload, &options, &Unobserved);
+        let report = outcome.expect("a result").report;
+        assert!(report.certified);
+        let warnings = report.warnings.into_iter();
+        warnings.map(|w| w.code).collect::<Vec<_>>()
+    };
+    assert_eq!(codes("f 2 6 5\n"), Vec::<&str>::new());
+    assert_eq!(codes("f 2 5 6\n"), ["mixed_winding"]);
+}
+
+#[test]
 fn an_obj_has_one_atlas_unless_asked_otherwise() {
     for (group_by, n_groups) in [
         (None, 1),

@@ -16,8 +16,8 @@ use unwrapd_method::solver::{Control, Iterate, Summary};
 /// Triangles of a part of a chart from which on it stays as it lies: what little it gains from being minimized again takes seconds.
 const RELAXED: usize = 60_000;
 
-/// Least difference between the areas wound either way, as a share of a chart's area, that rounding cannot turn round: coordinates
-/// are rounded to at least 12 bits, which changes areas by some thousandths.
+/// Least difference between the areas wound either way, as a share of a chart's area, that gives a chart a front. It is to be larger than
+/// what rounding to the grid changes. Not tuned.
 const FRONT: f64 = 0.01;
 
 /// A chart, its map and how long the map took.

@@ -28,7 +28,7 @@
 //! beside them takes the distortion. The bound on this weighted mean is one on the plain mean as well.
 //!
 //! Lengths and whatever else decides are rounded, so that parts that are alike tie, and the order of the faces decides between them,
-//! not the rounding of their vertices ([`tied`](unwrapd_method::numerics::ties::tied)): pose, scale and digits do not change the cut.
+//! not the rounding of their vertices ([`tied`](unwrapd_method::numerics::ties::tied)): pose, scale and digits seldom change the cut.
 //!
 //! The search starts from given charts, or from facets, joined while they stay nearly developable (`pieces`).
 //!

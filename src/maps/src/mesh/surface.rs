@@ -374,8 +374,8 @@ fn across_fan(triangles: &[[u32; 3]], twin: &[u32], h: u32, vertex: u32) -> u32 
 /// principal axes.
 const BEGINNING: [f64; 3] = [1.0, 0.37, 0.61];
 
-/// Faces that are compared to tell places apart, over all faces. Those of a surface that is its own image under many motions are
-/// alike to the end, and any of them will do.
+/// Most triangles that are compared to tell places apart, over the number of triangles. On a surface that is its own image under many
+/// motions places stay alike to the end, and any of them will do. Not tuned.
 const COMPARED: usize = 8;
 
 /// Returns the triangles of a surface in canonical order, each as the halfedge that it begins with: independent of the order of

@@ -95,7 +95,7 @@ impl<'a> Corners<'a> {
 
     /// Returns the corner farthest along a direction.
     fn farthest(&self, angle: f64) -> [f64; 2] {
-        // It lies between the edges that turn from ahead of the direction's left to behind it.
+        // The edges before it turn less than a quarter turn beyond the direction, the edges after it more.
         let first = self.edge_angles[0];
         let along = first + (angle + FRAC_PI_2 - first).rem_euclid(TAU);
         let after = self.edge_angles.partition_point(|&edge| edge <= along);
