@@ -13,6 +13,7 @@ mod given_back;
 #[allow(dead_code)]
 mod layouts;
 mod live;
+mod needles;
 mod not_given_back;
 mod optima;
 mod own_axes;

@@ -2,7 +2,9 @@
 
 use crate::zoo::{self, Mesh};
 use proptest::prelude::*;
-use unwrapd_maps::mesh::{CUT, Defects, MeshError, Surface, canonical_order, next, origin};
+use unwrapd_maps::mesh::{
+    CUT, Defects, MeshError, NeedleStep, Surface, canonical_order, looks_like_edge, next, origin,
+};
 
 fn surface(mesh: &Mesh) -> Surface {
     Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh")
@@ -202,6 +204,84 @@ fn reordered_faces_are_glued_as_before() {
     }
 }
 
+fn n_needles(surface: &Surface) -> usize {
+    let triangles = 0..surface.triangles.len();
+    triangles
+        .filter(|&t| looks_like_edge(surface.corners(t)))
+        .count()
+}
+
+#[test]
+fn surfaces_without_needles_have_nothing_to_take_out() {
+    for mesh in [
+        zoo::grid(4, 3),
+        zoo::cone(7),
+        zoo::sphere(6, 8),
+        zoo::pillow(),
+    ] {
+        assert!(surface(&mesh).without_needles().is_none(), "{}", mesh.name);
+    }
+}
+
+#[test]
+fn vertices_on_sides_are_removed() {
+    for mesh in [
+        zoo::grid(4, 3),
+        zoo::tube(7, 2.0),
+        zoo::sphere(6, 8),
+        zoo::half_turned(12, 2, true),
+    ] {
+        for height in [0.0, 1e-6] {
+            let with_needles = surface(&mesh.clone().with_needles(3, height));
+            let (without, of, steps) = with_needles.without_needles().expect("needles");
+            assert_eq!(of.len(), mesh.triangles.len(), "{}", mesh.name);
+            assert_eq!(without.positions.len(), mesh.positions.len());
+            let removed = |step: &NeedleStep| matches!(step, NeedleStep::Removal { .. });
+            assert!(steps.iter().all(removed), "{steps:?}");
+            check_gluing(&without);
+            let boundary = |surface: &Surface| {
+                let twin = &surface.adjacency().twin;
+                twin.iter().filter(|t| **t == CUT).count()
+            };
+            assert_eq!(boundary(&without), boundary(&surface(&mesh)));
+        }
+    }
+}
+
+/// A face below a side on which a vertex of three others lies, and the needle between.
+fn vertex_of_four() -> Mesh {
+    Mesh {
+        name: "a vertex of four faces on a side".to_owned(),
+        positions: vec![
+            [0.0, 0.0, 0.0],
+            [2.0, 0.0, 0.0],
+            [1.0, 1e-6, 0.0],
+            [1.0, -1.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [2.0, 1.0, 0.0],
+        ],
+        triangles: vec![[1, 0, 3], [0, 2, 4], [2, 5, 4], [2, 1, 5], [0, 1, 2]],
+    }
+}
+
+#[test]
+fn sides_of_needles_are_flipped() {
+    let before = surface(&vertex_of_four());
+    let (without, of, steps) = before.without_needles().expect("a needle");
+    assert_eq!(
+        steps,
+        [NeedleStep::Flip {
+            needle: 12,
+            other: 0
+        }]
+    );
+    assert_eq!(of, [0, 1, 2, 3, 4]);
+    assert_eq!(n_needles(&without), 0);
+    check_gluing(&without);
+    let faces_at_2 = without.triangles.iter().filter(|t| t.contains(&2)).count();
+    assert_eq!(faces_at_2, 5);
+}
+
 #[test]
 fn unusable_input_is_named() {
     let flat = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, f32::INFINITY, 0.0]];
@@ -230,6 +310,26 @@ proptest! {
             for (&v, &input) in triangle.iter().zip(&mesh.triangles[face as usize]) {
                 let written = mesh.positions[input as usize].map(f64::from);
                 prop_assert_eq!(surface.positions[v as usize], written);
+            }
+        }
+    }
+
+    #[test]
+    fn taking_needles_out_keeps_the_gluing(mesh in crate::few_vertices::few_vertices()) {
+        // Squeezed flat, most faces are needles.
+        let squeezed = |height: f32| Mesh {
+            positions: mesh.positions.iter().map(|&[x, y, z]| [x, height * y, height * z]).collect(),
+            ..mesh.clone()
+        };
+        for height in [0.0, 1e-4, 1e-2] {
+            let before = surface(&squeezed(height));
+            if let Some((without, of, _)) = before.without_needles() {
+                check_gluing(&without);
+                prop_assert!(n_needles(&without) < n_needles(&before));
+                prop_assert_eq!(of.len(), without.triangles.len());
+                for &[a, b, c] in &without.triangles {
+                    prop_assert!(a != b && b != c && c != a);
+                }
             }
         }
     }

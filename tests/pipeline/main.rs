@@ -15,6 +15,7 @@ mod given_seams;
 mod islands;
 mod live_islands;
 mod more_pages;
+mod needles;
 mod obj_pipeline;
 mod packing_mode;
 mod pins;

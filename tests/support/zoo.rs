@@ -85,6 +85,23 @@ impl Mesh {
         self
     }
 
+    /// With needles: every so many faces are divided at the middle of their first side, and the middle is moved inward by `height` times
+    /// the side.
+    pub fn with_needles(mut self, every: usize, height: f32) -> Self {
+        for face in (0..self.triangles.len()).step_by(every) {
+            let [a, b, c] = self.triangles[face];
+            let [p, q, r] = [a, b, c].map(|v| self.positions[v as usize]);
+            let m = self.positions.len() as u32;
+            self.positions.push([0, 1, 2].map(|k| {
+                let middle = f32::midpoint(p[k], q[k]);
+                middle + height * (r[k] - middle)
+            }));
+            self.triangles[face] = [a, m, c];
+            self.triangles.extend([[m, b, c], [a, b, m]]);
+        }
+        self
+    }
+
     /// Three own vertices for every face.
     pub fn soup(&self) -> Self {
         let corners = self.triangles.iter().flatten();

@@ -26,6 +26,8 @@
 //! Few charts are spiky, and spiky charts leave much of a square empty. [`MappedChart::best_split`] says where to cut one so that
 //! its parts fill their convex hulls; whether that pays the atlas has to tell.
 //!
+//! Degenerate faces decide nothing: surfaces are cut without their needles, which are put back at the end ([`with_needles`]).
+//!
 //! No map that leaves this module overlaps itself ([`map_chart`]). Where one does, slight folds are pushed apart; for the others the
 //! chart is cut along the cheapest seam that parts two of its sheets, a minimum cut of the dual graph, as often as it takes. Where
 //! floating point finds no valid map, a chart is cut into [`halves()`].
@@ -44,6 +46,7 @@ mod halves;
 mod mapped;
 mod min_cut;
 mod motion;
+mod needles;
 mod observer;
 mod opened;
 mod parts;
@@ -62,6 +65,7 @@ pub use give_back::given_back::given_back;
 pub use halves::halves;
 pub use mapped::{Folds, MappedChart, map_chart, map_chart_from};
 pub use min_cut::min_cut;
+pub use needles::with_needles;
 pub use observer::{MapUnderway, Observer, Unobserved};
 pub use opened::charts;
 pub use rough::smoothed_where_rough;

@@ -2,6 +2,7 @@
 
 use super::Chart;
 use super::opened::connected_faces;
+use super::symmetry::plane::MirrorPlane;
 use unwrapd_maps::cut::Sheet;
 use unwrapd_maps::mesh::{CUT, Disk};
 
@@ -12,7 +13,7 @@ pub fn parts(chart: &Chart, twin: &[u32]) -> Vec<(Chart, Vec<u32>)> {
     let mesh = (&*chart.disk.triangles, &*chart.positions);
     Sheet::divide(mesh, twin, &label, n_parts)
         .into_iter()
-        .flat_map(|sheet| part(chart, sheet))
+        .flat_map(|sheet| part(sheet, &chart.corners, chart.mirror))
         .collect()
 }
 
@@ -43,28 +44,34 @@ pub fn parted<T: PartialEq>(twin: &[u32], part: &[T]) -> Vec<u32> {
         .collect()
 }
 
-/// A sheet of a chart as a chart. Should it not be a disk, its triangles are charts of their own.
-fn part(chart: &Chart, sheet: Sheet) -> Vec<(Chart, Vec<u32>)> {
-    let triangles = sheet.vertex.as_chunks().0.to_vec();
-    let corners = |&t: &u32| chart.corners[t as usize];
-    match Disk::new(sheet.positions.len(), triangles) {
+/// A sheet of a chart as a chart, given the corners of all triangles of the chart. Should it not be a disk, its triangles are charts of
+/// their own.
+pub fn part(
+    sheet: Sheet,
+    corners: &[[u32; 3]],
+    mirror: Option<MirrorPlane>,
+) -> Vec<(Chart, Vec<u32>)> {
+    let triangles: Vec<[u32; 3]> = sheet.vertex.as_chunks().0.to_vec();
+    let own = |&t: &u32| corners[t as usize];
+    match Disk::new(sheet.positions.len(), triangles.clone()) {
         Ok(disk) => {
             let part = Chart {
-                corners: sheet.triangles.iter().map(corners).collect(),
+                corners: sheet.triangles.iter().map(own).collect(),
                 positions: sheet.positions,
-                mirror: chart.mirror,
+                mirror,
                 disk,
             };
             vec![(part, sheet.triangles)]
         }
         Err(reason) => {
             debug_assert!(false, "a part of a disk is no disk: {reason}");
-            let single = |t: &u32| {
-                let triangle = chart.disk.triangles[*t as usize];
-                let positions = triangle.map(|v| chart.positions[v as usize]);
-                Some((Chart::single(positions, corners(t))?, vec![*t]))
+            let single = |(t, triangle): (&u32, [u32; 3])| {
+                let positions = triangle.map(|v| sheet.positions[v as usize]);
+                Some((Chart::single(positions, own(t))?, vec![*t]))
             };
-            sheet.triangles.iter().filter_map(single).collect()
+            (sheet.triangles.iter().zip(triangles))
+                .filter_map(single)
+                .collect()
         }
     }
 }

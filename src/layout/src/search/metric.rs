@@ -1,11 +1,9 @@
 //! Lengths, angles and areas of a surface, in units of the root of its area.
 
-use unwrapd_maps::mesh::{CUT, Surface, next};
+use unwrapd_maps::mesh::{CUT, NEEDLE, Surface, next};
 use unwrapd_method::numerics::ties::tied;
 use unwrapd_method::numerics::vec3::{area_vector, cross, distance, dot, norm, sub, unit};
 
-/// Largest height of a needle over its longest side: such a face looks like an edge, and decides nothing.
-const NEEDLE: f64 = 1e-4;
 /// Height of a needle's rest shape over its longest side: ten times the largest height of a needle, so that the solver
 /// can place it.
 const RAISED: f64 = 1e-3;

@@ -1,11 +1,8 @@
 //! Measures of each face and chart that all figures need.
 
 use crate::certificate::{Start, UvTopology};
+use crate::mesh::NEEDLE;
 use serde::Serialize;
-
-/// Largest height of a needle over its longest side: such a face looks like an edge. Rounding moves its vertices by
-/// more than its height on a texture of 8192 texels.
-const NEEDLE: f64 = 1e-4;
 
 /// Share of the surface area from which needles count for distortion like all faces.
 const MOST_NEEDLES: f64 = 1e-3;

@@ -12,6 +12,7 @@ mod adjacency;
 mod disk;
 mod edges;
 mod elements;
+mod needles;
 mod surface;
 mod uvs;
 
@@ -23,5 +24,6 @@ pub use edges::{
 pub use elements::{
     ElementError, PlanarMesh, TetMesh, boundary_edges, boundary_triangles, validate,
 };
+pub use needles::{NEEDLE, NeedleStep, looks_like_edge};
 pub use surface::{Defects, MeshError, Surface, canonical_order, has_zero_area, weld};
 pub use uvs::{CornerUvs, Resolution, VAxis};

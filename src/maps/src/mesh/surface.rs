@@ -24,7 +24,7 @@ pub struct Surface {
     begins_with: Vec<u8>,
     /// Defects of the input's faces.
     pub defects: Defects,
-    adjacency: Adjacency,
+    pub(super) adjacency: Adjacency,
     is_cut: bool,
 }
 

@@ -6,17 +6,46 @@ use rayon::prelude::*;
 
 use super::alike::{Alike, alike};
 use super::map::mapped_charts;
-use super::plan::Plan;
+use super::plan::{Plan, Refinement};
 use super::seams::Seams;
 use super::settings::Settings;
 use super::soup::{Piece, Soup};
 use crate::PipelineError;
+use crate::portion::Portion;
 use crate::tracker::Tracker;
-use unwrapd_layout::charts::{Cut, MappedChart};
-use unwrapd_maps::mesh::{Defects, Surface, canonical_order};
+use unwrapd_layout::charts::{Cut, MappedChart, with_needles};
+use unwrapd_maps::mesh::{Defects, NeedleStep, Surface, canonical_order};
 
 /// Largest difference of a size from 1 if a density is given.
 const SAME_SIZE: f64 = 1e-6;
+
+/// Where the triangles of a surface come from that is cut instead of another.
+struct Origin {
+    /// For each triangle the halfedge of the other surface that it begins with.
+    halfedge: Vec<u32>,
+    /// Steps that took needles out of the other surface.
+    steps: Vec<NeedleStep>,
+}
+
+/// Returns a surface in canonical order, without needles where it is cut by its shape.
+fn prepared(surface: &Surface, plan: &Plan) -> (Surface, Origin) {
+    let without = match plan.refinement {
+        Refinement::UnderBound => surface.without_needles(),
+        Refinement::GivenBack | Refinement::None => None,
+    };
+    let Some((surface, triangles, steps)) = without else {
+        let halfedge = canonical_order(surface);
+        let steps = Vec::new();
+        return (surface.reordered(&halfedge), Origin { halfedge, steps });
+    };
+    let order = canonical_order(&surface);
+    let halfedge = order.iter().map(|&h| 3 * triangles[h as usize / 3] + h % 3);
+    let origin = Origin {
+        halfedge: halfedge.collect(),
+        steps,
+    };
+    (surface.reordered(&order), origin)
+}
 
 /// The pieces of several meshes.
 pub struct Divided<'a> {
@@ -101,25 +130,28 @@ impl<'a> Divided<'a> {
     fn mapped(&self, plan: &Plan, tracker: &Tracker) -> Vec<Vec<MappedChart>> {
         let is_first = |&piece: &usize| self.shapes[piece].first == piece;
         let firsts: Vec<usize> = (0..self.pieces.len()).filter(is_first).collect();
-        let ordered = firsts.par_iter().map(|&piece| {
-            let surface = &self.surfaces[piece];
-            let order = canonical_order(surface);
-            (surface.reordered(&order), order)
-        });
-        let (surfaces, orders): (Vec<Surface>, Vec<Vec<u32>>) = ordered.unzip();
+        let (surfaces, origins): (Vec<Surface>, Vec<Origin>) = (firsts.par_iter())
+            .map(|&piece| prepared(&self.surfaces[piece], plan))
+            .unzip();
         let seams: Vec<&Seams> = firsts
             .iter()
             .map(|&piece| &*self.pieces[piece].seams)
             .collect();
         let mut mapped = vec![Vec::new(); self.pieces.len()];
         let charts = mapped_charts(&surfaces, &seams, plan, tracker);
-        for ((piece, order), mut charts) in firsts.into_iter().zip(orders).zip(charts) {
+        for ((piece, origin), mut charts) in firsts.into_iter().zip(origins).zip(charts) {
             for corner in charts
                 .iter_mut()
                 .flat_map(|map| map.chart.corners.as_flattened_mut())
             {
-                let first = order[*corner as usize / 3];
+                let first = origin.halfedge[*corner as usize / 3];
                 *corner = 3 * (first / 3) + (first + *corner) % 3;
+            }
+            if !origin.steps.is_empty() {
+                // The stage has counted the work on this surface already.
+                let portion = Portion::of_surface(tracker, piece, 0);
+                let surface = &self.surfaces[piece];
+                charts = with_needles(surface, &origin.steps, charts, &plan.embedding, &portion);
             }
             mapped[piece] = match plan.cut {
                 Cut::Keep => charts,

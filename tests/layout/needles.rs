@@ -1,0 +1,78 @@
+//! Needles put back where seams run along flipped edges.
+
+use unwrapd_layout::charts::{
+    Cut, Folds, MappedChart, Unobserved, charts, map_chart, with_needles,
+};
+use unwrapd_maps::embed::{self, Options};
+use unwrapd_maps::mesh::{Surface, origin};
+
+/// A face below a side on which a vertex of three others lies, and the needle between.
+fn surface() -> Surface {
+    let positions = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [1.2, 1e-6, 0.0],
+        [1.0, -1.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [2.0, 1.0, 0.0],
+    ];
+    let triangles = [[1, 0, 3], [0, 2, 4], [2, 5, 4], [2, 1, 5], [0, 1, 2]];
+    Surface::new(&positions, &triangles).unwrap()
+}
+
+#[test]
+fn a_face_beyond_a_seam_is_laid_beside_the_other() {
+    let surface = surface();
+    // Seams: none, a slit along the flipped edge, and a cut through it.
+    for seams in [&[][..], &[[2, 3]], &[[2, 3], [2, 4]]] {
+        let (mut without, of, steps) = surface.without_needles().unwrap();
+        let ends = |h: u32| {
+            let to = if h % 3 == 2 { h - 2 } else { h + 1 };
+            [h, to].map(|h| {
+                // Vertices are numbered anew: compare them by their places.
+                let p = without.positions[origin(&without.triangles, h) as usize];
+                surface.positions.iter().position(|q| *q == p).unwrap()
+            })
+        };
+        let is_seam: Vec<bool> = (0..3 * without.triangles.len() as u32)
+            .map(|h| {
+                let [a, b] = ends(h);
+                seams.contains(&[a.min(b), a.max(b)])
+            })
+            .collect();
+        without.cut_along(|h, _| is_seam[h as usize]);
+        let mut maps: Vec<MappedChart> = charts(&without, Cut::Seams)
+            .into_iter()
+            .flat_map(|chart| map_chart(chart, &Options::default(), Folds::Cut, &Unobserved))
+            .collect();
+        for corner in maps
+            .iter_mut()
+            .flat_map(|map| map.chart.corners.as_flattened_mut())
+        {
+            *corner = 3 * of[*corner as usize / 3] + *corner % 3;
+        }
+        let n_charts = maps.len();
+        let maps = with_needles(&surface, &steps, maps, &Options::default(), &Unobserved);
+        assert_eq!(maps.len(), n_charts, "{seams:?}");
+        let mut corners = Vec::new();
+        for map in &maps {
+            let triangles = &map.chart.disk.triangles;
+            assert!(
+                embed::is_positive(triangles, &map.embedding.uv),
+                "{seams:?}"
+            );
+            for (triangle, of_face) in triangles.iter().zip(&map.chart.corners) {
+                for (&v, &corner) in triangle.iter().zip(of_face) {
+                    let expected = surface.corners(corner as usize / 3)[corner as usize % 3];
+                    assert_eq!(map.chart.positions[v as usize], expected, "{seams:?}");
+                    corners.push(corner);
+                }
+            }
+        }
+        corners.sort_unstable();
+        assert!(corners.into_iter().eq(0..15), "{seams:?}");
+        // The shape is flat: nothing but the needle and what it pushes is distorted.
+        let area: f64 = maps.iter().map(MappedChart::area).sum();
+        assert!((area - 3.0).abs() < 1e-3, "{seams:?}: {area}");
+    }
+}
