@@ -54,9 +54,7 @@ pub fn enough(charts: &[ChartMap], options: &AtlasOptions) -> Result<Enough, Atl
     let first = Plan::largest_first(&outlines(charts)?, options);
     let coarse = CoarseLayout::new(charts, &largest)?;
     let exact = coarse.and_then(|coarse| searched(&coarse, &largest, UNHEARD).1);
-    let found = exact
-        .map(|(_, layout)| layout)
-        .or_else(|| layout(&first, &slack, &largest, UNHEARD));
+    let found = exact.or_else(|| layout(&first, &slack, &largest, UNHEARD));
     let longer = f64::from(options.texture.resolution.longer());
     let reached = |scale: f64| scale / options.texture.grid_side() * longer;
     Ok(Enough {
@@ -90,6 +88,6 @@ fn pages(first: &Plan, slack: &[f64], options: &AtlasOptions) -> Option<u32> {
         ..options.clone()
     };
     let layout = layout(first, slack, &many, UNHEARD)?;
-    let pages = layout.charts.iter().map(|(spot, _)| spot.corner.page + 1);
+    let pages = layout.charts.iter().map(|place| place.page + 1);
     pages.max()
 }

@@ -6,8 +6,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 use super::effort::OnRead;
-use super::layout::{Layout, stretch};
-use super::occupancy::{Corner, Spot};
+use super::layout::{Layout, Place, stretch};
 use super::outline::Outline;
 use super::page::Region;
 use super::problem::{AtlasOptions, Scale};
@@ -28,111 +27,54 @@ const SPREADS: u32 = 8;
 const SHARE: u64 = 16;
 /// Share of the scale for which charts that are too small for the grid are enlarged, since the final scale may be a little smaller.
 const SMALLER: f64 = 0.98;
-/// Number of positions per cell, along each axis, to which charts are rounded.
-const PLACES: f64 = 256.0;
 
-/// Squeezed charts of one page.
-#[derive(Clone)]
-pub(super) struct Page {
-    pub number: u32,
+/// Charts on all pages that are to be squeezed, and what they keep clear of.
+pub(super) struct Squeezing<'a> {
+    /// Outlines of all charts, turned as at an angle of 0.
+    pub level: &'a [Outline],
     /// Indices of the charts, in the order of the poses.
-    pub charts: Vec<usize>,
-    pub squeezed: Squeezed,
+    pub charts: &'a [usize],
+    /// Cells per mesh unit.
+    pub scale: f64,
     pub border: Border,
     /// Outlines of the islands that stay, in longer sides of a page from the lower left corner of the first one.
-    pub stays: Arc<[Outline]>,
+    pub stays: &'a [Outline],
+    pub options: &'a AtlasOptions,
+    pub on_read: &'a OnRead<'a>,
 }
 
-impl Page {
-    /// Creates a page without islands that stay, which ends where its charts end.
-    pub(super) fn cropped(number: u32, charts: Vec<usize>, squeezed: Squeezed) -> Self {
-        Self {
-            number,
-            charts,
-            squeezed,
-            border: Border::Cropped,
-            stays: Arc::default(),
-        }
-    }
-}
-
-/// Relation of a page to the charts on it.
+/// Relation of the pages to the charts on them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Border {
-    /// The page ends where its charts end.
+    /// Pages end where their charts end.
     Cropped,
     /// Charts have frames, or keep clear of islands, which are given relative to the page.
     Fixed,
 }
 
-/// Returns the turned outlines and a layout near squeezed pages in which charts keep the padding. Returns `None` if charts could
-/// not be brought far enough apart, or if they do not fit at a prescribed scale.
-///
-/// The returned outlines are `level` turned by the angles of the squeezed poses. `scale` is in cells per mesh unit.
-pub(super) fn layout(
-    level: &[&Outline],
-    pages: &[Page],
-    scale: f64,
-    (options, on_read): (&AtlasOptions, &OnRead),
-) -> Option<(Vec<Outline>, Layout)> {
-    let tight = Tight {
-        level,
-        scale,
-        options,
-        on_read,
-    };
-    let placed = (0..pages.len()).map(|i| {
-        let others = pages.iter().enumerate().filter(|&(j, _)| j != i);
-        let least = others.map(|(_, page)| page.squeezed.side);
-        tight.places(&pages[i], least.fold(0.0, f64::max))
-    });
-    tight.layout(pages, placed.collect::<Option<_>>()?)
-}
+impl Squeezing<'_> {
+    /// Squeezes the charts, then places them as [`layout`](Self::layout) does. Reads at most half of the word budget.
+    pub(super) fn settled_layout(&self, mut squeezed: Squeezed) -> Option<Layout> {
+        let bodies = self.bodies(squeezed.padding);
+        squeezed
+            .settle(&bodies, self.options.budget_words / 2, self.on_read)
+            .then(|| self.layout(squeezed))
+            .flatten()
+    }
 
-/// Squeezes the charts of a page, then places them as [`layout`] does. Reads at most half of the word budget.
-pub(super) fn settled_layout(
-    outlines: &[Outline],
-    mut page: Page,
-    scale: f64,
-    (options, on_read): (&AtlasOptions, &OnRead),
-) -> Option<(Vec<Outline>, Layout)> {
-    let body = |&chart: &usize| Arc::new(Body::new(&outlines[chart], scale, page.squeezed.padding));
-    let bodies: Vec<Arc<Body>> = page.charts.iter().map(body).collect();
-    let words = options.budget_words / 2;
-    let is_apart = page.squeezed.settle(&bodies, words, on_read);
-    let level: Vec<&Outline> = outlines.iter().collect();
-    is_apart
-        .then(|| layout(&level, &[page], scale, (options, on_read)))
-        .flatten()
-}
-
-/// Charts to be placed, on a raster of `scale` cells per mesh unit.
-struct Tight<'a> {
-    level: &'a [&'a Outline],
-    /// Cells per mesh unit.
-    scale: f64,
-    options: &'a AtlasOptions,
-    on_read: &'a OnRead<'a>,
-}
-
-impl Tight<'_> {
-    /// Places the charts of a page as near to each other as permitted if the longer side of the largest page is at least `least`.
-    /// Returns `None` if they cannot be kept far enough apart.
-    fn places(&self, page: &Page, least: f64) -> Option<Places> {
-        let mut squeezed = page.squeezed.clone();
+    /// Returns a layout near squeezed charts in which they keep the padding. Returns `None` if they could not be brought far enough
+    /// apart, or if they do not fit at a prescribed scale.
+    pub(super) fn layout(&self, mut squeezed: Squeezed) -> Option<Layout> {
         let kept = self.padding(squeezed.side);
         squeezed.padding = kept + 2.0 * ROUNDED;
-        let level: Vec<&Outline> = page.charts.iter().map(|&chart| self.level[chart]).collect();
-        let bodies: Vec<Arc<Body>> = (level.par_iter())
-            .map(|outline| Arc::new(Body::new(outline, self.scale, kept)))
-            .collect();
+        let bodies = self.bodies(kept);
         let (mut room, mut best) = (0.0, None);
         for _ in 0..ROUNDS {
             let words = self.options.budget_words / SHARE;
             if !squeezed.loosen(&bodies, room, (words, self.on_read)) {
                 break;
             }
-            let (places, missing) = self.measured(&level, page, &squeezed, least);
+            let (places, missing) = self.measured(&squeezed);
             if missing <= 0.0 && self.fits(&places) {
                 best = Some(places);
             }
@@ -142,44 +84,42 @@ impl Tight<'_> {
             room += missing + SPARE;
         }
         // Where charts overlap, the distance that is missing is not known.
-        best.or_else(|| {
+        let spread = || {
             let mut shares = (0..SPREADS).map(|power| LEAST_SPREAD * f64::from(1 << power));
             shares.find_map(|share| {
-                let spread = squeezed.spread(1.0 + share);
-                let (places, missing) = self.measured(&level, page, &spread, least);
+                let (places, missing) = self.measured(&squeezed.spread(1.0 + share));
                 (missing <= 0.0 && self.fits(&places)).then_some(places)
             })
-        })
+        };
+        self.on_grid(best.or_else(spread)?)
+    }
+
+    fn bodies(&self, kept: f64) -> Vec<Arc<Body>> {
+        let charts = self.charts.par_iter();
+        charts
+            .map(|&chart| Arc::new(Body::new(&self.level[chart], self.scale, kept)))
+            .collect()
     }
 
     /// Returns whether the page has room for the places, which matters at a prescribed scale, and each frame for its chart.
     fn fits(&self, places: &Places) -> bool {
-        self.around(places.side) <= self.page(places.side) && places.overhang <= 0.0
+        // Frames have a margin of [`ROUNDED`].
+        self.around(places.side) <= self.page(places.side) && places.overhang <= ROUNDED / 2.0
     }
 
     /// Places charts as squeezed, and measures the distance that is missing between two of them, in cells; negative if they are farther
     /// apart than they have to be.
-    fn measured(
-        &self,
-        level: &[&Outline],
-        page: &Page,
-        squeezed: &Squeezed,
-        least: f64,
-    ) -> (Places, f64) {
-        let page = Page {
-            squeezed: Squeezed {
-                padding: self.padding(squeezed.side) + 2.0 * ROUNDED,
-                ..squeezed.clone()
-            },
-            ..page.clone()
+    fn measured(&self, squeezed: &Squeezed) -> (Places, f64) {
+        let padded = Squeezed {
+            padding: self.padding(squeezed.side) + 2.0 * ROUNDED,
+            ..squeezed.clone()
         };
-        let grid_side = self.options.texture.grid_side();
-        let mut places = Places::new(level, &page, self.scale, grid_side);
-        places.side = match page.border {
+        let mut places = Places::new(self, &padded);
+        places.side = match self.border {
             Border::Cropped => self.side(places.reach),
             Border::Fixed => squeezed.side,
         };
-        let missing = self.padding(places.side.max(least)) + 2.0 * ROUNDED - places.gap;
+        let missing = self.padding(places.side) + 2.0 * ROUNDED - places.gap;
         (places, missing)
     }
 
@@ -190,7 +130,7 @@ impl Tight<'_> {
         frame.side(reach, [least + 2.0 * ROUNDED, self.padding(1.0) - least])
     }
 
-    /// Returns the cells per texel if the longer side of the largest page, without borders, is `side`.
+    /// Returns the cells per texel if the longer side of a page, without borders, is `side`.
     fn texel(&self, side: f64) -> f64 {
         let longer = f64::from(self.options.texture.resolution.longer());
         match self.options.scale {
@@ -219,50 +159,42 @@ impl Tight<'_> {
         }
     }
 
-    fn layout(&self, pages: &[Page], placed: Vec<Places>) -> Option<(Vec<Outline>, Layout)> {
-        let sides = placed.iter().map(|places| places.side);
-        let side = sides.max_by(f64::total_cmp)?;
-        let padding = self.padding(side);
-        let cell = self.options.texture.grid_side() / (PLACES * self.page(side));
-        let scale = PLACES * self.scale * cell;
-        let mut outlines: Vec<Outline> = self.level.iter().copied().cloned().collect();
-        let mut charts = vec![(Spot::default(), 1.0); outlines.len()];
-        for (page, places) in pages.iter().zip(placed) {
-            let mut stretched = places.outlines.iter().zip(&places.stretches);
-            let is_small = |(outline, &by): (&Outline, &f64)| stretch(outline, scale) > by;
-            if places.gap < padding + 2.0 * ROUNDED || stretched.any(is_small) {
-                return None;
-            }
-            let placed = places.outlines.into_iter().zip(places.corners);
-            let placed = placed.zip(places.stretches);
-            for (&chart, ((outline, corner), stretch)) in page.charts.iter().zip(placed) {
-                outlines[chart] = outline;
-                charts[chart].1 = stretch;
-                charts[chart].0.corner = Corner {
-                    page: page.number + corner.page,
-                    ..corner
-                };
-            }
+    /// Converts places from cells to grid steps. Returns `None` if a chart would be too small for the grid.
+    fn on_grid(&self, places: Places) -> Option<Layout> {
+        let cell = self.options.texture.grid_side() / self.page(places.side);
+        let scale = self.scale * cell;
+        let border = self.padding(places.side) / 2.0 + ROUNDED;
+        let is_small = |place: &Place| stretch(&place.outline, scale) > place.stretch;
+        if places.charts.iter().any(is_small) {
+            return None;
         }
-        let layout = Layout {
+        let nowhere = |outline: &Outline| Place {
+            outline: outline.clone(),
+            page: 0,
+            corner: [0.0; 2],
+            stretch: 1.0,
+            room: 0.0,
+        };
+        let mut charts: Vec<Place> = self.level.iter().map(nowhere).collect();
+        for (&chart, place) in self.charts.iter().zip(places.charts) {
+            charts[chart] = Place {
+                corner: place.corner.map(|x| (border + x) * cell),
+                room: ROUNDED * cell,
+                ..place
+            };
+        }
+        Some(Layout {
             scale,
             cell,
-            border: PLACES * (padding / 2.0 + ROUNDED),
-            spare: PLACES * ROUNDED,
             padding_texels: f64::from(self.options.padding_texels),
             charts,
-        };
-        Some((outlines, layout))
+        })
     }
 }
 
-/// Charts at rounded positions on one page.
+/// Places of squeezed charts in cells, without borders.
 struct Places {
-    outlines: Vec<Outline>,
-    /// Factor by which each chart exceeds the common scale.
-    stretches: Vec<f64>,
-    /// Lower left corners, in units of 1/[`PLACES`] of a cell.
-    corners: Vec<Corner>,
+    charts: Vec<Place>,
     /// Largest extents of the charts to the right and up, in cells.
     reach: [f64; 2],
     /// Longer side, without borders, of the page that the charts need, in cells.
@@ -274,69 +206,61 @@ struct Places {
 }
 
 impl Places {
-    /// Rounds the positions of squeezed charts. Keeps them in their frames if the border is fixed.
-    fn new(level: &[&Outline], page: &Page, scale: f64, grid_side: f64) -> Self {
-        let Page {
-            squeezed, border, ..
-        } = page;
+    /// Places charts as squeezed; in their frames if the border is fixed.
+    fn new(squeezing: &Squeezing, squeezed: &Squeezed) -> Self {
+        let Squeezing { level, border, .. } = *squeezing;
         let cells = squeezed.side + squeezed.padding;
+        let unit = SMALLER * squeezing.scale * squeezing.options.texture.grid_side() / cells;
         let mut places = Self {
-            outlines: Vec::with_capacity(level.len()),
-            stretches: Vec::with_capacity(level.len()),
-            corners: Vec::with_capacity(level.len()),
+            charts: Vec::with_capacity(squeezing.charts.len()),
             reach: [0.0; 2],
             side: 0.0,
             gap: 0.0,
             overhang: 0.0,
         };
         let mut edges: Vec<Segment> = Vec::new();
-        let mut charts = Vec::new();
-        let posed = level
-            .iter()
-            .zip(&squeezed.poses)
-            .zip(squeezed.frames.iter());
-        for ((level, pose), frame) in posed {
-            let outline = level.rotated(pose.angle);
-            let middle = outline.place(level.middle());
+        let mut owners = Vec::new();
+        let posed = squeezing.charts.iter().zip(&squeezed.poses);
+        for ((&chart, pose), frame) in posed.zip(squeezed.frames.iter()) {
+            let outline = level[chart].rotated(pose.angle);
+            let middle = outline.place(level[chart].middle());
             let left = [frame.left * cells, 0.0];
-            let [low, high] = frame.bounds(squeezed.side, squeezed.padding);
-            let stretch = stretch(&outline, SMALLER * scale * grid_side / cells);
-            let scale = stretch * scale;
-            let rounded = [0, 1].map(|k| {
+            let bounds = frame.bounds(squeezed.side, squeezed.padding);
+            let [low, high] = bounds.map(|end| [0, 1].map(|k| end[k] - left[k]));
+            let stretch = stretch(&outline, unit);
+            let scale = stretch * squeezing.scale;
+            let corner = [0, 1].map(|k| {
                 let extent = outline.extent[k] * scale;
-                let corner = pose.middle[k] - middle[k] * scale - left[k];
-                let corner = (corner * PLACES).round().max(0.0);
+                let corner = (pose.middle[k] - middle[k] * scale - left[k]).max(0.0);
                 let corner = match border {
                     Border::Cropped => corner,
-                    Border::Fixed => corner
-                        .min(((high[k] - left[k] - extent) * PLACES).floor())
-                        .max(((low[k] - left[k]) * PLACES).ceil()),
+                    Border::Fixed => corner.min(high[k] - extent).max(low[k]),
                 };
-                let far = corner / PLACES + extent;
+                let far = corner + extent;
                 places.reach[k] = places.reach[k].max(far);
-                if *border == Border::Fixed {
-                    places.overhang = places.overhang.max(far + left[k] - high[k]);
+                if border == Border::Fixed {
+                    places.overhang = places.overhang.max(far - high[k]);
                 }
                 corner
             });
-            let place = |p: [f64; 2]| [0, 1].map(|k| left[k] + rounded[k] / PLACES + p[k] * scale);
+            let place = |p: [f64; 2]| [0, 1].map(|k| left[k] + corner[k] + p[k] * scale);
             edges.extend(outline.edges().map(|edge| edge.map(place)));
-            charts.resize(edges.len(), places.outlines.len() as u32);
-            places.outlines.push(outline);
-            places.stretches.push(stretch);
-            places.corners.push(Corner {
+            owners.resize(edges.len(), places.charts.len() as u32);
+            places.charts.push(Place {
+                outline,
                 page: frame.page,
-                x: rounded[0] as u32,
-                y: rounded[1] as u32,
+                corner,
+                stretch,
+                room: 0.0,
             });
         }
-        for outline in page.stays.iter() {
+        for outline in squeezing.stays {
             let place = |p: [f64; 2]| p.map(|x| x * cells - squeezed.padding / 2.0);
             edges.extend(outline.edges().map(|edge| edge.map(place)));
         }
         // Islands keep no distance from each other.
-        charts.resize(edges.len(), level.len() as u32);
-        places.gap = smallest_gap(&edges, &charts);
+        owners.resize(edges.len(), squeezing.charts.len() as u32);
+        places.gap = smallest_gap(&edges, &owners);
         places
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::coarse::{FINE, MOST_CHARTS, raster_side};
 use super::effort::OnRead;
-use super::gap::{self, Page, smallest_gap};
+use super::gap::{Border, Squeezing, smallest_gap};
 use super::layout::Layout;
 use super::outline::{Outline, outlines};
 use super::page::Region;
@@ -20,7 +20,6 @@ const ACROSS: f64 = 1e-3;
 
 /// Squeezed layout of given maps.
 pub(super) struct Given {
-    pub outlines: Vec<Outline>,
     pub layout: Layout,
     pub tidiness: Tidiness,
 }
@@ -69,8 +68,16 @@ pub(super) fn given(
     };
     let posed = order.iter().map(|chart| (pose(chart), frame));
     let squeezed = Squeezed::new(posed, Arc::default(), page, padding);
-    let page = Page::cropped(0, order, squeezed);
-    let exact = gap::settled_layout(&outlines, page, scale, (options, on_read));
+    let squeezing = Squeezing {
+        level: &outlines,
+        charts: &order,
+        scale,
+        border: Border::Cropped,
+        stays: &[],
+        options,
+        on_read,
+    };
+    let layout = squeezing.settled_layout(squeezed);
     let lean = |outline: &Outline| match outline.straightness {
         Straightness::Upright(axis) => axis[0].abs().min(axis[1].abs()) > ACROSS,
         Straightness::Leaning(_) | Straightness::Round => false,
@@ -80,11 +87,7 @@ pub(super) fn given(
     } else {
         Tidiness::Straight
     };
-    Ok(exact.map(|(outlines, layout)| Given {
-        outlines,
-        layout,
-        tidiness,
-    }))
+    Ok(layout.map(|layout| Given { layout, tidiness }))
 }
 
 /// Returns whether two outlines meet where they lie. Stacked charts do: separating them one by one would take long and give no layout

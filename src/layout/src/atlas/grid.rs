@@ -31,6 +31,13 @@ pub(super) struct Snapped {
     pub largest_move: f64,
 }
 
+impl Snapped {
+    /// Returns the distance by which vertices move, in grid units, once the chart is shifted by a rounded distance.
+    pub(super) fn needed(&self) -> f64 {
+        self.largest_move + 2.0
+    }
+}
+
 /// Number of columns and rows of grid points, to each side of the exact position, that are tried.
 const REACH: i32 = 2;
 /// Number of neighborhoods tried; each has twice as many rings as the one before.

@@ -21,14 +21,31 @@ pub(super) struct Layout {
     pub scale: f64,
     /// Grid steps per cell.
     pub cell: f64,
-    /// Cells kept free at each border.
-    pub border: f64,
-    /// Distance that vertices may be moved beyond the slack of their charts, in cells.
-    pub spare: f64,
     /// Distance kept between charts, in texels.
     pub padding_texels: f64,
-    /// Place of each chart, and the factor by which it exceeds the common scale.
-    pub charts: Vec<(Spot, f64)>,
+    pub charts: Vec<Place>,
+}
+
+/// Place of a chart.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    /// Outline at its angle on the page.
+    pub outline: Outline,
+    pub page: u32,
+    /// Lower left corner of its bounding rectangle on the page, in grid steps.
+    pub corner: [f64; 2],
+    /// Factor by which it exceeds the common scale.
+    pub stretch: f64,
+    /// Distance by which its vertices may be moved, in grid steps.
+    pub room: f64,
+}
+
+impl Place {
+    /// Returns the center of the bounding rectangle, in grid steps. `scale` is the common one.
+    pub(super) fn middle(&self, scale: f64) -> [f64; 2] {
+        let extent = self.outline.extent;
+        [0, 1].map(|k| self.corner[k] + extent[k] * scale * self.stretch / 2.0)
+    }
 }
 
 /// Maximum number of scales tried once one fits, and before.
@@ -122,16 +139,7 @@ pub(super) fn layout(
         Scale::Largest => f64::from(attempt.side.max(1)) + 2.0 * border,
         Scale::TexelsPerUnit(_) => f64::from(cells),
     };
-    let cell = texture.grid_side() / used;
-    Some(Layout {
-        scale: scale * cell,
-        cell,
-        border,
-        spare: 0.0,
-        padding_texels: (padding * longer / f64::from(cells))
-            .min(f64::from(options.padding_texels)),
-        charts: attempt.spots,
-    })
+    Some(packing.layout((scale, attempt), used, options))
 }
 
 /// Charts whose area is a smaller share of their room than this count as lines: the difference of roots would be rounding.
@@ -432,6 +440,53 @@ impl Packing<'_> {
             side: occupancy.side,
             rows: occupancy.tops.iter().sum(),
         })
+    }
+
+    /// Returns the layout of an attempt at a scale, on pages with `used` cells along their longer side.
+    pub(super) fn layout(
+        &self,
+        (scale, attempt): (f64, Attempt),
+        used: f64,
+        options: &AtlasOptions,
+    ) -> Layout {
+        let cell = self.texture.grid_side() / used;
+        let longer = f64::from(self.texture.resolution.longer());
+        let padding = self.padding * longer / f64::from(self.cells);
+        let spots = attempt.spots.into_iter().enumerate();
+        Layout {
+            scale: scale * cell,
+            cell,
+            padding_texels: padding.min(f64::from(options.padding_texels)),
+            charts: spots
+                .map(|(chart, (spot, stretch))| self.place(chart, spot, stretch, scale, cell))
+                .collect(),
+        }
+    }
+
+    /// Returns the place of a chart, at `scale` cells per mesh unit and `cell` grid steps per cell.
+    fn place(&self, chart: usize, spot: Spot, stretch: f64, scale: f64, cell: f64) -> Place {
+        let outline = self.plan.outlines[chart].quarter_turned(spot.turns);
+        let around = self.slack[chart] - SLACK;
+        let Corner { x, y, page } = spot.corner;
+        // Before it is turned, a chart lies at the lower left corner of its mask.
+        let is_at_far_side = [matches!(spot.turns, 1 | 2), spot.turns >= 2];
+        let corner = [0, 1].map(|k| {
+            let near = self.border + f64::from([x, y][k]);
+            let corner = if is_at_far_side[k] {
+                let extent = outline.extent[k] * scale * stretch;
+                near + f64::from(spot.size[k]) - around - extent
+            } else {
+                near + around
+            };
+            corner * cell
+        });
+        Place {
+            outline,
+            page,
+            corner,
+            stretch,
+            room: self.slack[chart] * cell,
+        }
     }
 
     /// Returns the cells of a region, with the border kept to its sides.

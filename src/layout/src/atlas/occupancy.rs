@@ -126,7 +126,12 @@ impl Occupancy {
                 if let Some(x) = self.first_free(mask, corner, columns) {
                     let side = self.form.side([x + width, y + height]).max(self.side);
                     let corner = Corner { x, ..corner };
-                    *best = Some((side, (index, Spot::new(mask, corner))));
+                    let spot = Spot {
+                        corner,
+                        turns: mask.turns,
+                        size: mask.size,
+                    };
+                    *best = Some((side, (index, spot)));
                     if side == self.side {
                         return;
                     }
@@ -338,42 +343,8 @@ pub(super) struct Spot {
     pub corner: Corner,
     /// Quarter turns, counter-clockwise.
     pub turns: u32,
-    /// Size of the body *before* it is turned, in cells.
-    pub width: u32,
-    pub height: u32,
-}
-
-impl Spot {
-    /// Returns the center of a chart whose rectangle, before it is turned, begins at the lower left corner of the body and has this
-    /// extent, in cells.
-    pub(super) fn middle(&self, extent: [f64; 2]) -> [f64; 2] {
-        let Corner { x, y, .. } = self.corner;
-        let [i, j] = extent.map(|x| x / 2.0);
-        let [width, height] = [self.width, self.height].map(f64::from);
-        let [i, j] = match self.turns {
-            0 => [i, j],
-            1 => [height - j, i],
-            2 => [width - i, height - j],
-            _ => [j, width - i],
-        };
-        [f64::from(x) + i, f64::from(y) + j]
-    }
-
-    pub(super) fn new(mask: &Turned, corner: Corner) -> Self {
-        let [width, height] = mask.size;
-        let is_upright = mask.turns.is_multiple_of(2);
-        let (width, height) = if is_upright {
-            (width, height)
-        } else {
-            (height, width)
-        };
-        Self {
-            corner,
-            turns: mask.turns,
-            width,
-            height,
-        }
-    }
+    /// Width and height of the turned body, in cells.
+    pub size: [u32; 2],
 }
 
 /// Region in which a place is searched: pages, columns and rows from `lowest` to `highest`, both included. On pages after the

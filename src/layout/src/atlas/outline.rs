@@ -157,10 +157,22 @@ impl Outline {
         }
     }
 
+    /// Returns the angle, in radians, by which another rotation of this outline is turned further counter-clockwise.
+    pub(super) fn angle_to(&self, other: &Self) -> f64 {
+        let ([a, b], [c, d]) = (self.axis, other.axis);
+        (b * c - a * d).atan2(a * c + b * d)
+    }
+
     /// Returns the outline turned counter-clockwise by an angle in radians.
     pub(super) fn rotated(&self, angle: f64) -> Self {
         let ([c, s], (sin, cos)) = (self.axis, angle.sin_cos());
         self.turned([c * cos + s * sin, s * cos - c * sin])
+    }
+
+    /// Returns the outline turned counter-clockwise by quarters, exactly.
+    pub(super) fn quarter_turned(&self, turns: u32) -> Self {
+        let turned = |[c, s]: [f64; 2], _| [s, -c];
+        self.turned((0..turns).fold(self.axis, turned))
     }
 
     /// Turns and shifts a point of the map. The lower left corner of the bounding rectangle becomes the origin.

@@ -6,7 +6,6 @@ use super::effort::{Effort, OnRead, UNHEARD};
 use super::given::{Given, Tidiness, given};
 use super::grid::{Repair, Snapped, aligned, doubled_area, snapped};
 use super::layout::{self, Layout, SLACK};
-use super::occupancy::{Corner, Spot};
 use super::outline::{Outline, outlines};
 use super::page::GRID_SIDE;
 use super::plan::Plan;
@@ -76,10 +75,10 @@ fn pack_plan(
         raster = on_first();
     }
     let is_fuller = |scale: f64| raster.as_ref().is_none_or(|found| scale > found.scale);
-    if let Some((outlines, layout)) = exact.filter(|(_, exact)| is_fuller(exact.scale)) {
-        let snapped = on_grid(charts, &outlines, &layout, Repair::Open);
-        if !is_cramped(&snapped, &layout, &mut slack.clone()) {
-            return Ok(atlas(charts, &layout, &slack, snapped, options));
+    if let Some(layout) = exact.filter(|exact| is_fuller(exact.scale)) {
+        let snapped = on_grid(charts, &layout, Repair::Open);
+        if !is_cramped(&snapped, &layout) {
+            return Ok(atlas(charts, &layout, snapped, options));
         }
     }
     let layout = raster.or_else(on_first);
@@ -88,24 +87,21 @@ fn pack_plan(
 }
 
 /// Returns the fuller of a layout that was searched and the given one, which has to be fuller by [`STRAIGHT`] if straight charts lean.
-fn fuller(exact: Option<Exact>, given: Option<Given>, options: &AtlasOptions) -> Option<Exact> {
-    let Some(Given {
-        outlines,
-        layout,
-        tidiness,
-    }) = given
-    else {
+fn fuller(exact: Option<Layout>, given: Option<Given>, options: &AtlasOptions) -> Option<Layout> {
+    let Some(Given { layout, tidiness }) = given else {
         return exact;
     };
-    let area: f64 = outlines.iter().map(|outline| outline.size.powi(2)).sum();
+    let area: f64 = (layout.charts.iter())
+        .map(|place| place.outline.size.powi(2))
+        .sum();
     let fill = |scale: f64| area * (scale / options.texture.grid_side()).powi(2);
     let advantage = match tidiness {
         Tidiness::Straight => 0.0,
         Tidiness::Leaning => STRAIGHT,
     };
     exact
-        .filter(|(_, exact)| fill(exact.scale) >= fill(layout.scale) - advantage)
-        .or(Some((outlines, layout)))
+        .filter(|exact| fill(exact.scale) >= fill(layout.scale) - advantage)
+        .or(Some(layout))
 }
 
 /// Rounds a layout on the raster to the grid. Lays charts out anew, with more room, while a vertex has to move farther than its chart
@@ -119,15 +115,16 @@ fn on_raster(
 ) -> Result<Atlas, AtlasError> {
     let mut slack = vec![SLACK; charts.len()];
     for _ in 0..ROUNDS {
-        let snapped = on_grid(charts, &plan.outlines, &layout, Repair::Open);
-        if !is_cramped(&snapped, &layout, &mut slack) {
-            return Ok(atlas(charts, &layout, &slack, snapped, options));
+        let snapped = on_grid(charts, &layout, Repair::Open);
+        if !is_cramped(&snapped, &layout) {
+            return Ok(atlas(charts, &layout, snapped, options));
         }
+        give_room(&snapped, &layout, &mut slack);
         layout = layout::layout(plan, &slack, options, on_read)
             .ok_or_else(|| none_fits(charts, options))?;
     }
-    let rounded = on_grid(charts, &plan.outlines, &layout, Repair::Nothing);
-    Ok(atlas(charts, &layout, &slack, rounded, options))
+    let rounded = on_grid(charts, &layout, Repair::Nothing);
+    Ok(atlas(charts, &layout, rounded, options))
 }
 
 /// Returns the error if no layout is found.
@@ -140,18 +137,19 @@ fn none_fits(charts: &[ChartMap], options: &AtlasOptions) -> AtlasError {
     }
 }
 
-/// Enlarges the slack of every chart with a vertex that moves farther than that. Returns whether there is one.
-pub(super) fn is_cramped(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) -> bool {
-    let mut is_cramped = false;
-    for (snapped, slack) in snapped.iter().zip(slack) {
-        // Shifting and turning round to whole grid units once more.
-        let needed = (snapped.largest_move + 2.0) / layout.cell;
-        if needed > *slack + layout.spare {
-            *slack = 1.5 * needed;
-            is_cramped = true;
+/// Returns whether a vertex moves farther than its chart has room for.
+pub(super) fn is_cramped(snapped: &[Snapped], layout: &Layout) -> bool {
+    let mut charts = snapped.iter().zip(&layout.charts);
+    charts.any(|(snapped, place)| snapped.needed() > place.room)
+}
+
+/// Enlarges the slack, in cells, of every chart with a vertex that moves farther than the chart has room for.
+pub(super) fn give_room(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) {
+    for ((snapped, place), slack) in snapped.iter().zip(&layout.charts).zip(slack) {
+        if snapped.needed() > place.room {
+            *slack = 1.5 * snapped.needed() / layout.cell;
         }
     }
-    is_cramped
 }
 
 /// Returns whether charts fit at the prescribed scale if each is placed once, the largest first.
@@ -164,9 +162,6 @@ pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasEr
     )
 }
 
-/// Outlines and a layout in which charts keep exactly the padding.
-type Exact = (Vec<Outline>, Layout);
-
 /// Searches for the fullest layout. Straight charts lie along the axes unless other angles fill more than [`STRAIGHT`] more of the
 /// squeezed page. One search tells whether they do. At a prescribed scale they may lie at any angle, since a little less fill may be too
 /// little.
@@ -174,7 +169,7 @@ pub(super) fn searched(
     coarse: &CoarseLayout,
     options: &AtlasOptions,
     on_read: &OnRead,
-) -> (CoarseLayout, Option<Exact>) {
+) -> (CoarseLayout, Option<Layout>) {
     let any = searched_once(coarse.clone(), options, on_read);
     let least = any.fill() - STRAIGHT;
     let straight = coarse
@@ -220,12 +215,12 @@ fn fullest(
     mut coarse: CoarseLayout,
     options: &AtlasOptions,
     on_read: &OnRead,
-) -> (CoarseLayout, Option<Exact>) {
+) -> (CoarseLayout, Option<Layout>) {
     let words = Effort::High.words(coarse.n_charts());
     let searches = searches(coarse.n_charts(), coarse.n_triangles());
     // The search that was made before is one of the first round.
     let mut left = options.budget_words.saturating_sub(words);
-    let mut fullest: Option<Exact> = None;
+    let mut fullest: Option<Layout> = None;
     for round in 1..=options.patience {
         let before = coarse.fill();
         for _ in u64::from(round == 1)..searches {
@@ -234,7 +229,7 @@ fn fullest(
         }
         if round == 1 || coarse.fill() > before {
             let exact = coarse.with_exact_gap(options, on_read);
-            let scale = |exact: &Option<Exact>| exact.as_ref().map_or(0.0, |(_, it)| it.scale);
+            let scale = |exact: &Option<Layout>| exact.as_ref().map_or(0.0, |it| it.scale);
             if scale(&exact) > scale(&fullest) {
                 fullest = exact;
             }
@@ -244,25 +239,17 @@ fn fullest(
 }
 
 /// Rounds each chart to the grid, at the origin.
-pub(super) fn on_grid(
-    charts: &[ChartMap],
-    outlines: &[Outline],
-    layout: &Layout,
-    repair: Repair,
-) -> Vec<Snapped> {
-    let charts = charts.par_iter().zip(outlines).zip(&layout.charts);
+pub(super) fn on_grid(charts: &[ChartMap], layout: &Layout, repair: Repair) -> Vec<Snapped> {
+    let charts = charts.par_iter().zip(&layout.charts);
     charts
-        .map(|((map, outline), &(_, stretch))| {
-            snapped(map, outline, layout.scale * stretch, repair)
-        })
+        .map(|(map, place)| snapped(map, &place.outline, layout.scale * place.stretch, repair))
         .collect()
 }
 
-/// Turns and shifts each chart to its place on its page.
+/// Shifts each rounded chart to its place on its page.
 pub(super) fn atlas(
     charts: &[ChartMap],
     layout: &Layout,
-    slack: &[f64],
     snapped: Vec<Snapped>,
     options: &AtlasOptions,
 ) -> Atlas {
@@ -270,23 +257,21 @@ pub(super) fn atlas(
     let moved_vertices = snapped.iter().map(|s| s.moved).sum();
     let largest_move = snapped.iter().map(|s| s.largest_move).fold(0.0, f64::max);
     let texel = texture.grid_side() as i32 / texture.resolution.longer().max(1) as i32;
-    let spots = layout.charts.iter().zip(slack);
-    let placed: Vec<Placed> = charts
-        .iter()
-        .zip(snapped.into_iter().zip(spots))
-        .map(|(map, (snapped, (&(spot, _), &slack)))| {
+    let places = snapped.into_iter().zip(&layout.charts);
+    let placed: Vec<Placed> = (charts.iter().zip(places))
+        .map(|(map, (snapped, place))| {
             if map.triangles.is_empty() {
                 return Placed {
                     grid: vec![[0; 2]; map.uv.len()],
                 };
             }
-            let grid = moved(snapped.grid, spot, layout, slack - SLACK);
+            let [x, y] = place.corner.map(|x| x.round() as i32);
+            let shifted = snapped.grid.iter().map(|[i, j]| [x + i, y + j]).collect();
             let grid = match options.borders {
-                Borders::Free => grid,
-                Borders::OnTexels => aligned(map, grid, texel),
+                Borders::Free => shifted,
+                Borders::OnTexels => aligned(map, shifted, texel),
             };
-            let page = spot.corner.page;
-            let on_page = grid.into_iter().map(|p| texture.on_page(page, p));
+            let on_page = grid.into_iter().map(|p| texture.on_page(place.page, p));
             Placed {
                 grid: on_page.collect(),
             }
@@ -305,7 +290,7 @@ pub(super) fn atlas(
         enlarged_charts: layout
             .charts
             .iter()
-            .filter(|(_, stretch)| *stretch > 1.0)
+            .filter(|place| place.stretch > 1.0)
             .count(),
         moved_vertices,
         largest_move,
@@ -332,29 +317,4 @@ fn limit(atlas: &Atlas, outlines: &[Outline], options: &AtlasOptions) -> Option<
         chart,
         utilization: atlas.utilization * (most / atlas.scale).max(1.0).powi(2),
     })
-}
-
-/// Turns a chart by quarters and shifts it to its spot. `around` cells of its mask surround it.
-fn moved(mut grid: Vec<[i32; 2]>, spot: Spot, layout: &Layout, around: f64) -> Vec<[i32; 2]> {
-    let near =
-        |corner: u32| ((layout.border + f64::from(corner) + around) * layout.cell).round() as i32;
-    let far = |corner: u32, size: u32| {
-        ((layout.border + f64::from(corner + size) - around) * layout.cell).round() as i32
-    };
-    let Spot {
-        corner: Corner { x, y, .. },
-        turns,
-        width,
-        height,
-    } = spot;
-    for p in &mut grid {
-        let [i, j] = *p;
-        *p = match turns {
-            0 => [near(x) + i, near(y) + j],
-            1 => [far(x, height) - j, near(y) + i],
-            2 => [far(x, width) - i, far(y, height) - j],
-            _ => [near(x) + j, far(y, width) - i],
-        };
-    }
-    grid
 }

@@ -4,17 +4,16 @@
 //! islands that stay are occupied, each where its region allows. Then all charts move at once while the pages shrink together with the
 //! islands and the regions ([`squeeze`](super::squeeze)), which is the same as growing the charts.
 use std::collections::BTreeMap;
-use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use super::coarse::{FINE, MOST_CHARTS, raster_side};
 use super::effort::OnRead;
-use super::gap::{self, Border, Page};
+use super::gap::{Border, Squeezing};
 use super::grid::{Repair, doubled_area};
 use super::layout::{Attempt, Extent, Layout, Packing, SLACK, best, padding, raster};
 use super::occupancy::Occupancy;
 use super::outline::{Outline, outlines};
-use super::pack::{self, ROUNDS, is_cramped, on_grid};
+use super::pack::{self, ROUNDS, give_room, is_cramped, on_grid};
 use super::page::{GRID_SIDE, Region};
 use super::plan::{Plan, QuarterTurns};
 use super::problem::{
@@ -155,10 +154,10 @@ impl Problem<'_> {
             let cells = options.most_cells.min(SQUEEZED_CELLS);
             let on_raster = self.on_raster((&plan, &slack), cells, (options, on_read));
             let layout = on_raster.and_then(|found| self.squeezed(&plan, &found, options, on_read));
-            if let Some((outlines, layout)) = layout {
-                let snapped = on_grid(charts, &outlines, &layout, Repair::Open);
-                if !is_cramped(&snapped, &layout, &mut slack.clone()) {
-                    return Ok(pack::atlas(charts, &layout, &slack, snapped, options));
+            if let Some(layout) = layout {
+                let snapped = on_grid(charts, &layout, Repair::Open);
+                if !is_cramped(&snapped, &layout) {
+                    return Ok(pack::atlas(charts, &layout, snapped, options));
                 }
             }
         }
@@ -166,10 +165,11 @@ impl Problem<'_> {
             let layout = self
                 .on_raster((&plan, &slack), options.most_cells, (options, on_read))
                 .ok_or(ConstraintError::NoRoom)?;
-            let snapped = on_grid(charts, &plan.outlines, &layout, repair);
-            if repair == Repair::Nothing || !is_cramped(&snapped, &layout, &mut slack) {
-                return Ok(pack::atlas(charts, &layout, &slack, snapped, options));
+            let snapped = on_grid(charts, &layout, repair);
+            if repair == Repair::Nothing || !is_cramped(&snapped, &layout) {
+                return Ok(pack::atlas(charts, &layout, snapped, options));
             }
+            give_room(&snapped, &layout, &mut slack);
         }
         Err(ConstraintError::NoRoom)
     }
@@ -204,18 +204,8 @@ impl Problem<'_> {
         let sizes = self.obstacles.iter().map(|it| it.outline.size);
         let taken: f64 = sizes.map(|size| size * size).sum();
         packing.free = (packing.free - taken).max(LEAST_FREE * packing.free);
-        let (scale, attempt) = placed(&packing, options)?;
-        let cell = texture.grid_side() / f64::from(cells);
-        let longer = f64::from(texture.resolution.longer());
-        Some(Layout {
-            scale: scale * cell,
-            cell,
-            border: packing.border,
-            spare: 0.0,
-            padding_texels: (padding * longer / f64::from(cells))
-                .min(f64::from(options.padding_texels)),
-            charts: attempt.spots,
-        })
+        let found = placed(&packing, options)?;
+        Some(packing.layout(found, f64::from(cells), options))
     }
 
     /// Returns pages on which the charts that stay occupy cells.
@@ -239,7 +229,7 @@ impl Problem<'_> {
         found: &Layout,
         options: &AtlasOptions,
         on_read: &OnRead,
-    ) -> Option<(Vec<Outline>, Layout)> {
+    ) -> Option<Layout> {
         let texture = options.texture;
         if found.padding_texels < f64::from(options.padding_texels) {
             return None;
@@ -249,14 +239,17 @@ impl Problem<'_> {
         let scale = found.scale * page / texture.grid_side();
         let obstacles = self.obstacles.iter();
         let fixed = obstacles.map(|it| FixedBody::new(&it.outline, page, padding));
-        let page = Page {
-            number: 0,
-            charts: plan.order.clone(),
-            squeezed: self.poses((plan, found), page, fixed.collect(), options),
+        let stays: Vec<Outline> = (self.obstacles.iter().map(|it| it.outline.clone())).collect();
+        let squeezing = Squeezing {
+            level: &plan.outlines,
+            charts: &plan.order,
+            scale,
             border: Border::Fixed,
-            stays: self.obstacles.iter().map(|it| it.outline.clone()).collect(),
+            stays: &stays,
+            options,
+            on_read,
         };
-        gap::settled_layout(&plan.outlines, page, scale, (options, on_read))
+        squeezing.settled_layout(self.poses((plan, found), page, fixed.collect(), options))
     }
 
     /// Returns the poses of a layout on pages with `page` cells along the longer side, in the order of the plan.
@@ -269,21 +262,14 @@ impl Problem<'_> {
     ) -> Squeezed {
         let texture = options.texture;
         let padding = options.padding_share() * page;
-        let cell = found.cell * page / texture.grid_side();
-        let frame = |chart: usize| {
-            let on = Region::page(found.charts[chart].0.corner.page);
-            let region = self.regions.get(chart).copied().flatten();
-            texture.frame(region.unwrap_or(on))
-        };
+        let cell = page / texture.grid_side();
         let posed = |&chart: &usize| {
-            let frame = frame(chart);
-            let (spot, _) = found.charts[chart];
-            let extent = plan.outlines[chart].extent;
-            let middle = spot.middle(extent.map(|x| x * found.scale / found.cell));
-            let middle = middle.map(|x| (x + found.border) * cell - padding / 2.0);
-            let angle = FRAC_PI_2 * f64::from(spot.turns);
-            let pose = Pose::new([middle[0] + frame.left * page, middle[1]], angle);
-            (pose, frame)
+            let place = &found.charts[chart];
+            let region = self.regions.get(chart).copied().flatten();
+            let frame = texture.frame(region.unwrap_or(Region::page(place.page)));
+            let [x, y] = place.middle(found.scale).map(|x| x * cell - padding / 2.0);
+            let angle = plan.outlines[chart].angle_to(&place.outline);
+            (Pose::new([x + frame.left * page, y], angle), frame)
         };
         Squeezed::new(plan.order.iter().map(posed), fixed, page, padding)
     }

@@ -5,7 +5,7 @@ mod search;
 use std::sync::Arc;
 
 use super::effort::OnRead;
-use super::gap::{self, Page};
+use super::gap::{Border, Squeezing};
 use super::layout::{Layout, SLIVERS, padding};
 use super::mask::{Distances, Rounding};
 use super::occupancy::{Corner, Occupancy};
@@ -61,8 +61,8 @@ pub struct CoarseLayout {
     first: Arrangement,
     /// Best arrangement so far.
     state: Arrangement,
-    /// Squeezed pages of the best arrangement so far; empty before a search succeeds.
-    pages: Vec<Page>,
+    /// Squeezed charts of the best arrangement so far, in the order of `first`; `None` before a search succeeds.
+    squeezed: Option<Squeezed>,
     /// Number of searches so far.
     n_searches: u64,
     /// `true` once a search has nothing left to try.
@@ -183,7 +183,7 @@ impl CoarseLayout {
             level,
             poses,
             raster,
-            pages: Vec::new(),
+            squeezed: None,
             n_searches: 0,
             is_exhausted: false,
         }
@@ -257,7 +257,7 @@ impl CoarseLayout {
 
     /// Returns `true` if a search has squeezed the layout.
     pub(super) fn is_searched(&self) -> bool {
-        !self.pages.is_empty()
+        self.squeezed.is_some()
     }
 
     /// Returns `true` if there are too many charts to search their order.
@@ -267,10 +267,7 @@ impl CoarseLayout {
 
     /// Returns the longer side of the largest page, in cells.
     fn side(&self) -> f64 {
-        match &self.pages[..] {
-            [] => self.state.cost,
-            pages => squeezed_side(pages),
-        }
+        (self.squeezed.as_ref()).map_or(self.state.cost, |squeezed| squeezed.side)
     }
 }
 
@@ -281,12 +278,6 @@ pub(super) fn raster_side(n_charts: usize, texture: Texture) -> u32 {
     } else {
         RASTER
     }
-}
-
-/// Returns the longer side of the largest page, in cells; infinite without pages.
-fn squeezed_side(pages: &[Page]) -> f64 {
-    let sides = pages.iter().map(|page| page.squeezed.side);
-    sides.max_by(f64::total_cmp).unwrap_or(f64::INFINITY)
 }
 
 impl CoarseRaster {
@@ -326,57 +317,49 @@ impl CoarseRaster {
 pub(in crate::atlas) const FINE: f64 = 2.0;
 
 impl CoarseLayout {
-    /// Returns the arrangement as poses of charts, for each page that has charts.
-    pub(super) fn loose(&self) -> Vec<Page> {
-        let pose = |&chart: &usize| {
+    /// Returns the arrangement as poses of charts.
+    fn loose(&self) -> Squeezed {
+        let texture = self.raster.texture;
+        let page = f64::from(self.state.side) + self.raster.padding;
+        let posed = self.first.order.iter().map(|&chart| {
             let (poses, pose) = (&self.poses[chart], self.state.pose[chart]);
             let middle = poses.outline(pose).place(poses.outline(0).middle());
             let [i, j] = middle.map(|x| x * self.raster.scale);
             let [width, height] = poses.mask(pose).size.map(f64::from);
-            let within = match Poses::turns(pose) {
+            let [i, j] = match Poses::turns(pose) {
                 0 => [i, j],
                 1 => [width - j, i],
                 2 => [width - i, height - j],
                 _ => [j, height - i],
             };
-            let corner = self.state.corners[chart];
-            let middle = [
-                f64::from(corner.x) + within[0],
-                f64::from(corner.y) + within[1],
-            ];
-            Pose::new(middle, Poses::angle(pose))
-        };
-        let page = |number: u32| {
-            let is_here = |&&chart: &&usize| self.state.corners[chart].page == number;
-            let charts: Vec<usize> = self.first.order.iter().filter(is_here).copied().collect();
-            let frame = self.raster.texture.frame(Region::page(0));
-            let posed = charts.iter().map(|chart| (pose(chart), frame));
-            let cells = f64::from(self.state.side) + self.raster.padding;
-            let squeezed = Squeezed::new(posed, Arc::default(), cells, self.raster.padding);
-            Page::cropped(number, charts, squeezed)
-        };
-        let pages = (0..self.raster.texture.pages).map(page);
-        pages.filter(|page| !page.charts.is_empty()).collect()
+            let Corner { page: number, x, y } = self.state.corners[chart];
+            let frame = texture.frame(Region::page(number));
+            let middle = [f64::from(x) + i + frame.left * page, f64::from(y) + j];
+            (Pose::new(middle, Poses::angle(pose)), frame)
+        });
+        Squeezed::new(posed, Arc::default(), page, self.raster.padding)
     }
 
-    /// Returns the rotated charts and a layout that keeps exactly the padding. Returns `None` if none is found, or if the charts
-    /// leave no room for the padding.
+    /// Returns a layout that keeps exactly the padding. Returns `None` if none is found, or if the charts leave no room for the padding.
     pub(in crate::atlas) fn with_exact_gap(
         &self,
         options: &AtlasOptions,
         on_read: &OnRead,
-    ) -> Option<(Vec<Outline>, Layout)> {
+    ) -> Option<Layout> {
         let longer = f64::from(options.texture.resolution.longer());
         let asked = f64::from(options.packed_texels()) * self.raster.cells() / longer;
         if self.raster.padding < asked {
             return None;
         }
-        let refined = |page: &Page| Page {
-            squeezed: page.squeezed.refined(FINE),
-            ..page.clone()
+        let squeezing = Squeezing {
+            level: &self.level,
+            charts: &self.first.order,
+            scale: FINE * self.raster.scale,
+            border: Border::Cropped,
+            stays: &[],
+            options,
+            on_read,
         };
-        let pages: Vec<Page> = self.pages.iter().map(refined).collect();
-        let level: Vec<&Outline> = self.level.iter().collect();
-        gap::layout(&level, &pages, FINE * self.raster.scale, (options, on_read))
+        squeezing.layout(self.squeezed.as_ref()?.refined(FINE))
     }
 }

@@ -4,8 +4,8 @@ use std::collections::HashSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use super::CoarseLayout;
 use super::arrangement::{Arrangement, Prefixes};
-use super::{CoarseLayout, squeezed_side};
 use crate::atlas::effort::{Effort, OnRead, ReadLimit, Schedule};
 use crate::atlas::squeeze::Body;
 use unwrapd_method::numerics::random::Random;
@@ -74,7 +74,7 @@ impl CoarseLayout {
                 .map(|state| self.settled(state.clone(), each, on_read))
                 .collect();
             for coarse in settled.into_iter().flatten() {
-                if squeezed_side(&coarse.pages) < squeezed_side(&self.pages) {
+                if !self.is_searched() || coarse.side() < self.side() {
                     *self = coarse;
                 }
             }
@@ -118,15 +118,14 @@ impl CoarseLayout {
             state,
             ..self.clone()
         };
-        let mut pages = coarse.loose();
-        let each = words / pages.len() as u64;
-        for page in &mut pages {
-            let bodies = coarse.bodies(&page.charts);
-            if !page.squeezed.settle(&bodies, each, on_read) {
-                return None;
-            }
+        let mut squeezed = coarse.loose();
+        let bodies: Vec<Arc<Body>> = (coarse.first.order.iter())
+            .map(|&chart| coarse.poses[chart].body())
+            .collect();
+        if !squeezed.settle(&bodies, words, on_read) {
+            return None;
         }
-        coarse.pages = pages;
+        coarse.squeezed = Some(squeezed);
         Some(coarse)
     }
 
@@ -206,12 +205,5 @@ impl CoarseLayout {
             large == all || (best.lay_out(&self.poses, &mut occupancy, large..all, most)).is_some();
         let best = if placed { best } else { self.first.clone() };
         (best, known_in_row >= IN_VAIN * stuck)
-    }
-
-    fn bodies(&self, charts: &[usize]) -> Vec<Arc<Body>> {
-        charts
-            .iter()
-            .map(|&chart| self.poses[chart].body())
-            .collect()
     }
 }
