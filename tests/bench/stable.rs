@@ -1,9 +1,9 @@
 //! Packing of equal charts in other forms.
 //!
-//! `cargo bench -p unwrapd-layout --bench stable -- [--as-given] [--variants N] FILE.obj …`. The charts of each file
+//! `cargo bench -p unwrapd-layout --bench stable -- [--as-given] [--around] [--variants N] FILE.obj …`. The charts of each file
 //! with UVs are packed as they are, then in other orders of the charts, vertices and triangles, each chart rotated by an angle of its own, at other scales, and with one vertex moved
 //! by 1e-4 of the longest side of its chart. `--as-given` also tries the layout that the UVs form, as `repack` does; the charts are then not
-//! rotated. N is the number of variants of each kind, 3 by default.
+//! rotated. With `--around`, every third chart then stays on the page, and the others are packed around them once more. N is the number of variants of each kind, 3 by default.
 //!
 //! Prints for each file the charts, the fill, the milliseconds of the processor, and for each kind of variant the mean number of charts of
 //! which a vertex lies more than two texels elsewhere at 1024, and the smallest and the largest change of the fill.
@@ -15,10 +15,13 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use clock::Clock;
-use unwrapd_layout::atlas::{Atlas, AtlasOptions, ChartMap, GRID_BITS, Positions, pack};
+use unwrapd_layout::atlas::{
+    Atlas, AtlasOptions, ChartMap, Constraints, GRID_BITS, Positions, Stay, pack, pack_within,
+};
 use unwrapd_maps::mesh::UnionFind;
 use unwrapd_method::numerics::bounds::bounds_of;
 use unwrapd_method::numerics::random::Random;
+use unwrapd_method::solver::Control;
 
 /// Positions and triangles of a chart.
 type Chart = (Vec<[f64; 2]>, Vec<[u32; 3]>);
@@ -42,11 +45,12 @@ enum Kind {
 
 fn main() {
     let mut options = AtlasOptions::default();
-    let (mut files, mut variants) = (Vec::new(), 3);
+    let (mut files, mut variants, mut is_around) = (Vec::new(), 3, false);
     let mut arguments = std::env::args().skip(1).filter(|it| it != "--bench");
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--as-given" => options.positions = Positions::Layout,
+            "--around" => is_around = true,
             "--variants" => {
                 let number = arguments.next().and_then(|it| it.parse().ok());
                 variants = number.expect("a number");
@@ -56,7 +60,11 @@ fn main() {
     }
     for file in files {
         let charts = charts(&std::fs::read_to_string(&file).expect("a file"));
-        report(&file, &charts, &options, variants);
+        if is_around {
+            report_around(&file, &charts, &options);
+        } else {
+            report(&file, &charts, &options, variants);
+        }
     }
 }
 
@@ -86,10 +94,44 @@ fn report(file: &str, charts: &[Chart], options: &AtlasOptions, variants: u64) {
     println!();
 }
 
-fn packed(charts: &[Chart], options: &AtlasOptions) -> Atlas {
-    let maps: Vec<ChartMap> = (charts.iter())
-        .map(|(uv, triangles)| ChartMap { uv, triangles })
+fn map((uv, triangles): &Chart) -> ChartMap<'_> {
+    ChartMap { uv, triangles }
+}
+
+/// Prints one line about the charts of a file, every third of which stays where it is first packed.
+fn report_around(file: &str, charts: &[Chart], options: &AtlasOptions) {
+    let unit = f64::from(1 << GRID_BITS);
+    let atlas = packed(charts, options);
+    let placed = charts.iter().zip(&atlas.placed);
+    let placed: Vec<Chart> = placed
+        .map(|((_, triangles), placed)| {
+            let uv = placed.grid.iter().map(|p| p.map(|x| f64::from(x) / unit));
+            (uv.collect(), triangles.clone())
+        })
         .collect();
+    let (mut stays, mut others) = (Vec::new(), Vec::new());
+    for (chart, placed) in placed.iter().enumerate() {
+        if chart % 3 == 0 {
+            let map = map(placed);
+            stays.push(Stay { map, island: chart });
+        } else {
+            others.push(map(placed));
+        }
+    }
+    let constraints = Constraints {
+        stays: &stays,
+        ..Constraints::default()
+    };
+    let clock = Clock::start();
+    let around = pack_within(&others, &constraints, options, &|_| Control::Continue);
+    let milliseconds = 1e3 * clock.seconds().processor;
+    let name = file.rsplit('/').next().unwrap_or(file);
+    let fill = around.map_or(0.0, |around| around.utilization);
+    println!("{name:32} {:4} {fill:.4} {milliseconds:5.0}", charts.len());
+}
+
+fn packed(charts: &[Chart], options: &AtlasOptions) -> Atlas {
+    let maps: Vec<ChartMap> = charts.iter().map(map).collect();
     pack(&maps, options).expect("a layout")
 }
 

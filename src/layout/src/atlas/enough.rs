@@ -3,9 +3,9 @@ use std::fmt;
 
 use super::coarse::CoarseLayout;
 use super::effort::UNHEARD;
-use super::layout::{SLACK, layout};
+use super::layout::{Problem, SLACK};
 use super::outline::outlines;
-use super::pack::searched;
+use super::pack::fullest;
 use super::page::Texture;
 use super::plan::Plan;
 use super::problem::{AtlasError, AtlasOptions, Borders, ChartMap, Scale};
@@ -50,17 +50,24 @@ pub fn enough(charts: &[ChartMap], options: &AtlasOptions) -> Result<Enough, Atl
         scale: Scale::Largest,
         ..options.clone()
     };
-    let slack = vec![SLACK; charts.len()];
     let first = Plan::largest_first(&outlines(charts)?, options);
     let coarse = CoarseLayout::new(charts, &largest)?;
-    let exact = coarse.and_then(|coarse| searched(&coarse, &largest, UNHEARD).1);
-    let found = exact.or_else(|| layout(&first, &slack, &largest, UNHEARD));
+    let problem = Problem {
+        plan: &first,
+        regions: &[],
+        obstacles: &[],
+        options: &largest,
+        on_read: UNHEARD,
+    };
+    let slack = vec![SLACK; charts.len()];
+    let found =
+        fullest(&problem, coarse.as_ref()).or_else(|| problem.layout(&slack, options.most_cells));
     let longer = f64::from(options.texture.resolution.longer());
     let reached = |scale: f64| scale / options.texture.grid_side() * longer;
     Ok(Enough {
         resolution: found
             .and_then(|layout| resolution(MARGIN * texels / reached(layout.scale), options)),
-        pages: pages(&first, &slack, options),
+        pages: pages(&problem, &slack, options),
     })
 }
 
@@ -79,7 +86,7 @@ fn resolution(times: f64, options: &AtlasOptions) -> Option<Resolution> {
 }
 
 /// Returns the pages that a layout uses if it may use [`Texture::MOST_PAGES`]; `None` if these are too few.
-fn pages(first: &Plan, slack: &[f64], options: &AtlasOptions) -> Option<u32> {
+fn pages(problem: &Problem, slack: &[f64], options: &AtlasOptions) -> Option<u32> {
     let many = AtlasOptions {
         texture: Texture {
             pages: Texture::MOST_PAGES,
@@ -87,7 +94,11 @@ fn pages(first: &Plan, slack: &[f64], options: &AtlasOptions) -> Option<u32> {
         },
         ..options.clone()
     };
-    let layout = layout(first, slack, &many, UNHEARD)?;
+    let problem = Problem {
+        options: &many,
+        ..*problem
+    };
+    let layout = problem.layout(slack, many.most_cells)?;
     let pages = layout.charts.iter().map(|place| place.page + 1);
     pages.max()
 }

@@ -6,15 +6,15 @@
 use std::sync::Arc;
 
 use super::coarse::{FINE, RASTER};
+use super::constraints::Obstacle;
 use super::effort::UNHEARD;
-use super::layout::SLACK;
+use super::layout::{Problem, SLACK};
 use super::outline::{Outline, outlines};
+use super::pack::poses;
 use super::page::{Region, Texture};
 use super::plan::Plan;
 use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation, Scale};
 use super::squeeze::{Body, FixedBody, Pose, Squeezed};
-use super::stay::Obstacle;
-use super::within::Problem;
 
 /// Distance that islands keep beside the padding, in cells: distances are looked up approximately. Around a turned island, up to 0.23
 /// cells were missing; twice that keeps the padding at any resolution of the texture, which cells do not depend on.
@@ -189,17 +189,19 @@ impl LiveLayout {
         let held = self.held.iter().map(|held| held.obstacle(texture));
         let held: Vec<Obstacle> = held.collect();
         let problem = Problem {
-            charts: &[],
+            plan: &self.plan,
             regions: &[],
             obstacles: &held.iter().collect::<Vec<_>>(),
+            options: &self.options,
+            on_read: UNHEARD,
         };
         let slack = vec![SLACK; self.plan.outlines.len()];
         let cells = FINE as u32 * RASTER;
-        let found = problem.on_raster((&self.plan, &slack), cells, (&self.options, UNHEARD))?;
+        let found = problem.layout(&slack, cells)?;
         // On this page, islands are as large as their bodies. On a larger one they are apart as well.
         let page = self.page * (texture.grid_side() / found.scale).max(1.0);
         let fixed = self.squeezed.fixed.clone();
-        let placed = problem.poses((&self.plan, &found), page, fixed, &self.options);
+        let placed = poses(&problem, &found, page, fixed);
         let mut pushed = placed.clone();
         // The raster keeps them apart, though maybe not by the room.
         let is_apart = pushed.follow(&self.bodies, self.side);

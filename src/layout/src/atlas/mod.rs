@@ -5,17 +5,17 @@
 //! 1. Simulated annealing searches for an order of the charts and an angle of each. Each arrangement is placed greedily on a coarse
 //!    raster ([`CoarseLayout`]).
 //! 2. All charts of a page move and turn at once until the page cannot shrink any more (`squeeze`).
-//! 3. The distances between charts are measured, and corrected to exactly the padding (`gap`). If this fails, or if there are many
-//!    charts, they are placed on a raster that keeps the padding by construction (`layout`).
+//! 3. The distances between charts are measured, and corrected to exactly the padding (`gap`).
 //! 4. Vertices are rounded to multiples of 2⁻²³, which `f32` represents exactly (`grid`). Rounding may flip a thin triangle. Its
 //!    vertices are then moved, as little as possible, until all triangles are positive in exact integer arithmetic.
 //!
-//! Charts with constraints (regions, groups, islands that stay) are placed on a raster first, and then take the last three steps like
-//! others (`within`). So does a layout that is packed again, from where its charts lie (`given`). While islands are dragged, the others
-//! take the second step only (`live`).
+//! Charts with constraints (regions, groups, islands that stay: `constraints`) and crowds are not annealed: they are placed on a raster
+//! that keeps the padding by construction (`layout`), and then take the last three steps like others. So does a layout that is packed
+//! again, from where its charts lie (`given`). Thousands of charts, and those that cannot be squeezed, stay where the raster has them.
+//! While islands are dragged, the others take the second step only (`live`).
 //!
-//! A chart is rounded once, before it is turned by quarters and shifted by whole grid units, so its signs hold at any place. If a
-//! vertex had to move farther than the padding allows, the charts are laid out again with more room.
+//! A chart is rounded at its final angle and then shifted by whole grid units, so its signs hold at any place. If a vertex had to move
+//! farther than the padding allows, the charts are laid out again with more room.
 //!
 //! Layouts have square cells of one size, whatever the shape of the pages: the steps of the grid are equally long along u and v on
 //! the surface, and multiples of 2⁻²³ in u and v. Pages farther to the right have coarser floating-point numbers, so all pages use
@@ -23,6 +23,7 @@
 //!
 //! Charts are never mirrored. All have the same scale, except those below a texel in size for which the grid would be too coarse.
 mod coarse;
+mod constraints;
 mod copies;
 mod effort;
 mod enough;
@@ -40,10 +41,9 @@ mod plan;
 mod problem;
 mod relax;
 mod squeeze;
-mod stay;
-mod within;
 
 pub use coarse::CoarseLayout;
+pub use constraints::pack_within;
 pub use effort::{Effort, OnRead};
 pub use enough::{Enough, enough};
 pub use live::{Followers, LiveLayout, Room};
@@ -54,4 +54,3 @@ pub use problem::{
     Placed, Positions, Rotation, Scale, Stay,
 };
 pub use relax::cleared;
-pub use within::pack_within;

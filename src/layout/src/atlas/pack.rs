@@ -1,20 +1,26 @@
 //! Packing: from chart maps to places on the grid.
 use rayon::prelude::*;
+use std::sync::Arc;
 
-use super::coarse::CoarseLayout;
+use super::coarse::{CoarseLayout, FINE, MOST_CHARTS, raster_side};
 use super::effort::{Effort, OnRead, UNHEARD};
+use super::gap::{Border, Squeezing};
 use super::given::{Given, Tidiness, given};
 use super::grid::{Repair, Snapped, aligned, doubled_area, snapped};
-use super::layout::{self, Layout, SLACK};
+use super::layout::{Layout, Problem, SLACK};
 use super::outline::{Outline, outlines};
-use super::page::GRID_SIDE;
+use super::page::{GRID_SIDE, Region};
 use super::plan::Plan;
 use super::problem::{
     Atlas, AtlasError, AtlasOptions, Borders, ChartMap, Limit, Placed, Positions, Scale,
 };
+use super::squeeze::{FixedBody, Pose, Squeezed};
 
 /// Maximum number of layouts, each with more room for vertices that had to move farther than the last one allowed.
-pub(super) const ROUNDS: usize = 6;
+const ROUNDS: usize = 6;
+/// Maximum number of cells along the side of the raster for charts within constraints that are then squeezed. On a raster that is four times as fine,
+/// the search takes four times as long, and the squeezed layouts are no fuller.
+const SQUEEZED_CELLS: u32 = 256;
 /// Number of charts up to which a second search is made per unit of patience. Of 24 sets of up to this many charts, a third and a
 /// fourth search made none fuller by .001, and one search left two emptier by up to .036; with more charts, a second one gained .0006.
 const FEW: usize = 10;
@@ -49,41 +55,165 @@ pub fn pack_coarse(
 
 fn pack_plan(
     charts: &[ChartMap],
-    first: &Plan,
+    plan: &Plan,
     coarse: Option<&CoarseLayout>,
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Result<Atlas, AtlasError> {
-    let slack = vec![SLACK; charts.len()];
-    let on_first = || layout::layout(first, &slack, options, on_read);
-    if let Scale::TexelsPerUnit(_) = options.scale
-        && let Some(layout) = on_first()
-    {
-        return on_raster(charts, first, layout, options, on_read);
-    }
-    let (searched, exact) = coarse
-        .map(|coarse| searched(coarse, options, on_read))
-        .unzip();
-    let exact = match options.positions {
-        Positions::Unrelated => exact.flatten(),
-        Positions::Layout => fuller(exact.flatten(), given(charts, options, on_read)?, options),
+    let problem = Problem {
+        plan,
+        regions: &[],
+        obstacles: &[],
+        options,
+        on_read,
     };
-    // The order of a crowd is not searched: placing the largest charts first may be fuller.
-    let is_crowd = searched.as_ref().is_some_and(CoarseLayout::is_crowded);
-    let mut raster = None;
-    if is_crowd || exact.is_none() {
-        raster = on_first();
+    let is_placed = options.scale != Scale::Largest
+        && (problem.layout(&vec![SLACK; charts.len()], options.most_cells)).is_some();
+    let exact = match options.positions {
+        _ if is_placed => None,
+        Positions::Unrelated => fullest(&problem, coarse),
+        Positions::Layout => fuller(
+            fullest(&problem, coarse),
+            given(charts, options, on_read)?,
+            options,
+        ),
+    };
+    packed(&problem, charts, exact).ok_or(match options.scale {
+        Scale::Largest => AtlasError::TooManyCharts {
+            charts: charts.len(),
+        },
+        Scale::TexelsPerUnit(_) => AtlasError::TextureTooSmall,
+    })
+}
+
+/// Returns the fullest layout that keeps exactly the padding: one that is searched from a coarse layout, or one on the raster that is
+/// squeezed.
+pub(super) fn fullest(problem: &Problem, coarse: Option<&CoarseLayout>) -> Option<Layout> {
+    let options = problem.options;
+    if let Some(coarse) = coarse.filter(|coarse| !coarse.is_crowded()) {
+        return searched(coarse, options, problem.on_read);
     }
-    let is_fuller = |scale: f64| raster.as_ref().is_none_or(|found| scale > found.scale);
-    if let Some(layout) = exact.filter(|exact| is_fuller(exact.scale)) {
+    let plan = problem.plan;
+    if options.scale != Scale::Largest || plan.order.len() > MOST_CHARTS || !plan.has_area() {
+        return None;
+    }
+    let slack = vec![SLACK; problem.plan.outlines.len()];
+    let cells = if problem.is_constrained() {
+        SQUEEZED_CELLS
+    } else {
+        u32::MAX
+    };
+    let on_raster = |plan: Plan| {
+        let problem = Problem {
+            plan: &plan,
+            ..*problem
+        };
+        let layout = problem.layout(&slack, options.most_cells.min(cells))?;
+        Some((plan, layout))
+    };
+    let any = on_raster(problem.plan.clone());
+    let straight = problem.plan.straightened().and_then(on_raster);
+    let least = any
+        .as_ref()
+        .map_or(0.0, |(_, any)| any.fill(options) - STRAIGHT);
+    let (plan, found) = straight
+        .filter(|(_, straight)| straight.fill(options) >= least)
+        .or(any)?;
+    let problem = Problem {
+        plan: &plan,
+        ..*problem
+    };
+    let squeezed = squeezed(&problem, &found);
+    Some(
+        squeezed
+            .filter(|it| it.scale > found.scale)
+            .unwrap_or(found),
+    )
+}
+
+/// Rounds an exact layout, or one on the raster, to the grid. Lays charts out anew on the raster, with more room, while a vertex has to
+/// move farther than its chart has room for. Returns `None` if the charts do not fit.
+pub(super) fn packed(
+    problem: &Problem,
+    charts: &[ChartMap],
+    exact: Option<Layout>,
+) -> Option<Atlas> {
+    let options = problem.options;
+    if let Some(layout) = exact {
         let snapped = on_grid(charts, &layout, Repair::Open);
         if !is_cramped(&snapped, &layout) {
-            return Ok(atlas(charts, &layout, snapped, options));
+            return Some(atlas(charts, &layout, snapped, options));
         }
     }
-    let layout = raster.or_else(on_first);
-    let layout = layout.ok_or_else(|| none_fits(charts, options))?;
-    on_raster(charts, first, layout, options, on_read)
+    let mut slack = vec![SLACK; charts.len()];
+    for _ in 0..ROUNDS {
+        let layout = problem.layout(&slack, options.most_cells)?;
+        let snapped = on_grid(charts, &layout, Repair::Open);
+        if !is_cramped(&snapped, &layout) {
+            return Some(atlas(charts, &layout, snapped, options));
+        }
+        give_room(&snapped, &layout, &mut slack);
+    }
+    let layout = problem.layout(&slack, options.most_cells)?;
+    let rounded = on_grid(charts, &layout, Repair::Nothing);
+    Some(atlas(charts, &layout, rounded, options))
+}
+
+/// Squeezes a layout on the raster, and brings charts exactly as near as permitted. Returns `None` if that fails, or if the layout has
+/// no room for the padding.
+fn squeezed(problem: &Problem, found: &Layout) -> Option<Layout> {
+    let Problem {
+        plan,
+        options,
+        on_read,
+        ..
+    } = *problem;
+    let texture = options.texture;
+    if found.padding_texels < f64::from(options.padding_texels) {
+        return None;
+    }
+    let page = FINE * f64::from(texture.raster(raster_side(plan.order.len(), texture)));
+    let padding = options.padding_share() * page;
+    let obstacles = problem.obstacles.iter();
+    let fixed = obstacles.map(|it| FixedBody::new(&it.outline, page, padding));
+    let stays: Vec<Outline> = (problem.obstacles.iter())
+        .map(|it| it.outline.clone())
+        .collect();
+    let squeezing = Squeezing {
+        level: &plan.outlines,
+        charts: &plan.order,
+        scale: found.scale * page / texture.grid_side(),
+        border: if problem.is_constrained() {
+            Border::Fixed
+        } else {
+            Border::Cropped
+        },
+        stays: &stays,
+        options,
+        on_read,
+    };
+    squeezing.settled_layout(poses(problem, found, page, fixed.collect()))
+}
+
+/// Returns the poses of a layout on pages with `page` cells along the longer side, in the order of the plan.
+pub(super) fn poses(
+    problem: &Problem,
+    found: &Layout,
+    page: f64,
+    fixed: Arc<[FixedBody]>,
+) -> Squeezed {
+    let texture = problem.options.texture;
+    let padding = problem.options.padding_share() * page;
+    let cell = page / texture.grid_side();
+    let posed = problem.plan.order.iter().map(|&chart| {
+        let place = &found.charts[chart];
+        let region = problem.regions.get(chart).copied().flatten();
+        let frame = texture.frame(region.unwrap_or(Region::page(place.page)));
+        let [x, y] = (place.middle(found.scale)).map(|x| x * cell - padding / 2.0);
+        let angle = problem.plan.outlines[chart].angle_to(&place.outline);
+        (Pose::new([x + frame.left * page, y], angle), frame)
+    });
+    Squeezed::new(posed, fixed, page, padding)
 }
 
 /// Returns the fuller of a layout that was searched and the given one, which has to be fuller by [`STRAIGHT`] if straight charts lean.
@@ -91,60 +221,23 @@ fn fuller(exact: Option<Layout>, given: Option<Given>, options: &AtlasOptions) -
     let Some(Given { layout, tidiness }) = given else {
         return exact;
     };
-    let area: f64 = (layout.charts.iter())
-        .map(|place| place.outline.size.powi(2))
-        .sum();
-    let fill = |scale: f64| area * (scale / options.texture.grid_side()).powi(2);
     let advantage = match tidiness {
         Tidiness::Straight => 0.0,
         Tidiness::Leaning => STRAIGHT,
     };
     exact
-        .filter(|exact| fill(exact.scale) >= fill(layout.scale) - advantage)
+        .filter(|exact| exact.fill(options) >= layout.fill(options) - advantage)
         .or(Some(layout))
 }
 
-/// Rounds a layout on the raster to the grid. Lays charts out anew, with more room, while a vertex has to move farther than its chart
-/// has room for.
-fn on_raster(
-    charts: &[ChartMap],
-    plan: &Plan,
-    mut layout: Layout,
-    options: &AtlasOptions,
-    on_read: &OnRead,
-) -> Result<Atlas, AtlasError> {
-    let mut slack = vec![SLACK; charts.len()];
-    for _ in 0..ROUNDS {
-        let snapped = on_grid(charts, &layout, Repair::Open);
-        if !is_cramped(&snapped, &layout) {
-            return Ok(atlas(charts, &layout, snapped, options));
-        }
-        give_room(&snapped, &layout, &mut slack);
-        layout = layout::layout(plan, &slack, options, on_read)
-            .ok_or_else(|| none_fits(charts, options))?;
-    }
-    let rounded = on_grid(charts, &layout, Repair::Nothing);
-    Ok(atlas(charts, &layout, rounded, options))
-}
-
-/// Returns the error if no layout is found.
-fn none_fits(charts: &[ChartMap], options: &AtlasOptions) -> AtlasError {
-    match options.scale {
-        Scale::Largest => AtlasError::TooManyCharts {
-            charts: charts.len(),
-        },
-        Scale::TexelsPerUnit(_) => AtlasError::TextureTooSmall,
-    }
-}
-
 /// Returns whether a vertex moves farther than its chart has room for.
-pub(super) fn is_cramped(snapped: &[Snapped], layout: &Layout) -> bool {
+fn is_cramped(snapped: &[Snapped], layout: &Layout) -> bool {
     let mut charts = snapped.iter().zip(&layout.charts);
     charts.any(|(snapped, place)| snapped.needed() > place.room)
 }
 
 /// Enlarges the slack, in cells, of every chart with a vertex that moves farther than the chart has room for.
-pub(super) fn give_room(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) {
+fn give_room(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) {
     for ((snapped, place), slack) in snapped.iter().zip(&layout.charts).zip(slack) {
         if snapped.needed() > place.room {
             *slack = 1.5 * snapped.needed() / layout.cell;
@@ -154,22 +247,21 @@ pub(super) fn give_room(snapped: &[Snapped], layout: &Layout, slack: &mut [f64])
 
 /// Returns whether charts fit at the prescribed scale if each is placed once, the largest first.
 pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasError> {
-    let plan = Plan::largest_first(&outlines(charts)?, options);
+    let problem = Problem {
+        plan: &Plan::largest_first(&outlines(charts)?, options),
+        regions: &[],
+        obstacles: &[],
+        options,
+        on_read: UNHEARD,
+    };
     let slack = vec![SLACK; charts.len()];
-    Ok(
-        options.scale != Scale::Largest
-            && layout::layout(&plan, &slack, options, UNHEARD).is_some(),
-    )
+    Ok(options.scale != Scale::Largest && problem.layout(&slack, options.most_cells).is_some())
 }
 
 /// Searches for the fullest layout. Straight charts lie along the axes unless other angles fill more than [`STRAIGHT`] more of the
 /// squeezed page. One search tells whether they do. At a prescribed scale they may lie at any angle, since a little less fill may be too
 /// little.
-pub(super) fn searched(
-    coarse: &CoarseLayout,
-    options: &AtlasOptions,
-    on_read: &OnRead,
-) -> (CoarseLayout, Option<Layout>) {
+fn searched(coarse: &CoarseLayout, options: &AtlasOptions, on_read: &OnRead) -> Option<Layout> {
     let any = searched_once(coarse.clone(), options, on_read);
     let least = any.fill() - STRAIGHT;
     let straight = coarse
@@ -177,7 +269,7 @@ pub(super) fn searched(
         .filter(|it| options.scale == Scale::Largest && it.most_fill() >= least)
         .map(|straight| searched_once(straight, options, on_read))
         .filter(|it| it.fill() >= least);
-    fullest(straight.unwrap_or(any), options, on_read)
+    searched_further(straight.unwrap_or(any), options, on_read)
 }
 
 /// Searches unless that was done before, or the options permit no search.
@@ -211,11 +303,11 @@ pub fn expected_words(n_charts: usize, n_triangles: usize, options: &AtlasOption
 
 /// Searches from more seeds, and brings charts exactly as near as permitted. As more patience only adds seeds and
 /// the fullest result counts, it never gives an emptier page.
-fn fullest(
+fn searched_further(
     mut coarse: CoarseLayout,
     options: &AtlasOptions,
     on_read: &OnRead,
-) -> (CoarseLayout, Option<Layout>) {
+) -> Option<Layout> {
     let words = Effort::High.words(coarse.n_charts());
     let searches = searches(coarse.n_charts(), coarse.n_triangles());
     // The search that was made before is one of the first round.
@@ -235,11 +327,11 @@ fn fullest(
             }
         }
     }
-    (coarse, fullest)
+    fullest
 }
 
 /// Rounds each chart to the grid, at the origin.
-pub(super) fn on_grid(charts: &[ChartMap], layout: &Layout, repair: Repair) -> Vec<Snapped> {
+fn on_grid(charts: &[ChartMap], layout: &Layout, repair: Repair) -> Vec<Snapped> {
     let charts = charts.par_iter().zip(&layout.charts);
     charts
         .map(|(map, place)| snapped(map, &place.outline, layout.scale * place.stretch, repair))
@@ -247,7 +339,7 @@ pub(super) fn on_grid(charts: &[ChartMap], layout: &Layout, repair: Repair) -> V
 }
 
 /// Shifts each rounded chart to its place on its page.
-pub(super) fn atlas(
+fn atlas(
     charts: &[ChartMap],
     layout: &Layout,
     snapped: Vec<Snapped>,

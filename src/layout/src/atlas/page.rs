@@ -106,10 +106,6 @@ impl Form {
         }
     }
 
-    pub(super) fn is_square(self) -> bool {
-        self.halvings == [0; 2]
-    }
-
     /// Returns the longer side of the smallest page on which charts may extend to `reach`, to the right and up.
     pub(super) fn side(self, reach: [u32; 2]) -> u32 {
         let of = |axis: usize| (reach[axis] << self.halvings[axis]) + self.inset[axis];

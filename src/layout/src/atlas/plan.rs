@@ -2,6 +2,7 @@
 use std::f64::consts::TAU;
 
 use super::copies::{Moments, copies};
+use super::layout::SLIVERS;
 use super::outline::{Enclosure, Outline, direction};
 use super::page::Texture;
 use super::problem::{AtlasOptions, Rotation};
@@ -62,10 +63,29 @@ impl Plan {
         }
     }
 
+    /// Returns the plan with the leaning charts turned upright; `None` if no chart leans.
+    pub(super) fn straightened(&self) -> Option<Self> {
+        let straight: Vec<Option<Outline>> =
+            self.outlines.iter().map(Outline::straightened).collect();
+        straight.iter().any(Option::is_some).then_some(())?;
+        let straight = straight.into_iter().zip(&self.outlines);
+        Some(Self {
+            outlines: straight
+                .map(|(it, level)| it.unwrap_or_else(|| level.clone()))
+                .collect(),
+            ..self.clone()
+        })
+    }
+
     /// Returns the longest side of all bounding rectangles, in mesh units.
-    pub(super) fn longest(&self) -> f64 {
+    fn longest(&self) -> f64 {
         let extents = self.outlines.iter().flat_map(|outline| outline.extent);
         extents.fold(0.0, f64::max)
+    }
+
+    /// Returns whether the charts have an area that a page could be filled with.
+    pub(super) fn has_area(&self) -> bool {
+        self.area() > SLIVERS * self.longest().powi(2)
     }
 
     /// Returns the sum of the charts' areas, in square mesh units.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::effort::OnRead;
 use super::gap::{Border, Squeezing};
-use super::layout::{Layout, SLIVERS, padding};
+use super::layout::{Layout, padding};
 use super::mask::{Distances, Rounding};
 use super::occupancy::{Corner, Occupancy};
 use super::outline::{Outline, outlines};
@@ -98,10 +98,10 @@ impl CoarseLayout {
     }
 
     fn of(plan: &Plan, options: &AtlasOptions) -> Option<Self> {
-        let area = plan.area();
-        if area <= SLIVERS * plan.longest().powi(2) {
+        if !plan.has_area() {
             return None;
         }
+        let area = plan.area();
         let texture = options.texture;
         let side = raster_side(plan.order.len(), texture);
         let cells = f64::from(texture.raster(side));
@@ -262,7 +262,7 @@ impl CoarseLayout {
 
     /// Returns `true` if there are too many charts to search their order.
     pub fn is_crowded(&self) -> bool {
-        self.n_charts() > FEW * self.raster.texture.pages as usize
+        is_crowd(self.n_charts(), self.raster.texture)
     }
 
     /// Returns the longer side of the largest page, in cells.
@@ -271,9 +271,14 @@ impl CoarseLayout {
     }
 }
 
+/// Returns whether there are too many charts to search their order.
+pub(super) fn is_crowd(n_charts: usize, texture: Texture) -> bool {
+    n_charts > FEW * texture.pages as usize
+}
+
 /// Returns the cells along the side of a square page with this many charts.
 pub(super) fn raster_side(n_charts: usize, texture: Texture) -> u32 {
-    if n_charts > FEW * texture.pages as usize {
+    if is_crowd(n_charts, texture) {
         FINE_RASTER
     } else {
         RASTER

@@ -33,7 +33,7 @@ impl CoarseLayout {
     }
 
     /// Searches for a fuller layout from new seeds, and keeps the present one if none is found. Reads about `words` words, or fewer if
-    /// nothing is left to try. A crowd is only squeezed, and only with [`Effort::High`].
+    /// nothing is left to try. Does nothing for a crowd.
     pub fn improve(&mut self, effort: Effort, words: u64, on_read: &OnRead) {
         let told = AtomicU64::new(0);
         let count = |read| {
@@ -51,17 +51,13 @@ impl CoarseLayout {
             || !is_laid_out
             || self.is_exhausted
             || self.is_least()
-            || (self.is_crowded() && effort != Effort::High)
+            || self.is_crowded()
         {
             return;
         }
         let schedule = effort.schedule();
         let annealing = Schedule::ANNEALING * words as f64;
-        let (found, is_exhausted) = if self.is_crowded() {
-            (vec![self.state.clone()], true)
-        } else {
-            self.arrangements(&schedule, annealing, on_read)
-        };
+        let (found, is_exhausted) = self.arrangements(&schedule, annealing, on_read);
         let n_searches = self.n_searches + 1;
         let each = ((words as f64 - annealing) / found.len() as f64) as u64;
         // Where one chart alone may set the side, the best arrangement is likely to be the only one that counts.

@@ -30,8 +30,9 @@ const LEAP: f64 = 0.004;
 const GROWTHS: [f64; 2] = [0.01, 1e-3];
 /// Share of the energy of an overlap that is left after growing from which on growing does not help.
 const STUCK: f64 = 0.9;
-/// Maximum number of times that the page grows.
-const MOST_GROWTHS: usize = 16;
+/// Maximum number of times that the page grows. Where many small charts overlap, each of them may have to jump; with 16, one of 121 sets
+/// of charts could not be separated.
+const MOST_GROWTHS: usize = 48;
 
 /// Poses of charts on a page, or on several pages with islands that stay.
 #[derive(Clone)]

@@ -1,9 +1,20 @@
-//! Charts that stay where they are.
-use super::grid::{Repair, Snapped, snapped};
+//! Charts packed within constraints: in regions, in groups, and around islands that stay in place.
+//!
+//! Pages keep their size, so the search is for the largest scale of the charts. They are first placed on a raster on which the cells of
+//! islands that stay are occupied, each where its region allows. Then all charts move at once while the pages shrink together with the
+//! islands and the regions ([`squeeze`](super::squeeze)), which is the same as growing the charts.
+use std::collections::BTreeMap;
+
+use super::coarse::CoarseLayout;
+use super::effort::OnRead;
+use super::grid::{Repair, Snapped, doubled_area, snapped};
+use super::layout::Problem;
 use super::mask::{Distances, Mask, Rounding, Run};
 use super::outline::{Outline, outlines};
-use super::page::Texture;
-use super::problem::{ChartMap, ConstraintError, Placed, Stay};
+use super::pack::{fullest, packed};
+use super::page::{GRID_SIDE, Region, Texture};
+use super::plan::Plan;
+use super::problem::{Atlas, AtlasOptions, ChartMap, ConstraintError, Constraints, Placed, Stay};
 use unwrapd_maps::plane::{BoxIndex, search_budget, segment_distance};
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of, touch, widened};
 
@@ -12,6 +23,118 @@ use unwrapd_method::numerics::bounds::{Bounds, bounds_of, touch, widened};
 const BEYOND: f64 = 1.0 / 33_554_432.0;
 /// Tolerance of distances for rounding, in longer sides of a page.
 const ROUNDED: f64 = 1e-9;
+
+/// Packs charts within constraints. The atlas contains the packed charts, then those that stay.
+pub fn pack_within(
+    charts: &[ChartMap],
+    constraints: &Constraints,
+    options: &AtlasOptions,
+    on_read: &OnRead,
+) -> Result<Atlas, ConstraintError> {
+    let texture = options.texture;
+    let staying = Staying::all(constraints.stays, texture)?;
+    let longer = f64::from(texture.resolution.longer());
+    let gap = f64::from(options.padding_texels) / longer;
+    if let Some((islands, distance)) = too_near(&staying, gap) {
+        return Err(ConstraintError::TooNear {
+            islands,
+            texels: distance * longer,
+        });
+    }
+    let outside = |region: &Option<Region>| {
+        region.is_some_and(|region| region.on_page(texture.pages).is_none())
+    };
+    if let Some(chart) = constraints.regions.iter().position(outside) {
+        return Err(ConstraintError::Region { chart });
+    }
+    let groups = Group::all(charts, constraints)?;
+    let maps: Vec<ChartMap> = groups.iter().map(Group::map).collect();
+    let regions: Vec<Option<Region>> = groups.iter().map(|group| group.region).collect();
+    let obstacles: Vec<&Obstacle> = staying.iter().map(|it| &it.obstacle).collect();
+    let plan = Plan::largest_first(&outlines(&maps)?, options);
+    let problem = Problem {
+        plan: &plan,
+        regions: &regions,
+        obstacles: &obstacles,
+        options,
+        on_read,
+    };
+    let coarse = if problem.is_constrained() {
+        None
+    } else {
+        CoarseLayout::new(&maps, options)?
+    };
+    let exact = fullest(&problem, coarse.as_ref());
+    let mut atlas = packed(&problem, &maps, exact).ok_or(ConstraintError::NoRoom)?;
+    atlas.placed = Group::split(&groups, atlas.placed, charts);
+    for (stay, staying) in constraints.stays.iter().zip(staying) {
+        let placed = staying.placed(texture);
+        let doubled = |t: &[u32; 3]| doubled_area(t.map(|v| placed.grid[v as usize])) as f64;
+        let covered: f64 = stay.map.triangles.iter().map(doubled).sum();
+        atlas.utilization += covered / (2.0 * GRID_SIDE * GRID_SIDE * f64::from(texture.pages));
+        atlas.placed.push(placed);
+    }
+    Ok(atlas)
+}
+
+/// Charts that keep their positions relative to each other, as one map.
+struct Group {
+    /// Indices of the charts.
+    members: Vec<usize>,
+    uv: Vec<[f64; 2]>,
+    triangles: Vec<[u32; 3]>,
+    region: Option<Region>,
+}
+
+impl Group {
+    /// Joins the charts of each group, in the order of their first charts.
+    fn all(charts: &[ChartMap], constraints: &Constraints) -> Result<Vec<Self>, ConstraintError> {
+        // In a joined map, an index that is out of range could name a vertex of another chart.
+        outlines(charts)?;
+        let mut groups: Vec<Self> = Vec::new();
+        let mut index_of: BTreeMap<usize, usize> = BTreeMap::new();
+        for (chart, map) in charts.iter().enumerate() {
+            let new = Self {
+                members: Vec::new(),
+                uv: Vec::new(),
+                triangles: Vec::new(),
+                region: constraints.regions.get(chart).copied().flatten(),
+            };
+            let index = match constraints.groups.get(chart) {
+                Some(&group) => *index_of.entry(group).or_insert(groups.len()),
+                None => groups.len(),
+            };
+            if index == groups.len() {
+                groups.push(new);
+            }
+            let group = &mut groups[index];
+            let first = group.uv.len() as u32;
+            group.members.push(chart);
+            group.uv.extend(map.uv);
+            (group.triangles).extend(map.triangles.iter().map(|t| t.map(|v| first + v)));
+        }
+        Ok(groups)
+    }
+
+    fn map(&self) -> ChartMap<'_> {
+        ChartMap {
+            uv: &self.uv,
+            triangles: &self.triangles,
+        }
+    }
+
+    /// Returns the places of the charts from those of their groups.
+    fn split(groups: &[Self], placed: Vec<Placed>, charts: &[ChartMap]) -> Vec<Placed> {
+        let mut of_charts = vec![Placed { grid: Vec::new() }; charts.len()];
+        for (group, placed) in groups.iter().zip(placed) {
+            let mut grid = placed.grid.into_iter();
+            for &chart in &group.members {
+                of_charts[chart].grid = grid.by_ref().take(charts[chart].uv.len()).collect();
+            }
+        }
+        of_charts
+    }
+}
 
 /// Outline that other charts keep clear of.
 pub(super) struct Obstacle {
