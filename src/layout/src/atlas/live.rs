@@ -157,7 +157,9 @@ impl LiveLayout {
             && let Some(anew) = self.anew()
         {
             self.side_anew = anew.side;
-            if !is_apart || CROWDED * anew.side < pushed.side {
+            // At rest, islands may jump for any gain.
+            let gain = if is_stuck { 1.0 } else { CROWDED };
+            if !is_apart || gain * anew.side < pushed.side {
                 (pushed, is_apart) = (anew, true);
             }
         }
