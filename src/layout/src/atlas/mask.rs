@@ -36,13 +36,9 @@ pub(super) struct Distances {
 pub(super) enum Rounding {
     /// All cells that it touches.
     Outward,
-    /// Cells whose centers it covers. A chart so thin that it would lose most of its area occupies all cells that it touches.
+    /// Cells whose centers it covers.
     Nearest,
 }
-
-/// Share of its area that a chart has to keep when it is rounded to the nearest cells. Otherwise, it occupies all cells that it
-/// touches.
-const KEPT_AREA: f64 = 0.7;
 
 impl Mask {
     /// Rasterizes the outline at `scale` cells per mesh unit. The lower left corner of the chart's bounding rectangle lies at
@@ -60,13 +56,9 @@ impl Mask {
         let mut reach = Bitmap::new(width + 2 * margin, height + 2 * margin);
         let place = |p: [f64; 2]| p.map(|x| x * scale + around);
         let segments = || outline.edges().map(|edge| edge.map(place));
-        let covered = fill(&mut body, segments());
-        let is_outward = match rounding {
-            Rounding::Outward => true,
-            Rounding::Nearest => covered < KEPT_AREA * (outline.size * scale).powi(2),
-        };
+        fill(&mut body, segments());
         for segment in segments() {
-            if is_outward {
+            if rounding == Rounding::Outward {
                 touch(&mut body, segment);
             }
             if around > 0.0 {
@@ -99,10 +91,10 @@ impl Mask {
     }
 }
 
-/// Sets the cells whose centers closed directed lines wind around, and returns their number.
+/// Sets the cells whose centers closed directed lines wind around.
 ///
 /// A cell that no line touches lies inside or outside as a whole. Together with the cells of [`touch`], these cells cover the area.
-fn fill(bitmap: &mut Bitmap, segments: impl Iterator<Item = [[f64; 2]; 2]>) -> f64 {
+fn fill(bitmap: &mut Bitmap, segments: impl Iterator<Item = [[f64; 2]; 2]>) {
     let first_center = |x: f64, end: u32| ((x - 0.5).ceil().max(0.0) as u32).min(end);
     // Row, column at which the winding number changes, and the change.
     let mut crossings: Vec<(u32, u32, i32)> = Vec::new();
@@ -115,17 +107,15 @@ fn fill(bitmap: &mut Bitmap, segments: impl Iterator<Item = [[f64; 2]; 2]>) -> f
         }
     }
     crossings.sort_unstable();
-    let (mut winding, mut covered) = (0, 0);
+    let mut winding = 0;
     for pair in crossings.windows(2) {
         let [(row, start, sign), (_, end, _)] = [pair[0], pair[1]];
         winding += sign;
         // The winding number of closed lines is 0 at the end of a row.
         if winding != 0 && start < end {
             bitmap.set(Run { row, start, end });
-            covered += end - start;
         }
     }
-    f64::from(covered)
 }
 
 /// Sets the cells that a segment touches.

@@ -60,27 +60,15 @@ impl CoarseLayout {
         let (found, is_exhausted) = self.arrangements(&schedule, annealing, on_read);
         let n_searches = self.n_searches + 1;
         let each = ((words as f64 - annealing) / found.len() as f64) as u64;
-        // Where one chart alone may set the side, the best arrangement is likely to be the only one that counts.
-        let (first, others) = found.split_at(usize::from(self.may_be_least(&found)));
-        for states in [first, others] {
-            if self.is_least() {
-                break;
-            }
-            let settled: Vec<Option<Self>> = (states.par_iter().with_max_len(1))
-                .map(|state| self.settled(state.clone(), each, on_read))
-                .collect();
-            for coarse in settled.into_iter().flatten() {
-                if !self.is_searched() || coarse.side() < self.side() {
-                    *self = coarse;
-                }
+        let settled: Vec<Option<Self>> = (found.par_iter().with_max_len(1))
+            .map(|state| self.settled(state.clone(), each, on_read))
+            .collect();
+        for coarse in settled.into_iter().flatten() {
+            if !self.is_searched() || coarse.side() < self.side() {
+                *self = coarse;
             }
         }
         (self.n_searches, self.is_exhausted) = (n_searches, is_exhausted);
-    }
-
-    /// Returns whether the best of some arrangements, the first, is as small as one chart alone requires.
-    fn may_be_least(&self, found: &[Arrangement]) -> bool {
-        (found.first()).is_some_and(|best| best.side <= self.least_cells())
     }
 
     /// Returns the least side of an arrangement, in cells: a mask covers each cell that its rectangle reaches.
@@ -131,14 +119,9 @@ impl CoarseLayout {
     /// Only the large charts change their order and poses. The small ones are placed once, at the end.
     fn annealed(&self, words: u64, random: &mut Random, on_read: &OnRead) -> (Arrangement, bool) {
         let (large, all) = (self.n_large, self.state.order.len());
-        let largest = self.first.side + self.first.side / 16;
-        // Room for the small charts, which are placed last.
-        let most = if large < all {
-            largest + largest / 4
-        } else {
-            largest
-        };
-        let mut occupancy = self.raster.occupancy(most);
+        // Room for worse trials, and for the small charts, which are placed last.
+        let largest = self.first.side + self.first.side / 4;
+        let mut occupancy = self.raster.occupancy(largest);
         let mut prefixes = Prefixes::new(occupancy.clone());
         let mut state = self.first.clone();
         if large < all
@@ -158,8 +141,7 @@ impl CoarseLayout {
         while limit.admits(occupancy.work) && known_in_row < IN_VAIN * stuck && best.side > least {
             let progress = occupancy.work as f64 / words as f64;
             let temperature = first * (last / first).powf(progress);
-            // Before small charts are placed, a cost is a guess, and leaving its minimum does not pay.
-            let is_stuck = large == all && known_in_row % stuck == stuck - 1;
+            let is_stuck = known_in_row % stuck == stuck - 1;
             let bound = if is_stuck {
                 f64::INFINITY
             } else {
@@ -197,8 +179,8 @@ impl CoarseLayout {
         }
         prefixes.hold(&mut occupancy, &state, &self.poses, 0);
         best.take(&self.poses, &mut occupancy, 0..large);
-        let placed =
-            large == all || (best.lay_out(&self.poses, &mut occupancy, large..all, most)).is_some();
+        let placed = large == all
+            || (best.lay_out(&self.poses, &mut occupancy, large..all, largest)).is_some();
         let best = if placed { best } else { self.first.clone() };
         (best, known_in_row >= IN_VAIN * stuck)
     }

@@ -26,8 +26,8 @@ const SHRINKS: [f64; 2] = [0.01, 4e-4];
 /// First share by which a page shrinks that has already been squeezed. With the share above, pages are as full, but charts end farther
 /// apart than they have to be.
 const LEAP: f64 = 0.004;
-/// Share by which the page grows while charts overlap, and while they need a little more room.
-const GROWTHS: [f64; 2] = [0.01, 1e-3];
+/// Share by which the page grows while charts overlap.
+const GROWTH: f64 = 0.01;
 /// Share of the energy of an overlap that is left after growing from which on growing does not help.
 const STUCK: f64 = 0.9;
 /// Maximum number of times that the page grows. Where many small charts overlap, each of them may have to jump; with 16, one of 121 sets
@@ -112,7 +112,7 @@ impl Squeezed {
     pub(super) fn settle(&mut self, bodies: &[Arc<Body>], words: u64, on_read: &OnRead) -> bool {
         let limit = ReadLimit::new(words, on_read);
         let mut scene = Scene::new(bodies, self, 0.0, limit);
-        let is_apart = self.grow(&mut scene, GROWTHS[0]);
+        let is_apart = self.grow(&mut scene);
         if is_apart {
             self.shrink(&mut scene, SHRINKS[0]);
         }
@@ -127,16 +127,16 @@ impl Squeezed {
             .collect()
     }
 
-    /// Separates charts, growing the page by the share `by` whenever that fails. Where growing does not help, a chart lies in a gap of
+    /// Separates charts, growing the page whenever that fails. Where growing does not help, a chart lies in a gap of
     /// another one that is too narrow, and jumps out of it. Returns whether the charts are apart.
-    fn grow(&mut self, scene: &mut Scene, by: f64) -> bool {
+    fn grow(&mut self, scene: &mut Scene) -> bool {
         let mut before = f64::INFINITY;
         for _ in 0..MOST_GROWTHS {
             let left = scene.separate(&mut self.poses);
             if left.are_apart() {
                 return true;
             }
-            self.scale(1.0 + by);
+            self.scale(1.0 + GROWTH);
             scene.resize(self);
             if left.energy > STUCK * before
                 && let Some(pair) = left.deepest_pair
@@ -158,7 +158,7 @@ impl Squeezed {
     ) -> bool {
         let limit = ReadLimit::new(words, on_read);
         let mut scene = Scene::new(bodies, self, room, limit);
-        let is_apart = self.grow(&mut scene, GROWTHS[1]);
+        let is_apart = self.grow(&mut scene);
         if is_apart {
             self.shrink(&mut scene, LEAP);
         }
@@ -171,7 +171,7 @@ impl Squeezed {
         let limit = ReadLimit::new(u64::MAX, UNHEARD);
         let mut scene = Scene::new(bodies, self, 0.0, limit);
         scene.most_steps = STEPS_PER_MOVE;
-        let is_apart = self.grow(&mut scene, GROWTHS[0]);
+        let is_apart = self.grow(&mut scene);
         let by = LEAP.min(1.0 - side / self.side);
         if is_apart && by > 0.0 {
             self.shrink_once(&mut scene, by);
@@ -260,8 +260,8 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Maximum number of steps that separate bodies.
-const STEPS: usize = 50;
+/// Maximum number of steps that separate bodies. With 50, 108 sets of charts are fuller by .0001 at the mean; with 10, emptier by .0005.
+const STEPS: usize = 25;
 /// Value that replaces [`STEPS`] while an island is dragged: with few charts in the way, a few steps are enough.
 const STEPS_PER_MOVE: usize = 10;
 /// Initial damping of Levenberg's method.
