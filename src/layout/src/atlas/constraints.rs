@@ -8,9 +8,8 @@ use std::collections::BTreeMap;
 use super::coarse::CoarseLayout;
 use super::effort::OnRead;
 use super::grid::{Repair, Snapped, doubled_area, snapped};
-use super::layout::Problem;
-use super::mask::{Distances, Mask, Rounding, Run};
-use super::outline::{Outline, outlines};
+use super::layout::{Obstacle, Problem};
+use super::outline::outlines;
 use super::pack::{fullest, packed};
 use super::page::{GRID_SIDE, Region, Texture};
 use super::plan::Plan;
@@ -133,38 +132,6 @@ impl Group {
             }
         }
         of_charts
-    }
-}
-
-/// Outline that other charts keep clear of.
-pub(super) struct Obstacle {
-    pub page: u32,
-    /// Outline in longer sides of a page, from the lower left corner of the first one.
-    pub outline: Outline,
-    /// Distance by which its vertices may be moved, in longer sides of a page.
-    pub slack: f64,
-}
-
-impl Obstacle {
-    /// Returns the cells that the outline touches on its page, and the position of the lower left one, counted from the inner corner of
-    /// borders that are `border` cells wide.
-    pub(super) fn body(&self, texture: Texture, cells: u32, border: f64) -> (Vec<Run>, [i64; 2]) {
-        let cells = f64::from(cells);
-        let around = self.slack * cells;
-        let corners: Vec<[f64; 2]> = self.outline.edges().map(|edge| edge[0]).collect();
-        let [low, _] = bounds_of(&corners);
-        let left = [f64::from(self.page) * texture.resolution.sides()[0], 0.0];
-        let first = |k: usize| ((low[k] - left[k]) * cells - border - around).floor();
-        let first = [0, 1].map(first);
-        let corner = |k: usize| left[k] + (first[k] + border + around) / cells;
-        let outline = self.outline.with_origin([0, 1].map(corner));
-        let distances = Distances {
-            around,
-            padding: 0.0,
-            rounding: Rounding::Outward,
-        };
-        let mask = Mask::new(&outline, cells, distances);
-        (mask.body.runs(), first.map(|x| x as i64))
     }
 }
 

@@ -3,13 +3,13 @@
 //! Charts that are packed again often come from a full page. No search is sure to find its order again, but squeezing keeps it.
 use std::sync::Arc;
 
-use super::coarse::{FINE, MOST_CHARTS, raster_side};
+use super::coarse::{FINE, raster_side};
 use super::effort::OnRead;
 use super::gap::{Border, Squeezing, smallest_gap};
 use super::layout::Layout;
 use super::outline::{Outline, outlines};
 use super::page::Region;
-use super::plan::{by_size, mark_copies};
+use super::plan::{MOST_CHARTS, by_size, mark_copies};
 use super::problem::{AtlasError, AtlasOptions, ChartMap};
 use super::squeeze::{Pose, Squeezed};
 use unwrapd_maps::plane::Straightness;

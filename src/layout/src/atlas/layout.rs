@@ -7,16 +7,15 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::coarse::MOST_CHARTS;
-use super::constraints::Obstacle;
 use super::effort::OnRead;
-use super::mask::{Distances, Mask, Rounding, Turned};
+use super::mask::{Distances, Mask, Rounding, Run, Turned};
 use super::occupancy::{Corner, Occupancy, Spot, Window};
 use super::outline::Outline;
 use super::page::{Form, Region, Texture};
-use super::plan::{HOPE, Plan, QuarterTurns};
+use super::plan::{HOPE, MOST_CHARTS, Plan, QuarterTurns, SLIVERS};
 use super::problem::{AtlasOptions, Rotation, Scale};
 
+use unwrapd_method::numerics::bounds::bounds_of;
 use unwrapd_method::numerics::random::Random;
 use unwrapd_method::solver::Control;
 
@@ -106,6 +105,38 @@ pub(super) fn padding(options: &AtlasOptions, n_charts: usize, cells: f64) -> f6
     (f64::from(options.packed_texels()) * cells / longer).min(most)
 }
 
+/// Outline that other charts keep clear of.
+pub(super) struct Obstacle {
+    pub page: u32,
+    /// Outline in longer sides of a page, from the lower left corner of the first one.
+    pub outline: Outline,
+    /// Distance by which its vertices may be moved, in longer sides of a page.
+    pub slack: f64,
+}
+
+impl Obstacle {
+    /// Returns the cells that the outline touches on its page, and the position of the lower left one, counted from the inner corner of
+    /// borders that are `border` cells wide.
+    pub(super) fn body(&self, texture: Texture, cells: u32, border: f64) -> (Vec<Run>, [i64; 2]) {
+        let cells = f64::from(cells);
+        let around = self.slack * cells;
+        let corners: Vec<[f64; 2]> = self.outline.edges().map(|edge| edge[0]).collect();
+        let [low, _] = bounds_of(&corners);
+        let left = [f64::from(self.page) * texture.resolution.sides()[0], 0.0];
+        let first = |k: usize| ((low[k] - left[k]) * cells - border - around).floor();
+        let first = [0, 1].map(first);
+        let corner = |k: usize| left[k] + (first[k] + border + around) / cells;
+        let outline = self.outline.with_origin([0, 1].map(corner));
+        let distances = Distances {
+            around,
+            padding: 0.0,
+            rounding: Rounding::Outward,
+        };
+        let mask = Mask::new(&outline, cells, distances);
+        (mask.body.runs(), first.map(|x| x as i64))
+    }
+}
+
 /// Charts to be packed, and what constrains them.
 #[derive(Clone, Copy)]
 pub(super) struct Problem<'a> {
@@ -155,9 +186,6 @@ impl Problem<'_> {
         Some(packing.layout(scale, attempt))
     }
 }
-
-/// Charts whose area is a smaller share of their room than this count as lines: the difference of roots would be rounding.
-pub(super) const SLIVERS: f64 = 1e-9;
 
 /// Returns a layout with copies alike at a scale; `None` if there are no copies or they do not fit.
 fn alike(packing: &Packing, scale: f64) -> Option<(f64, Attempt)> {

@@ -6,9 +6,8 @@
 use std::sync::Arc;
 
 use super::coarse::{FINE, RASTER};
-use super::constraints::Obstacle;
 use super::effort::UNHEARD;
-use super::layout::{Problem, SLACK};
+use super::layout::{Obstacle, Problem, SLACK};
 use super::outline::{Outline, outlines};
 use super::pack::poses;
 use super::page::{Region, Texture};

@@ -2,7 +2,7 @@
 use rayon::prelude::*;
 use std::sync::Arc;
 
-use super::coarse::{CoarseLayout, FINE, MOST_CHARTS, raster_side};
+use super::coarse::{CoarseLayout, FINE, raster_side};
 use super::effort::{Effort, OnRead, UNHEARD};
 use super::gap::{Border, Squeezing};
 use super::given::{Given, Tidiness, given};
@@ -10,7 +10,7 @@ use super::grid::{Repair, Snapped, aligned, doubled_area, snapped};
 use super::layout::{Layout, Problem, SLACK};
 use super::outline::{Outline, outlines};
 use super::page::{GRID_SIDE, Region};
-use super::plan::Plan;
+use super::plan::{MOST_CHARTS, Plan};
 use super::problem::{
     Atlas, AtlasError, AtlasOptions, Borders, ChartMap, Limit, Placed, Positions, Scale,
 };

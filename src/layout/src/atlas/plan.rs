@@ -2,7 +2,6 @@
 use std::f64::consts::TAU;
 
 use super::copies::{Moments, copies};
-use super::layout::SLIVERS;
 use super::outline::{Enclosure, Outline, direction};
 use super::page::Texture;
 use super::problem::{AtlasOptions, Rotation};
@@ -16,6 +15,12 @@ const ALIKE: f64 = 1e-2;
 
 /// Number of charts for each copy that a shape must have, and at least two: among thousands of charts, some are equal by chance.
 const CHARTS_PER_COPY: usize = 100;
+
+/// Maximum number of charts that are searched or squeezed. With more, the large ones leave enough room for the small ones.
+pub(super) const MOST_CHARTS: usize = 512;
+
+/// Charts whose area is a smaller share of their room than this count as lines: the difference of roots would be rounding.
+pub(super) const SLIVERS: f64 = 1e-9;
 
 /// Input of a layout.
 #[derive(Clone, Debug)]

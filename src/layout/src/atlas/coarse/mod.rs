@@ -11,7 +11,7 @@ use super::mask::{Distances, Rounding};
 use super::occupancy::{Corner, Occupancy};
 use super::outline::{Outline, outlines};
 use super::page::{Form, Region, Texture, page_side};
-use super::plan::{HOPE, Plan, alike, by_size, level, mark_copies};
+use super::plan::{HOPE, MOST_CHARTS, Plan, alike, by_size, level, mark_copies};
 use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation};
 use super::squeeze::{Pose, Squeezed};
 use arrangement::{Arrangement, Poses};
@@ -37,9 +37,6 @@ const MOST_CELLS: u64 = ((RASTER * MOST_SIDES) as u64).pow(2);
 /// Factor of the side that one chart alone requires, up to which a squeezed page counts as the smallest: squeezing ends with a step of
 /// .0004 of the side.
 const REACHED: f64 = 1.001;
-/// Maximum number of charts. With more, the large ones leave enough room for the small ones.
-pub(in crate::atlas) const MOST_CHARTS: usize = 512;
-
 /// Layout on a coarse raster.
 ///
 /// The layout follows from an order of the charts and a pose of each: every chart is placed where the used part of the page grows
