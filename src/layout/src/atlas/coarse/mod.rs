@@ -22,7 +22,8 @@ pub(in crate::atlas) const RASTER: u32 = 96;
 /// Value that replaces [`RASTER`] with more than [`FEW`] charts per page, as each of them then has fewer cells.
 const FINE_RASTER: u32 = 256;
 /// Maximum number of charts per page on the raster of [`RASTER`] cells, and of those whose order is searched, where several small
-/// charts count as one. With more charts, a trial takes too long, and the first layout is only squeezed.
+/// charts count as one. With more charts, a trial takes too long, and a layout on the raster that keeps the padding
+/// is squeezed.
 const FEW: usize = 64;
 /// A chart is small if the half perimeter of its rectangle is at most this share of that side: it finds a place between the others.
 const SMALL: f64 = 0.12;

@@ -271,7 +271,6 @@ impl Nearest {
     /// is free, too, and subtracts it if it lies in the region. Infinite if no node is known.
     fn by(self, is_free: bool) -> f64 {
         let rest = if is_free { self.rest } else { -self.rest };
-        let [x, y] = self.way;
-        (x * x + y * y).sqrt() + rest
+        dot(self.way, self.way).sqrt() + rest
     }
 }
