@@ -37,6 +37,7 @@ mod unwrapped_polygons;
 #[path = "../support/uv_meshes.rs"]
 #[allow(dead_code)]
 mod uv_meshes;
+mod whole_polygons;
 #[path = "../support/zoo.rs"]
 #[allow(dead_code)]
 mod zoo;

@@ -103,6 +103,15 @@ impl Document {
         }
     }
 
+    /// Returns for each corner of a primitive's faces the index of its corner of a polygon, and the number of those;
+    /// `None` for a file that is not written back with polygons.
+    pub fn polygon_corners(&self, primitive: usize) -> Option<(&[[u32; 3]], u32)> {
+        match self {
+            Self::Obj(document) if primitive == 0 => Some(document.polygon_corners()),
+            _ => None,
+        }
+    }
+
     /// Returns the normals of a primitive per face corner; `None` if it has none.
     pub fn corner_normals(
         &self,

@@ -153,6 +153,11 @@ impl ObjDocument {
         self.per_face(|corner| Some(self.obj.normals[corner.normal? as usize].map(f64::from)))
     }
 
+    /// Returns the corners of each triangle as indices of the polygons' corners, and the number of those.
+    pub(super) fn polygon_corners(&self) -> (&[[u32; 3]], u32) {
+        (&self.obj.corner_triangles, self.obj.corners.len() as u32)
+    }
+
     /// Iterates over the number of corners of each polygon; one of n corners has n − 2 triangles.
     pub(super) fn polygon_sizes(&self) -> impl Iterator<Item = usize> {
         self.obj.polygons().map(<[_]>::len)

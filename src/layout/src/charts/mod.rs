@@ -34,6 +34,8 @@
 //!
 //! A seam that is cut because of one overlap is often not needed along all of its length: at last small charts are laid back on
 //! their neighbors wherever they find room along a common border ([`given_back()`]).
+//!
+//! Where a mesh has polygons, seams along their diagonals are moved to their sides at last ([`with_whole_polygons`]).
 
 mod bound;
 mod chart;
@@ -50,6 +52,7 @@ mod needles;
 mod observer;
 mod opened;
 mod parts;
+mod polygons;
 mod regions;
 mod rough;
 mod symmetry;
@@ -68,6 +71,7 @@ pub use min_cut::min_cut;
 pub use needles::with_needles;
 pub use observer::{MapUnderway, Observer, Unobserved};
 pub use opened::charts;
+pub use polygons::{PolygonHome, with_whole_polygons};
 pub use rough::smoothed_where_rough;
 pub use symmetry::plane::MirrorPlane;
 

@@ -16,7 +16,7 @@ mod packing;
 mod placed_faces;
 pub(super) mod placement;
 pub(super) mod plan;
-mod position_key;
+pub(super) mod position_key;
 pub(super) mod repeated;
 pub(super) mod seams;
 pub(super) mod settings;

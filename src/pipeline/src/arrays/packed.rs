@@ -10,7 +10,7 @@ use crate::PipelineError;
 use unwrapd_layout::atlas::{
     self, Atlas, AtlasError, AtlasOptions, CoarseLayout, OnRead, Placed, Scale,
 };
-use unwrapd_layout::charts::{Folds, MappedChart};
+use unwrapd_layout::charts::{Folds, MappedChart, PolygonHome, with_whole_polygons};
 use unwrapd_method::solver::Control;
 
 /// Maximum number of packings because rounding made a chart overlap itself. A chart that was cut for this overlaps
@@ -30,31 +30,40 @@ const HOPE: f64 = 0.85;
 /// has a search of its own.
 const PER_PAGE: u64 = 4;
 
+/// Terms on which the charts of a mesh are cut and opened before they are packed.
+#[derive(Clone, Copy)]
+pub struct ChartTerms<'a> {
+    pub plan: &'a Plan,
+    /// Price of cuts that make the atlas fuller; `None` if there are none.
+    pub cuts: Option<CutTerms>,
+    /// Numbers of polygon corners, if polygons stay whole.
+    pub polygons: Option<&'a [[u32; 3]]>,
+}
+
 /// Packs the charts of one mesh into an atlas; at a given scale, on the smallest number of pages found to be enough.
 ///
 /// Tries each number of pages in turn, beginning with the charts that were cut for the one before. The attempts do
-/// not depend on the maximum number of pages, so a larger maximum never gives less. `terms` price cuts that make the atlas
-/// fuller; `None` makes none.
+/// not depend on the maximum number of pages, so a larger maximum never gives less.
 pub fn packed(
     mut charts: Vec<MappedChart>,
-    terms: Option<CutTerms>,
+    terms: ChartTerms,
     options: &AtlasOptions,
-    plan: &Plan,
     on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
-    if plan.is_turned_up {
+    charts = (terms.with_whole_polygons(&charts, PolygonHome::WithPart)).unwrap_or(charts);
+    if terms.plan.is_turned_up {
         charts.par_iter_mut().for_each(MappedChart::turn_up);
     }
     match options.scale {
-        Scale::Largest => Ok(largest(charts, (options, plan, terms), on_read)?),
-        Scale::TexelsPerUnit(texels) => fewest(charts, texels, (options, plan, terms), on_read),
+        Scale::Largest => Ok(largest(charts, (options, terms), on_read)?),
+        Scale::TexelsPerUnit(texels) => fewest(charts, texels, (options, terms), on_read),
     }
 }
 
 /// Returns the largest layout on any number of pages.
 fn largest(
     charts: Vec<MappedChart>,
-    (options, plan, terms): (&AtlasOptions, &Plan, Option<CutTerms>),
+    (options, terms): (&AtlasOptions, ChartTerms),
     on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), AtlasError> {
     let most = options.texture.pages;
@@ -62,8 +71,8 @@ fn largest(
     let least = if charts.len() > MOST_CHARTS { most } else { 1 };
     let on = |pages: u32, charts: (Vec<MappedChart>, Before)| {
         let on = on_pages(pages, options);
-        let coarse_atlas = coarse_atlas(charts, &on, terms, on_read)?;
-        let settled = coarse_atlas.map(|coarse_atlas| settled(coarse_atlas, &on, plan, on_read));
+        let coarse_atlas = coarse_atlas(charts, &on, terms.cuts, on_read)?;
+        let settled = coarse_atlas.map(|coarse_atlas| settled(coarse_atlas, &on, terms, on_read));
         settled.transpose()
     };
     let first = |pages: u32, charts: Vec<MappedChart>| {
@@ -94,7 +103,7 @@ fn largest(
 fn fewest(
     charts: Vec<MappedChart>,
     texels: f64,
-    (options, plan, terms): (&AtlasOptions, &Plan, Option<CutTerms>),
+    (options, terms): (&AtlasOptions, ChartTerms),
     on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
     if atlas::fits(&chart_maps(&charts), options)? {
@@ -102,16 +111,16 @@ fn fewest(
             charts,
             layout: None,
         };
-        return Ok(settled(whole, options, plan, on_read)?);
+        return Ok(settled(whole, options, terms, on_read)?);
     }
     let least = least_pages(&charts, texels, options);
     let mut last = (charts, Before::Nothing);
     for pages in least..=options.texture.pages {
         let on = on_pages(pages, options);
         let coarse_atlas =
-            coarse_atlas(last, &on, terms, on_read)?.ok_or(AtlasError::TextureTooSmall)?;
+            coarse_atlas(last, &on, terms.cuts, on_read)?.ok_or(AtlasError::TextureTooSmall)?;
         last = (coarse_atlas.charts.clone(), Before::FewerPages(0.0));
-        match settled(coarse_atlas, &on, plan, on_read) {
+        match settled(coarse_atlas, &on, terms, on_read) {
             Err(AtlasError::TextureTooSmall) => {}
             done => return Ok(done?),
         }
@@ -126,7 +135,7 @@ fn fewest(
             charts: last.0,
             layout: None,
         };
-        match settled(whole, &on, plan, on_read) {
+        match settled(whole, &on, terms, on_read) {
             Err(AtlasError::TextureTooSmall) => enough.resolution = None,
             tried => drop(tried?),
         }
@@ -167,20 +176,30 @@ fn coarse_atlas(
     }
 }
 
-/// Packs the charts. If rounding to the grid makes a chart overlap itself, it is cut once more; if a chart is too
+/// Packs the charts, with polygons in one piece. If rounding to the grid makes a chart overlap itself, it is cut once more; if a chart is too
 /// thin for the requested bits, it is opened; then all are packed again.
 fn settled(
     coarse_atlas: CoarseAtlas,
     options: &AtlasOptions,
-    plan: &Plan,
+    terms: ChartTerms,
     on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), AtlasError> {
+    let plan = terms.plan;
     let CoarseAtlas {
         mut charts,
         mut layout,
     } = coarse_atlas;
     let (mut rounds, mut openings) = (0, 0);
     loop {
+        // A polygon that was cut again because rounding made its chart overlap itself gets a chart of its own.
+        let home = match rounds {
+            0 => PolygonHome::WithPart,
+            _ => PolygonHome::Own,
+        };
+        if let Some(whole) = terms.with_whole_polygons(&charts, home) {
+            charts = whole;
+            layout = CoarseLayout::new(&chart_maps(&charts), options)?;
+        }
         let atlas = atlas::pack_coarse(&chart_maps(&charts), layout.as_ref(), options, on_read)?;
         if openings < OPENINGS
             && plan
@@ -207,5 +226,16 @@ fn settled(
             return Ok((charts, atlas));
         }
         layout = CoarseLayout::new(&chart_maps(&charts), options)?;
+    }
+}
+
+impl ChartTerms<'_> {
+    /// Moves seams off the diagonals of polygons; returns `None` if there are none.
+    fn with_whole_polygons(
+        &self,
+        charts: &[MappedChart],
+        home: PolygonHome,
+    ) -> Option<Vec<MappedChart>> {
+        with_whole_polygons(charts, self.polygons?, home)
     }
 }

@@ -32,6 +32,8 @@ pub struct Plan {
     pub refinement: Refinement,
     /// Maximum number of charts in one atlas.
     pub most_charts: Option<u32>,
+    /// `true` if seams are moved off the diagonals of polygons: not where a caller says where to cut.
+    pub keeps_polygons: bool,
     /// Treatment of charts that overlap themselves.
     pub folds: Folds,
     /// Price of seams that only make the atlas fuller; `None` if no chart is cut for that.
@@ -114,6 +116,7 @@ impl Plan {
                 _ => Refinement::None,
             },
             most_charts: cutting.max_charts,
+            keeps_polygons: is_promised && !matches!(cut, Cut::Keep | Cut::Seams),
             folds: if may_cut_again {
                 Folds::Cut
             } else {

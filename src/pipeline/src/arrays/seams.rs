@@ -33,6 +33,9 @@ pub struct Seams {
     /// Pairs of positions, by the indices of the mesh: an edge between two such positions is a seam, unless it is alone inside the
     /// surface, where it would open nothing.
     pub edges: Option<Vec<[u32; 2]>>,
+    /// Polygons that stay in one piece: for each corner the number of its corner of a polygon. Faces that share such
+    /// numbers are of one polygon, and no seam of a new map runs between them.
+    pub polygons: Option<Vec<[u32; 3]>>,
 }
 
 impl Seams {
@@ -48,6 +51,7 @@ impl Seams {
             self.normals.as_ref().map(Vec::len),
             self.labels.as_ref().map(Vec::len),
             self.weights.as_ref().map(Vec::len),
+            self.polygons.as_ref().map(Vec::len),
         ];
         if lengths.into_iter().flatten().any(|n| n != n_faces) {
             return Err(PipelineError::Seams("not one entry per face".to_owned()));
@@ -77,6 +81,8 @@ impl Seams {
             labels: of(self.labels.as_ref(), faces),
             weights: of(self.weights.as_ref(), faces),
             edges: self.edges.as_ref().map(edges),
+            // Charts of the whole mesh are united, not those of a piece.
+            polygons: None,
         }
     }
 

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::arranged::arranged;
 use super::divided::Divided;
-use super::packed::packed;
+use super::packed::{ChartTerms, packed};
 use super::packing::{atlas_options, expected_words, likely_words};
 use super::placed_faces::PlacedFaces;
 use super::plan::{Plan, Start};
@@ -147,8 +147,12 @@ pub fn unwrap_all(
             let how = (settings, &plan, n_atlases);
             match placed_faces(&meshes[index], &plan)? {
                 None => {
-                    let terms = plan.cut_terms(divided.n_components(index));
-                    packed(charts, terms, &options, &plan, &on_read)
+                    let terms = ChartTerms {
+                        plan: &plan,
+                        cuts: plan.cut_terms(divided.n_components(index)),
+                        polygons: meshes[index].seams.polygons.as_deref(),
+                    };
+                    packed(charts, terms, &options, &on_read)
                 }
                 Some(placed) => arranged(charts, &meshes[index], &placed, how, &on_read),
             }

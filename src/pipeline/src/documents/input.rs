@@ -1,13 +1,14 @@
 //! Documents prepared for unwrapping.
 
 use crate::arrays::plan::Plan;
+use crate::arrays::position_key::position_key;
 use crate::arrays::seams::Seams;
 use crate::arrays::soup::{Part, Soup};
 use crate::options::TexelWeight;
 use crate::options::{GivenSeams, NamedSeams, Options, check_grouping};
 use crate::{PipelineError, limits};
 use std::collections::BTreeMap;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use unwrapd_files::document::{
     Document, DocumentError, Group, GroupBy, OldUvs, OutputFormat, Primitive, Upload,
 };
@@ -190,12 +191,19 @@ impl Merged {
             let weights = face_weights(document, primitives, group, &options.texel_weight);
             merged.seams.weights = Some(weights?);
         }
+        if plan.keeps_polygons {
+            merged.seams.polygons = polygon_corners(document, group);
+        }
         match &options.seams {
             Some(GivenSeams::Named(NamedSeams::Normals)) => {
                 merged.seams.normals = Some(corner_normals(document, group)?);
             }
             Some(GivenSeams::Edges(edges)) => {
-                merged.seams.edges = Some(edges_of_group(primitives, group, edges));
+                let edges = edges_of_group(primitives, group, edges);
+                if let Some(corners) = &mut merged.seams.polygons {
+                    release_diagonals(corners, &merged.triangles, &merged.positions, &edges);
+                }
+                merged.seams.edges = Some(edges);
             }
             None => {}
         }
@@ -245,6 +253,56 @@ pub fn corner_uvs(
         }
     }
     Ok(all)
+}
+
+/// Returns for each corner of a group's faces the number of its corner of a polygon; `None` unless all primitives come
+/// from polygons.
+fn polygon_corners(document: &Document, group: &Group) -> Option<Vec<[u32; 3]>> {
+    let mut all = Vec::new();
+    let mut first = 0;
+    for &index in &group.primitives {
+        let (corners, n_corners) = document.polygon_corners(index)?;
+        all.extend(corners.iter().map(|face| face.map(|corner| first + corner)));
+        first += n_corners;
+    }
+    Some(all)
+}
+
+/// Takes the faces at those diagonals of polygons that are given seams out of their polygons.
+fn release_diagonals(
+    corners: &mut [[u32; 3]],
+    triangles: &[[u32; 3]],
+    positions: &[[f64; 3]],
+    seams: &[[u32; 2]],
+) {
+    let key = |v: u32| position_key(positions[v as usize]);
+    let sorted = |[a, b]: [_; 2]| if a < b { [a, b] } else { [b, a] };
+    let seams: HashSet<_> = seams.iter().map(|edge| sorted(edge.map(key))).collect();
+    let sides = |face: [u32; 3]| [0, 1, 2].map(|k| [face[k], face[(k + 1) % 3]]);
+    // A diagonal joins two corners of a polygon in two of its faces.
+    let mut n_faces: HashMap<[u32; 2], u32> = HashMap::new();
+    for [a, b] in corners.iter().flat_map(|face| sides(*face)) {
+        *n_faces.entry([a.min(b), a.max(b)]).or_default() += 1;
+    }
+    let mut next = 1 + corners
+        .as_flattened()
+        .iter()
+        .max()
+        .copied()
+        .unwrap_or_default();
+    for (face, triangle) in corners.iter_mut().zip(triangles) {
+        let is_released = |([a, b], ends): ([u32; 2], [u32; 2])| {
+            n_faces[&[a.min(b), a.max(b)]] > 1 && seams.contains(&sorted(ends.map(key)))
+        };
+        if sides(*face)
+            .into_iter()
+            .zip(sides(*triangle))
+            .any(is_released)
+        {
+            *face = [next, next + 1, next + 2];
+            next += 3;
+        }
+    }
 }
 
 fn corner_normals(document: &Document, group: &Group) -> Result<Vec<[[f64; 3]; 3]>, PipelineError> {
