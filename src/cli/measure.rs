@@ -176,6 +176,15 @@ pub(super) fn print_table(groups: &[GroupReport]) {
             100.0 * limit.utilization
         ));
     }
+    for group in shown {
+        if let Some(stacks) = group.stacks {
+            let plural = if stacks.stacks == 1 { "" } else { "s" };
+            say(format_args!(
+                "{}: {} charts share the texels of {} stack{plural}, which gains {} texels",
+                group.label, stacks.charts, stacks.stacks, stacks.texels_gained
+            ));
+        }
+    }
     for group in shown.iter().filter(|group| group.measures.pages.len() > 1) {
         let mut pages = Vec::new();
         for page in &group.measures.pages {
@@ -266,7 +275,11 @@ impl Sums {
                 *sums.texels.get_or_insert(0.0) += texels * texels * area;
             }
             sums.seam += m.seams.seam_over_sqrt_area.unwrap_or(0.0) * area.sqrt();
-            fills.extend(m.pages.iter().map(|page| page.fill));
+            match certificate.stacks.as_deref() {
+                // Stacked charts cover their texels once.
+                Some([_, ..]) if m.pages.len() == 1 => fills.extend(m.packing.pack_unit),
+                _ => fills.extend(m.pages.iter().map(|page| page.fill)),
+            }
             sums.flipped += certificate.flipped;
             sums.degenerate += certificate.degenerate;
             if let Some(pairs) = certificate.overlapping_pairs {

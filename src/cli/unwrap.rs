@@ -187,7 +187,7 @@ impl Acceptance {
             return Ok(());
         }
         if missed.contains(&&Gate::Certified) {
-            let missing = report.proven.lacks(Overlap::Test, Mirrored::Refused);
+            let missing = report.proven.lacks(Overlap::Test, Mirrored::InStacks);
             return Err(CommandFailure::uncertified(format!(
                 "not certified, but written: {} (not_certified)",
                 missing.join(", ")

@@ -8,6 +8,8 @@ interface Layout {
   pages?: number;
   texelsPerUnit?: number;
   packing?: 'fast' | 'tight';
+  /** Islands that share their texels, stacked on each other. */
+  stack?: 'off' | 'keep';
   /** Permitted rotations of charts in the layout. */
   rotate?: 'any' | 'quarter' | 'none';
   threads?: number;

@@ -22,6 +22,7 @@ mod plane;
 mod random;
 mod separation;
 mod simplification;
+mod stacks;
 #[path = "../support/taylor.rs"]
 #[allow(dead_code)]
 mod taylor;

@@ -31,6 +31,7 @@ mod rough;
 #[path = "../support/simple_polygons.rs"]
 #[allow(dead_code)]
 mod simple_polygons;
+mod stacks;
 mod symmetry;
 mod untangle;
 mod unwrapped_polygons;

@@ -57,9 +57,10 @@ pub use edit::{ChartEditReport, EditReport, EditedDocument, edit_document, open_
 pub use error::PipelineError;
 pub use island_error::IslandError;
 pub use judge::bound_report::{BoundReport, WorstChart, stretch_percent};
-pub use judge::proven::{Mirrored, Proven, ProvenBits, ProvenPadding, ProvenPages};
+pub use judge::proven::{Mirrored, Proven, ProvenBits, ProvenPadding, ProvenPages, ProvenStacks};
 pub use judge::report::{
     AtlasReport, ChartReport, GroupReport, LimitReport, Report, SCHEMA_VERSION, Seconds,
+    StacksReport,
 };
 pub use judge::verify::{Judged, Verified, VerifiedGroup, measure_document, verify_document};
 pub use meshes::{
@@ -71,7 +72,7 @@ pub use options::{
     Baking, BodyFormat, Budget, Caller, CommandOptions, Course, Cutting, DeformOptions,
     EditOptions, Editing, GivenSeams, ImageFormat, Island, KeptMaps, Layout, Mapping,
     MeasureOptions, NamedSeams, Options, PackingMode, Preset, Pulling, RepackOptions, Sets,
-    SolveOptions, TexelWeight, VerifyOptions, WarpOptions, Workers,
+    SolveOptions, Stacking, TexelWeight, VerifyOptions, WarpOptions, Workers,
 };
 pub use start::{start_file, start_file_of_text};
 pub use unwrapd_api::{Limits, START, Stage};

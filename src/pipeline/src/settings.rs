@@ -32,6 +32,18 @@ impl PackingMode {
     }
 }
 
+/// Islands that share their texels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
+pub enum Stacking {
+    /// None: islands that lie on each other are separated.
+    #[default]
+    Off,
+    /// Islands that coincide stay together.
+    Keep,
+}
+
 options! {
     /// Layout of the charts on a texture.
     #[derive(Copy)]
@@ -53,6 +65,10 @@ options! {
         pub texels_per_unit: Option<f64>, in 1e-9..=1e9, value "T";
         /// Search budget for the fullest layout.
         pub packing: PackingMode = PackingMode::Fast;
+        /// Islands that share their texels, stacked on each other. off: none. keep: those that
+        /// coincide stay together, which requires `cut` keep and `kept_maps` as-given. The default
+        /// is keep for `repack`, otherwise off.
+        pub stack: Option<Stacking>;
         /// Permitted rotations of charts in the layout. Without rotation, new charts have the top of
         /// the mesh up, and islands keep their angles.
         pub rotate: Rotation = Rotation::Any;

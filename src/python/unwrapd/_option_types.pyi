@@ -16,6 +16,7 @@ class Layout(TypedDict, total=False):
     pages: int | None
     texels_per_unit: float | None
     packing: Literal["fast", "tight"] | None
+    stack: Literal["off", "keep"] | None
     rotate: Literal["any", "quarter", "none"] | None
     threads: int | None
 
@@ -96,6 +97,7 @@ class VerifyOptions(MeasureOptions, total=False):
     """What is to be proven of UVs."""
 
     bijective: bool | None
+    stacks: bool | None
     unmirrored: bool | None
 
 class VerifyFileOptions(VerifyOptions, MeasureFileOptions, total=False):

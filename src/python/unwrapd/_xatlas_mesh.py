@@ -74,7 +74,7 @@ def computed(
     made: Optional[list[Atlas]] = None
     while used and made is None:
         try:
-            made = repack(used, **given) if is_flat else unwrap(used, **charting, **given)
+            made = repack(used, stack="off", **given) if is_flat else unwrap(used, **charting, **given)
         except InvalidInput as error:
             if error.code == "no_triangles":
                 break

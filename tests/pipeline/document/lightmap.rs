@@ -44,6 +44,7 @@ fn verified(outcome: &Outcome, texcoord: u32) -> Verified {
         ..MeasureOptions::default()
     };
     let options = VerifyOptions {
+        stacks: false,
         bijective: true,
         unmirrored: false,
         judged,

@@ -15,6 +15,16 @@ pub enum Overlap {
     Test,
 }
 
+/// Treatment of charts that coincide: that cover the same points of the plane, exactly.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Stacks {
+    /// They overlap like any others.
+    #[default]
+    Refused,
+    /// They may overlap each other, and keep no distance.
+    Accepted,
+}
+
 /// A distance to keep between charts, in texels of a texture.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Padding {
@@ -29,6 +39,8 @@ pub struct Padding {
 pub struct Claims {
     /// Enables tests of faces against each other, which all following claims need.
     pub overlap: Overlap,
+    /// Treatment of charts that coincide.
+    pub stacks: Stacks,
     /// Distance of charts to judge.
     pub padding: Option<Padding>,
     /// Texture of the unit square on whose texel borders charts are to end.

@@ -3,13 +3,15 @@
 use super::NAMED;
 use super::boundary::ChartBoundary;
 use super::box_tree::BoxVisit;
-use super::claims::{Claims, Overlap};
+use super::claims::{Claims, Overlap, Stacks};
 use super::overlap::OrientedFaces;
 use super::padding::{PaddingVerdict, judge_padding};
 use super::rounding::{BitsVerdict, coarsest_bits, coarsest_safe_bits, judge_bits};
+use super::stacks::StackedCharts;
 use super::topology::UvTopology;
 use crate::mesh::{CornerUvs, Resolution};
 use serde::Serialize;
+use std::collections::HashSet;
 
 /// Certificate of the UVs of a mesh: facts proven by exact predicates on the numbers of the file.
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]
@@ -27,11 +29,13 @@ pub struct Certificate {
     pub nonorientable_charts: usize,
     /// Mirrored charts: most of their UV area is clockwise with v up, as the file winds it. They may be valid.
     pub mirrored_charts: usize,
+    /// Those of them that lie in accepted stacks.
+    pub mirrored_in_stacks: usize,
     /// Faces oriented against the rest of their chart.
     pub flipped: usize,
     /// Faces of exactly zero UV area, except exempt ones.
     pub degenerate: usize,
-    /// Pairs of faces whose interiors intersect; null when not tested.
+    /// Pairs of faces whose interiors intersect; null when not tested. Of accepted stacks, one chart each is tested.
     pub overlapping_pairs: Option<u64>,
     /// Those of them that lie in one chart.
     pub overlapping_pairs_same_chart: Option<u64>,
@@ -39,6 +43,9 @@ pub struct Certificate {
     pub overlapping_pairs_between_charts: Option<u64>,
     /// `true` if the search for pairs stopped at its limit, so that there may be more.
     pub overlap_truncated: bool,
+    /// Charts of each stack that was accepted: they coincide, and one of them is tested against the others. Null when
+    /// stacks are not accepted, or overlaps were not tested.
+    pub stacks: Option<Vec<Vec<u32>>>,
     /// The coarsest of 23, 16, 14 and 12 bits at which every orientation is kept; null when the map is not locally injective, or
     /// only its full precision is. 23: UVs rounded to multiples of 2⁻²³ (the grid written here) keep it. 16, 14, 12: it
     /// survives any move of each coordinate by 1/(2(2ᵇ−1)) + 2⁻¹⁶. Overlaps after rounding are not included.
@@ -74,6 +81,12 @@ impl Certificate {
 
     /// Returns whether the map is proven bijective: locally injective, and no two faces overlap.
     pub fn is_bijective(&self) -> bool {
+        self.is_bijective_but_for_stacks() && self.stacks.as_ref().is_none_or(Vec::is_empty)
+    }
+
+    /// Returns whether the map is proven locally injective, and two faces overlap only if their charts coincide and that
+    /// was accepted.
+    pub fn is_bijective_but_for_stacks(&self) -> bool {
         self.is_valid() && self.overlapping_pairs == Some(0) && !self.overlap_truncated
     }
 }
@@ -94,14 +107,25 @@ pub fn certify(
     let mut certificate = judge_faces(&topology);
     let mirrored = topology.mirrored_charts(claims.v_axis);
     certificate.mirrored_charts = mirrored.len();
-    certificate.mirrored = mirrored.into_iter().take(NAMED).collect();
     certificate.unaligned_charts =
         (claims.aligned).map(|texels| unaligned_charts(&topology, texels));
     certificate.pages = claims.pages.map(|pages| judge_pages(&topology, pages));
     if claims.overlap == Overlap::Test {
-        judge_pairs(&topology, &mut certificate);
-        judge_distances(&topology, claims, &mut certificate);
+        let stacked = match claims.stacks {
+            Stacks::Refused => StackedCharts::none(&topology),
+            Stacks::Accepted => StackedCharts::find(&topology),
+        };
+        if claims.stacks == Stacks::Accepted {
+            let stacks = stacked.stacks();
+            let charts: HashSet<u32> = stacks.iter().flatten().copied().collect();
+            let inside = mirrored.iter().filter(|&chart| charts.contains(chart));
+            certificate.mirrored_in_stacks = inside.count();
+            certificate.stacks = Some(stacks);
+        }
+        judge_pairs(&topology, &stacked, &mut certificate);
+        judge_distances(&topology, &stacked, claims, &mut certificate);
     }
+    certificate.mirrored = mirrored.into_iter().take(NAMED).collect();
     certificate
 }
 
@@ -151,9 +175,11 @@ fn judge_faces(topology: &UvTopology) -> Certificate {
     certificate
 }
 
-fn judge_pairs(topology: &UvTopology, certificate: &mut Certificate) {
+fn judge_pairs(topology: &UvTopology, stacked: &StackedCharts, certificate: &mut Certificate) {
     let (mut same, mut between) = (0, 0);
-    let visit = OrientedFaces::new(topology).overlaps(|pair| {
+    let faces = 0..topology.faces.len() as u32;
+    let firsts = faces.filter(|&face| stacked.is_first(topology, face));
+    let visit = OrientedFaces::among(topology, firsts).overlaps(|pair| {
         let [a, b] = pair.faces.map(|f| topology.charts.of_face[f as usize]);
         *if a == b { &mut same } else { &mut between } += 1;
         if certificate.offending_pairs.len() < NAMED {
@@ -167,8 +193,15 @@ fn judge_pairs(topology: &UvTopology, certificate: &mut Certificate) {
 }
 
 /// Judges boundary edges of charts against each other.
-fn judge_distances(topology: &UvTopology, claims: &Claims, certificate: &mut Certificate) {
-    let boundary = ChartBoundary::new(topology, |face| topology.is_judged(face as usize));
+fn judge_distances(
+    topology: &UvTopology,
+    stacked: &StackedCharts,
+    claims: &Claims,
+    certificate: &mut Certificate,
+) {
+    let boundary = ChartBoundary::new(topology, |face| {
+        topology.is_judged(face as usize) && stacked.is_first(topology, face)
+    });
     if certificate.is_bijective()
         && let Some(grid_bits) = certificate.grid_bits
     {

@@ -18,6 +18,10 @@
 //! if its orientation, so corrected, is not the one that carries most UV area in its chart. A mirrored chart is
 //! therefore valid, a Möbius strip in one piece is not.
 //!
+//! **Stacks.** Charts that cover the same points may share their texels on purpose. Where a caller accepts that
+//! ([`Claims::stacks`]), one chart of each stack stands for all of it, and the stacks are listed
+//! ([`Certificate::stacks`]). Only equal outlines count: charts that are nearly the same overlap.
+//!
 //! Maps without UVs are judged by the same predicates: [`certify_planar`] judges a deformed mesh of the plane,
 //! [`boundary_crossings`] its boundary alone, [`crossings()`] whether a surface in space passes through itself.
 //!
@@ -36,12 +40,13 @@ mod judgment;
 mod overlap;
 mod padding;
 mod rounding;
+mod stacks;
 mod topology;
 
 use crate::mesh::CornerUvs;
 pub(crate) use boundary::{ChartBoundary, segment_distance};
 pub(crate) use box_tree::BoxVisit;
-pub use claims::{Claims, Overlap, Padding};
+pub use claims::{Claims, Overlap, Padding, Stacks};
 pub use judgment::{Certificate, PagesVerdict, certify};
 pub(crate) use overlap::OrientedFaces;
 pub use overlap::{Crossings, PlanarCertificate, boundary_crossings, certify_planar, crossings};

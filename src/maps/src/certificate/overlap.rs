@@ -26,21 +26,47 @@ impl OrientedFaces {
         Self::of(&topology.uvs, &topology.orientation)
     }
 
+    /// Collects those of some faces.
+    pub fn among(topology: &UvTopology, faces: impl IntoIterator<Item = u32>) -> OrientedFaces {
+        Self::of_faces(&topology.uvs, &topology.orientation, faces)
+    }
+
     /// Collects the faces with these corners, whose exact orientations are given.
     pub fn of(corners: &[CornerUvs], orientation: &[i8]) -> OrientedFaces {
-        let oriented = || (0..corners.len()).filter(|&f| orientation[f] != 0);
-        let counter_clockwise = |f: usize| {
-            let [a, b, c] = corners[f];
-            if orientation[f] > 0 {
+        Self::of_faces(corners, orientation, 0..corners.len() as u32)
+    }
+
+    fn of_faces(
+        corners: &[CornerUvs],
+        orientation: &[i8],
+        faces: impl IntoIterator<Item = u32>,
+    ) -> OrientedFaces {
+        let faces: Vec<u32> = (faces.into_iter())
+            .filter(|&f| orientation[f as usize] != 0)
+            .collect();
+        let counter_clockwise = |&f: &u32| {
+            let [a, b, c] = corners[f as usize];
+            if orientation[f as usize] > 0 {
                 [a, b, c]
             } else {
                 [a, c, b]
             }
         };
         OrientedFaces {
-            faces: oriented().map(|f| f as u32).collect(),
-            corners: oriented().map(counter_clockwise).collect(),
+            corners: faces.iter().map(counter_clockwise).collect(),
+            faces,
         }
+    }
+
+    /// Returns the edges that no edge in the opposite direction cancels, by the bits of their ends and in a fixed order.
+    pub fn outline(&self) -> Vec<[u64; 4]> {
+        let edges = uncancelled(&self.corners).into_iter();
+        edges
+            .map(|[p, q]| {
+                let ([a, b], [c, d]) = (key(p), key(q));
+                [a, b, c, d]
+            })
+            .collect()
     }
 
     /// Visits every pair of faces whose interiors intersect, decided exactly by separating axes; if there is none, that

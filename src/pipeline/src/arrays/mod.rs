@@ -21,4 +21,5 @@ pub(super) mod repeated;
 pub(super) mod seams;
 pub(super) mod settings;
 pub(super) mod soup;
+mod stacks;
 pub(super) mod unwrap;

@@ -3,7 +3,11 @@
 use super::placement::Placement;
 use super::seams::Seams;
 use crate::island_error::IslandError;
+use crate::options::Stacking;
+use std::collections::{BTreeMap, HashMap};
 use unwrapd_maps::certificate::chart_ids;
+use unwrapd_maps::mesh::CornerUvs;
+use unwrapd_method::numerics::predicates::orient2d_sign;
 
 /// Faces of islands that stay where they are put.
 pub struct PlacedFaces<'a> {
@@ -15,11 +19,13 @@ pub struct PlacedFaces<'a> {
 }
 
 impl<'a> PlacedFaces<'a> {
-    /// Finds the placed islands; returns `None` without UVs or without placements.
+    /// Finds the placed islands; returns `None` without UVs or without placements. With [`Stacking::Keep`] islands that
+    /// coincide exactly with a placed one go with it.
     pub fn new(
         positions: &[[f64; 3]],
         triangles: &[[u32; 3]],
         seams: &'a Seams,
+        stacking: Stacking,
     ) -> Result<Option<Self>, IslandError> {
         let placed = seams.placed.as_slice();
         let Some(uvs) = seams.uvs.as_ref().filter(|_| !placed.is_empty()) else {
@@ -34,6 +40,9 @@ impl<'a> PlacedFaces<'a> {
             if let Some(first) = of_island[*face as usize].replace(index) {
                 return Err(IslandError::Twice(placed[first].number, placement.number));
             }
+        }
+        if stacking == Stacking::Keep {
+            place_stacks(&mut of_island, &island, uvs, seams.materials.as_deref());
         }
         Ok(Some(Self {
             placed,
@@ -55,4 +64,62 @@ impl<'a> PlacedFaces<'a> {
         };
         (0..self.island.len() as u32).filter(is_still).collect()
     }
+}
+
+/// Gives islands without a placement that of the first placed island with the same outline and material.
+fn place_stacks(
+    of_island: &mut [Option<usize>],
+    island: &[u32],
+    uvs: &[CornerUvs],
+    materials: Option<&[u32]>,
+) {
+    let mut faces: Vec<Vec<u32>> = vec![Vec::new(); of_island.len()];
+    for (face, &island) in (0..).zip(island) {
+        faces[island as usize].push(face);
+    }
+    let material = |faces: &[u32]| {
+        let of_first = faces.first().zip(materials);
+        of_first.map(|(face, materials)| materials[*face as usize])
+    };
+    let outlines: Vec<_> = (faces.iter())
+        .map(|faces| (material(faces), outline(faces, uvs)))
+        .collect();
+    let mut placed = HashMap::new();
+    for (outline, index) in outlines.iter().zip(&*of_island) {
+        if let Some(index) = index {
+            placed.entry(outline).or_insert(*index);
+        }
+    }
+    for (outline, index) in outlines.iter().zip(of_island) {
+        *index = index.or_else(|| placed.get(outline).copied());
+    }
+}
+
+/// Directed edge by the bits of its ends.
+type EdgeKey = [[u64; 2]; 2];
+
+/// Returns the edges around some faces, with the area on their left, in ascending order.
+fn outline(faces: &[u32], uvs: &[CornerUvs]) -> Vec<EdgeKey> {
+    let mut balance: BTreeMap<EdgeKey, i32> = BTreeMap::new();
+    for face in faces {
+        let [a, b, c] = uvs[*face as usize];
+        let [a, b, c] = match orient2d_sign(a, b, c) {
+            0 => continue,
+            1 => [a, b, c],
+            _ => [a, c, b],
+        };
+        for edge in [[a, b], [b, c], [c, a]] {
+            let [p, q] = edge.map(|uv| uv.map(|x| (x + 0.0).to_bits()));
+            if p < q {
+                *balance.entry([p, q]).or_default() += 1;
+            } else {
+                *balance.entry([q, p]).or_default() -= 1;
+            }
+        }
+    }
+    let edges = balance.into_iter().flat_map(|([p, q], n)| {
+        let edge = if n > 0 { [p, q] } else { [q, p] };
+        std::iter::repeat_n(edge, n.unsigned_abs() as usize)
+    });
+    edges.collect()
 }

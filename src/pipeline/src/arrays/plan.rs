@@ -3,7 +3,7 @@
 use super::compact::CutTerms;
 use super::settings::Settings;
 use crate::PipelineError;
-use crate::options::{KeptMaps, Mapping};
+use crate::options::{KeptMaps, Mapping, Stacking};
 use unwrapd_layout::atlas::Rotation;
 use unwrapd_layout::charts::{Bound, Cut, Folds, Symmetry};
 use unwrapd_maps::embed::{self, Pins};
@@ -40,6 +40,8 @@ pub struct Plan {
     pub compaction: Option<f64>,
     /// Effort of the search for layouts.
     pub search: Search,
+    /// Charts that share their texels.
+    pub stacking: Stacking,
     /// Permitted rotations of charts.
     pub rotation: Rotation,
     /// `true` if charts are first turned so that the top of the mesh points up.
@@ -127,6 +129,7 @@ impl Plan {
                 Cut::Fast => Search::Brief,
                 _ => Search::Full,
             },
+            stacking: layout.stack.unwrap_or_default(),
             rotation: layout.rotate,
             is_turned_up: match start {
                 Start::New => true,

@@ -27,6 +27,8 @@ pub struct Seams {
     pub normals: Option<Vec<[[f64; 3]; 3]>>,
     /// Labels, as of materials: an edge between faces of different labels is a seam.
     pub labels: Option<Vec<u32>>,
+    /// Materials: charts of different ones are not stacked on each other.
+    pub materials: Option<Vec<u32>>,
     /// Relative texel densities: an edge between faces of different ones is a seam, and a chart gets that multiple of
     /// the texels along a line.
     pub weights: Option<Vec<f64>>,
@@ -51,6 +53,7 @@ impl Seams {
             self.normals.as_ref().map(Vec::len),
             self.labels.as_ref().map(Vec::len),
             self.weights.as_ref().map(Vec::len),
+            self.materials.as_ref().map(Vec::len),
             self.polygons.as_ref().map(Vec::len),
         ];
         if lengths.into_iter().flatten().any(|n| n != n_faces) {
@@ -79,6 +82,7 @@ impl Seams {
             placed: Vec::new(),
             normals: of(self.normals.as_ref(), faces),
             labels: of(self.labels.as_ref(), faces),
+            materials: of(self.materials.as_ref(), faces),
             weights: of(self.weights.as_ref(), faces),
             edges: self.edges.as_ref().map(edges),
             // Charts of the whole mesh are united, not those of a piece.

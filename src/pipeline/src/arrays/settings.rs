@@ -1,8 +1,9 @@
 //! Settings for unwrapping a mesh given as arrays.
 
-use crate::options::{Budget, Cutting, Layout, Mapping, Workers};
+use crate::options::{Budget, Cutting, KeptMaps, Layout, Mapping, Stacking, Workers};
 use unwrapd_api::options::OptionSet;
 use unwrapd_layout::atlas::Borders;
+use unwrapd_layout::charts::Cut;
 
 /// Settings for unwrapping a mesh given as arrays.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,6 +43,24 @@ impl Settings {
             return Err(format!(
                 "the `resolution` of a lightmap must be a power of two, not {given}: its charts end on texel borders"
             ));
+        }
+        let is_given = self.cutting.cut == Cut::Keep && self.cutting.kept_maps == KeptMaps::AsGiven;
+        if self.layout.stack == Some(Stacking::Keep) && !is_given {
+            return Err("`stack` keep requires `cut` keep and `kept_maps` as-given".to_owned());
+        }
+        if self
+            .layout
+            .stack
+            .is_some_and(|stack| stack != Stacking::Off)
+        {
+            if self.borders == Borders::OnTexels {
+                return Err(
+                    "a lightmap has no stacks: `stack` requires `preset` material".to_owned(),
+                );
+            }
+            if self.mapping.quantization_safe.is_some() {
+                return Err("`quantization_safe` requires `stack` off".to_owned());
+            }
         }
         self.cutting.check()?;
         self.mapping.check(self.cutting.cut)

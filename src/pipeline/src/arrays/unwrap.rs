@@ -12,9 +12,10 @@ use super::repeated::{self, GridCorners};
 use super::seams::Seams;
 use super::settings::Settings;
 use super::soup::Soup;
+use super::stacks::Stacks;
 use crate::PipelineError;
 use crate::observer::Observer;
-use crate::options::Workers;
+use crate::options::{Stacking, Workers};
 use crate::portion::Portion;
 use crate::tracker::Tracker;
 use unwrapd_api::Stage;
@@ -133,7 +134,7 @@ pub fn unwrap_all(
     tracker.expect(divided.n_mapped_faces(), all_words);
     let charts = divided.charts(&is_own, &plan, tracker);
     tracker.begin(Stage::Pack, all_words as f64);
-    let atlases: Vec<Option<(Vec<MappedChart>, Atlas)>> = (charts.into_par_iter().enumerate())
+    let atlases: Vec<Option<PackedMesh>> = (charts.into_par_iter().enumerate())
         .with_max_len(1)
         .map(|(index, charts)| {
             if !is_own[index] {
@@ -141,22 +142,34 @@ pub fn unwrap_all(
             }
             let options = atlas_options((settings, &plan), n_atlases, &charts);
             let charts = weighted(charts, meshes[index].seams);
+            let placed = placed_faces(&meshes[index], &plan)?;
+            // Islands that coincide are packed as one, unless some are placed by hand.
+            let (charts, stacks) = match (&placed, plan.stacking) {
+                (None, Stacking::Keep) => {
+                    let (charts, stacks) = Stacks::of(charts, meshes[index].seams);
+                    (charts, Some(stacks))
+                }
+                (Some(_), _) | (None, Stacking::Off) => (charts, None),
+            };
             let expected = expected_words(&plan, &options, &charts);
             let portion = Portion::of_atlas(tracker, words(index), expected);
             let on_read = |words| portion.read(words);
             let how = (settings, &plan, n_atlases);
-            match placed_faces(&meshes[index], &plan)? {
+            let (charts, atlas) = match placed {
                 None => {
                     let terms = ChartTerms {
                         plan: &plan,
                         cuts: plan.cut_terms(divided.n_components(index)),
                         polygons: meshes[index].seams.polygons.as_deref(),
                     };
-                    packed(charts, terms, &options, &on_read)
+                    packed(charts, terms, &options, &on_read)?
                 }
-                Some(placed) => arranged(charts, &meshes[index], &placed, how, &on_read),
-            }
-            .map(Some)
+                Some(placed) => arranged(charts, &meshes[index], &placed, how, &on_read)?,
+            };
+            Ok(Some(match stacks {
+                None => (charts, atlas),
+                Some(stacks) => stacks.restored(charts, atlas),
+            }))
         })
         .collect::<Result<_, PipelineError>>()?;
     (meshes.par_iter().enumerate())
@@ -177,6 +190,9 @@ pub fn unwrap_all(
         .collect()
 }
 
+/// The charts of a mesh in their atlas.
+type PackedMesh = (Vec<MappedChart>, Atlas);
+
 /// Returns the faces of islands that stay where they are put, if there are any.
 fn placed_faces<'a>(
     mesh: &Soup<'a>,
@@ -187,6 +203,7 @@ fn placed_faces<'a>(
             mesh.positions,
             mesh.triangles,
             mesh.seams,
+            plan.stacking,
         )?)
     } else {
         Ok(None)

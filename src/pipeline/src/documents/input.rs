@@ -4,8 +4,8 @@ use crate::arrays::plan::Plan;
 use crate::arrays::position_key::position_key;
 use crate::arrays::seams::Seams;
 use crate::arrays::soup::{Part, Soup};
-use crate::options::TexelWeight;
 use crate::options::{GivenSeams, NamedSeams, Options, check_grouping};
+use crate::options::{Stacking, TexelWeight};
 use crate::{PipelineError, limits};
 use std::collections::BTreeMap;
 use std::collections::{HashMap, HashSet};
@@ -180,12 +180,10 @@ impl Merged {
             merged.seams.uvs = Some(corner_uvs(document, group, options.sets.source())?);
         }
         if options.material_borders {
-            let labels = group.primitives.iter().flat_map(|&index| {
-                let primitive = &primitives[index];
-                let label = primitive.material.map_or(0, |material| 1 + material as u32);
-                std::iter::repeat_n(label, primitive.triangles.len())
-            });
-            merged.seams.labels = Some(labels.collect());
+            merged.seams.labels = Some(face_materials(primitives, group));
+        }
+        if plan.stacking != Stacking::Off {
+            merged.seams.materials = Some(face_materials(primitives, group));
         }
         if !options.texel_weight.is_empty() {
             let weights = face_weights(document, primitives, group, &options.texel_weight);
@@ -218,6 +216,16 @@ impl Merged {
             parts: &self.parts,
         }
     }
+}
+
+/// Returns the material of each face of a group as a number, 0 for none.
+fn face_materials(primitives: &[Primitive], group: &Group) -> Vec<u32> {
+    let of_primitive = |&index: &usize| {
+        let primitive = &primitives[index];
+        let material = primitive.material.map_or(0, |material| 1 + material as u32);
+        std::iter::repeat_n(material, primitive.triangles.len())
+    };
+    group.primitives.iter().flat_map(of_primitive).collect()
 }
 
 /// Returns the UVs of a group with v up.

@@ -15,6 +15,8 @@ pub struct Proven {
     pub locally_injective: bool,
     /// In addition, no two faces of a group overlap.
     pub bijective: bool,
+    /// Stacks of charts that coincide, if they were accepted.
+    pub stacks: Option<ProvenStacks>,
     /// No chart is mirrored.
     pub unmirrored: bool,
     /// The distance between charts; null if none was requested.
@@ -28,6 +30,20 @@ pub struct Proven {
     pub safe_bits: Option<u32>,
     /// The requested bits; null if none were requested.
     pub bits: Option<ProvenBits>,
+}
+
+/// Accepted stacks: charts that coincide.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ProvenStacks {
+    /// Number of stacks.
+    pub stacks: usize,
+    /// Charts in them.
+    pub charts: usize,
+    /// `true` if no two faces of a group overlap except in charts of one stack.
+    pub kept: bool,
+    /// `true` if no chart outside of them is mirrored.
+    pub unmirrored: bool,
 }
 
 /// Distance between charts, requested and reached.
@@ -75,6 +91,7 @@ impl Proven {
         Self {
             locally_injective: all(Certificate::is_valid),
             bijective: all(Certificate::is_bijective),
+            stacks: stacks(certificates.clone()),
             unmirrored: all(|certificate| certificate.mirrored_charts == 0),
             padding: padding(certificates.clone()),
             aligned: (certificates.clone())
@@ -88,6 +105,27 @@ impl Proven {
             bits: bits(certificates),
         }
     }
+}
+
+fn stacks<'a>(certificates: impl Iterator<Item = &'a Certificate>) -> Option<ProvenStacks> {
+    let all = certificates.map(|certificate| {
+        certificate.stacks.as_ref().map(|stacks| ProvenStacks {
+            stacks: stacks.len(),
+            charts: stacks.iter().map(Vec::len).sum(),
+            kept: certificate.is_bijective_but_for_stacks(),
+            unmirrored: certificate.mirrored_charts == certificate.mirrored_in_stacks,
+        })
+    });
+    let sum = all.reduce(|a, b| {
+        let (a, b) = (a?, b?);
+        Some(ProvenStacks {
+            stacks: a.stacks + b.stacks,
+            charts: a.charts + b.charts,
+            kept: a.kept && b.kept,
+            unmirrored: a.unmirrored && b.unmirrored,
+        })
+    });
+    sum.flatten()
 }
 
 fn padding<'a>(certificates: impl Iterator<Item = &'a Certificate>) -> Option<ProvenPadding> {
@@ -142,14 +180,18 @@ fn bits<'a>(certificates: impl Iterator<Item = &'a Certificate>) -> Option<Prove
 impl Proven {
     /// Returns the requested properties that do not hold, in words. With [`Overlap::Skip`] faces may overlap.
     pub fn lacks(&self, overlap: Overlap, mirrored: Mirrored) -> Vec<&'static str> {
-        let overlaps = overlap == Overlap::Test && self.locally_injective && !self.bijective;
+        let is_apart = self.bijective || self.stacks.as_ref().is_some_and(|stacks| stacks.kept);
+        let overlaps = overlap == Overlap::Test && self.locally_injective && !is_apart;
+        let stacked = self.stacks.as_ref().is_some_and(|stacks| stacks.unmirrored);
+        let is_mirrored = match mirrored {
+            Mirrored::Allowed => false,
+            Mirrored::InStacks => !self.unmirrored && !stacked,
+            Mirrored::Refused => !self.unmirrored,
+        };
         let missing = [
             (!self.locally_injective, "triangles flipped or without area"),
             (overlaps, "triangles overlapping"),
-            (
-                mirrored == Mirrored::Refused && !self.unmirrored,
-                "charts mirrored",
-            ),
+            (is_mirrored, "charts mirrored"),
             (
                 self.padding.as_ref().is_some_and(|p| !p.kept),
                 "charts closer than the padding",
@@ -174,15 +216,37 @@ impl Proven {
 pub enum Mirrored {
     /// Mirrored charts are permitted.
     Allowed,
+    /// Mirrored charts are permitted in accepted stacks alone.
+    InStacks,
     /// Mirrored charts are rejected.
     Refused,
+}
+
+/// Describes the stacks in words.
+impl fmt::Display for ProvenStacks {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let plural = if self.stacks == 1 { "" } else { "s" };
+        write!(
+            f,
+            "{} stack{plural} of {} charts that coincide",
+            self.stacks, self.charts
+        )
+    }
 }
 
 /// Describes the properties in words, including requested ones that do not hold.
 impl fmt::Display for Proven {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let not = |holds: bool| if holds { "" } else { "not " };
+        let stacked = self
+            .stacks
+            .as_ref()
+            .filter(|stacks| stacks.kept && stacks.stacks > 0);
         match (self.locally_injective, self.bijective) {
+            (true, false) if let Some(stacked) = stacked => write!(
+                f,
+                "no triangle flipped or without area, none overlapping except in {stacked}"
+            )?,
             (true, true) => write!(
                 f,
                 "no triangle flipped, without area or overlapping (bijective)"

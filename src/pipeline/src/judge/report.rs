@@ -8,9 +8,10 @@ use crate::options::Options;
 use serde::Serialize;
 use unwrapd_api::Limits;
 use unwrapd_files::document::{Warning, WriteNotes};
-use unwrapd_maps::certificate::{Certificate, Overlap};
+use unwrapd_maps::certificate::{Certificate, Overlap, chart_ids};
 use unwrapd_maps::measure::Measures;
 use unwrapd_maps::mesh::{Defects, Resolution};
+use unwrapd_method::numerics::vec2::doubled_area;
 use unwrapd_method::solver::Status;
 
 /// Version of the report schema. It increases when a key is removed or changes its meaning.
@@ -31,8 +32,8 @@ pub struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limits: Option<Limits>,
     /// `true` if everything requested is proven on the written bytes: no face is flipped or degenerate, no chart is
-    /// mirrored, no two faces overlap, and padding, pages, alignment and bits are as requested. The warnings name
-    /// what is missing. A missed distortion bound is only a warning.
+    /// mirrored and no two faces overlap except in accepted stacks, and padding, pages, alignment and bits are as
+    /// requested. The warnings name what is missing. A missed distortion bound is only a warning.
     pub certified: bool,
     /// `true` if the work ended before it was done, at its time limit or on request. The result is no less certified.
     pub ended_early: bool,
@@ -68,6 +69,9 @@ pub struct GroupReport {
     pub measures: Measures,
     /// Exact judgment of the written bytes.
     pub certificate: Certificate,
+    /// Charts that share their texels; absent if there are no accepted stacks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stacks: Option<StacksReport>,
     /// Defects of the mesh; absent if existing UVs were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub defects: Option<Defects>,
@@ -95,6 +99,19 @@ pub struct AtlasReport {
     pub limit: Option<LimitReport>,
     /// One entry per chart.
     pub charts: Vec<ChartReport>,
+}
+
+/// Charts that share their texels.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct StacksReport {
+    /// Number of stacks.
+    pub stacks: usize,
+    /// Charts in them.
+    pub charts: usize,
+    /// Texels that these charts would take beside those that they share, at their size on the texture, if each had its
+    /// own place.
+    pub texels_gained: f64,
 }
 
 /// Chart that alone sets the scale of an atlas. Only a cut through it, or a texture of another shape, makes the atlas fuller.
@@ -152,7 +169,7 @@ impl Report {
             unwrapd_version: env!("CARGO_PKG_VERSION"),
             options: None,
             limits: None,
-            certified: proven.lacks(Overlap::Test, Mirrored::Refused).is_empty(),
+            certified: proven.lacks(Overlap::Test, Mirrored::InStacks).is_empty(),
             ended_early: false,
             partly_done: false,
             proven,
@@ -179,6 +196,7 @@ impl GroupReport {
             label: uvs.label.clone(),
             texels_per_unit: (area > 0.0).then(|| f64::from(texture.height) * squared.sqrt()),
             measures,
+            stacks: StacksReport::of(uvs, &certificate, texture),
             certificate,
             defects: None,
             atlas: None,
@@ -188,7 +206,32 @@ impl GroupReport {
     /// Returns whether everything requested is proven for this atlas; see [`Report::certified`].
     pub fn is_certified(&self) -> bool {
         let proven = Proven::of(std::iter::once(&self.certificate));
-        proven.lacks(Overlap::Test, Mirrored::Refused).is_empty()
+        proven.lacks(Overlap::Test, Mirrored::InStacks).is_empty()
+    }
+}
+
+impl StacksReport {
+    /// Measures accepted stacks; returns `None` if there are none.
+    fn of(uvs: &GroupUvs, certificate: &Certificate, texture: Resolution) -> Option<Self> {
+        let stacks = certificate
+            .stacks
+            .as_deref()
+            .filter(|stacks| !stacks.is_empty())?;
+        let mut areas: Vec<f64> = Vec::new();
+        let charts = chart_ids(&uvs.positions, &uvs.triangles, &uvs.uvs);
+        for (chart, [a, b, c]) in charts.into_iter().zip(&uvs.uvs) {
+            areas.resize(areas.len().max(chart as usize + 1), 0.0);
+            areas[chart as usize] += doubled_area(*a, *b, *c).abs() / 2.0;
+        }
+        let saved = stacks
+            .iter()
+            .map(|charts| areas[charts[0] as usize] * (charts.len() - 1) as f64);
+        let texels = f64::from(texture.width) * f64::from(texture.height);
+        Some(Self {
+            stacks: stacks.len(),
+            charts: stacks.iter().map(Vec::len).sum(),
+            texels_gained: (texels * saved.sum::<f64>()).round(),
+        })
     }
 }
 

@@ -26,7 +26,7 @@ pub fn shortfalls(groups: &[(&GroupUvs, &GroupReport)]) -> Vec<Warning> {
         let rough = bound
             .and_then(BoundReport::caveat)
             .map(|caveat| Warning::new("rough_surface", format!("{name}: {caveat}")));
-        let unproven = of_certificate(uvs, &report.certificate, Mirrored::Refused);
+        let unproven = of_certificate(uvs, &report.certificate, Mirrored::InStacks);
         let caveats = distorted.into_iter().chain(rough);
         let caveats = caveats.chain(mixed_winding(name, report));
         unproven.into_iter().chain(caveats)
@@ -146,10 +146,13 @@ fn whole_charts(name: &str, certificate: &Certificate, mirrored: Mirrored) -> Ve
     let first = first.map_or(String::new(), |chart| {
         format!(", one of them chart {chart}")
     });
-    if mirrored == Mirrored::Refused {
-        let what = format!("mirrored (seen from behind){first}");
-        add("mirrored", certificate.mirrored_charts, &what);
-    }
+    let n_mirrored = match mirrored {
+        Mirrored::Allowed => 0,
+        Mirrored::InStacks => certificate.mirrored_charts - certificate.mirrored_in_stacks,
+        Mirrored::Refused => certificate.mirrored_charts,
+    };
+    let what = format!("mirrored (seen from behind){first}");
+    add("mirrored", n_mirrored, &what);
     add(
         "one_sided",
         certificate.nonorientable_charts,

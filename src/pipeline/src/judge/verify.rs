@@ -1,7 +1,7 @@
 //! Measurement and verification of a document's UVs.
 
 use super::groups::{Question, WrittenUvs};
-use super::proven::{Mirrored, Proven};
+use super::proven::{Mirrored, Proven, ProvenStacks};
 use super::report::Report;
 use crate::arrays::unwrap::in_pool;
 use crate::options::{CommandOptions, MeasureOptions, VerifyOptions};
@@ -9,7 +9,7 @@ use crate::{PipelineError, limits};
 use serde::Serialize;
 use std::fmt;
 use unwrapd_files::document::{Document, GroupBy, Mark, Sets, Upload, Warning};
-use unwrapd_maps::certificate::{Certificate, Overlap};
+use unwrapd_maps::certificate::{Certificate, Claims, Overlap, Stacks};
 
 /// The exact judgment of a document's UVs.
 #[derive(Clone, Debug, Serialize)]
@@ -45,6 +45,8 @@ pub struct Judged {
     pub exempt_faces: usize,
     /// Primitives without the UV set, left out on request.
     pub skipped_primitives: usize,
+    /// Stacks of charts that coincide, accepted on request.
+    pub stacks: Option<ProvenStacks>,
 }
 
 /// Describes the judged UVs in words.
@@ -64,6 +66,9 @@ impl fmt::Display for Judged {
         if self.skipped_primitives > 0 {
             let n = self.skipped_primitives;
             write!(f, "; left out: {n} primitives without UVs")?;
+        }
+        if let Some(stacks) = self.stacks.as_ref().filter(|stacks| stacks.stacks > 0) {
+            write!(f, "; accepted: {stacks}")?;
         }
         Ok(())
     }
@@ -114,16 +119,22 @@ pub fn verify_document(
 #[derive(Clone, Copy)]
 pub struct Promise {
     overlap: Overlap,
+    stacks: Stacks,
     mirrored: Mirrored,
 }
 
 impl Promise {
     pub fn of(options: &VerifyOptions) -> Self {
         Self {
-            overlap: if options.bijective {
+            overlap: if options.bijective || options.stacks {
                 Overlap::Test
             } else {
                 Overlap::Skip
+            },
+            stacks: if options.stacks {
+                Stacks::Accepted
+            } else {
+                Stacks::Refused
             },
             mirrored: if options.unmirrored {
                 Mirrored::Refused
@@ -138,13 +149,17 @@ impl Verified {
     /// Judges UVs, without the facts that only their file contains.
     pub(crate) fn new(uvs: WrittenUvs, question: &Question, promise: Promise) -> Self {
         let overlap = question.overlap(promise.overlap);
-        let certificates = uvs.certify(&question.options.claims(overlap));
+        let certificates = uvs.certify(&Claims {
+            stacks: promise.stacks,
+            ..question.options.claims(overlap)
+        });
         let exempt_faces = certificates.iter().map(|c| c.exempt_faces).sum();
         let judged = Judged {
             texcoord: question.sets(),
             group_by: question.options.group_by.unwrap_or(GroupBy::Scene),
             exempt_faces,
             skipped_primitives: uvs.n_skipped,
+            stacks: Proven::of(certificates.iter()).stacks,
         };
         let groups: Vec<VerifiedGroup> = (uvs.groups.into_iter().zip(certificates))
             .map(|(group, certificate)| VerifiedGroup {

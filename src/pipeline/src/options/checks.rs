@@ -5,6 +5,7 @@ use super::{KeptMaps, Options, Preset};
 use crate::Caller;
 use crate::CommandOptions;
 use crate::PipelineError;
+use crate::Stacking;
 use crate::TexelWeight;
 use crate::settings::check_mips;
 use unwrapd_api::options::OptionSet;
@@ -24,6 +25,15 @@ impl Options {
         self.texel_weight.iter().try_for_each(TexelWeight::check)?;
         if self.cutting.cut == Cut::Seams && self.seams.is_none() {
             return Err("`cut` seams requires `seams`".to_owned());
+        }
+        let is_stacked = self
+            .layout
+            .stack
+            .is_some_and(|stack| stack != Stacking::Off);
+        if self.baking.rebake && is_stacked {
+            return Err(
+                "`rebake` requires `stack` off: stacked charts share their texels".to_owned(),
+            );
         }
         let is_one_square = self.layout.pages == 1 && self.layout.resolution.aspect() == 1.0;
         if self.baking.rebake && !is_one_square {

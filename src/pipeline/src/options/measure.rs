@@ -128,6 +128,9 @@ options! {
     pub struct VerifyOptions {
         /// Also prove that no two faces overlap.
         pub bijective: bool;
+        /// Also prove that no two faces overlap except in stacks: islands that coincide, so that they share their
+        /// texels. What is accepted is said first. Without it, stacked islands count as overlaps.
+        pub stacks: bool;
         /// Also prove that no chart is mirrored.
         pub unmirrored: bool;
     }

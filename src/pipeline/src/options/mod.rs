@@ -10,7 +10,9 @@ mod measure;
 mod repack;
 mod unwrap;
 
-pub use crate::settings::{Budget, Cutting, KeptMaps, Layout, Mapping, PackingMode, Workers};
+pub use crate::settings::{
+    Budget, Cutting, KeptMaps, Layout, Mapping, PackingMode, Stacking, Workers,
+};
 pub use caller::{Caller, CommandOptions};
 pub(super) use checks::check_grouping;
 pub use deform::{BodyFormat, Course, DeformOptions, Pulling, SolveOptions};

@@ -1,6 +1,6 @@
 //! Options of repacking.
 
-use super::{Caller, CommandOptions, Cutting, KeptMaps, Layout, Options, Sets, Workers};
+use super::{Caller, CommandOptions, Cutting, KeptMaps, Layout, Options, Sets, Stacking, Workers};
 use crate::PipelineError;
 use crate::arrays::placement::Placement;
 use serde::{Deserialize, Serialize};
@@ -49,7 +49,10 @@ impl RepackOptions {
                 ..Cutting::default()
             },
             group_by: Some(self.group_by),
-            layout: self.layout,
+            layout: Layout {
+                stack: self.layout.stack.or(Some(Stacking::Keep)),
+                ..self.layout
+            },
             sets: self.sets,
             workers: self.workers,
             format: self.format,

@@ -1,6 +1,6 @@
 //! Options of unwrapping.
 
-use super::{Budget, Caller, Cutting, Layout, Mapping, Workers};
+use super::{Budget, Caller, Cutting, Layout, Mapping, Stacking, Workers};
 use crate::arrays::settings::Settings;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -13,7 +13,7 @@ use unwrapd_files::document::{
 };
 use unwrapd_files::picture::{HeatmapMeasure, Image};
 use unwrapd_layout::atlas::Borders;
-use unwrapd_maps::certificate::{Claims, Overlap, Padding};
+use unwrapd_maps::certificate::{Claims, Overlap, Padding, Stacks};
 
 /// Maximum side of a texture in texels.
 pub(crate) const MOST_SIDE: u32 = 8192;
@@ -149,6 +149,10 @@ impl Options {
         let layout = &self.layout;
         Claims {
             overlap: Overlap::Test,
+            stacks: match layout.stack {
+                None | Some(Stacking::Off) => Stacks::Refused,
+                Some(Stacking::Keep) => Stacks::Accepted,
+            },
             padding: Some(Padding {
                 texels: layout.padding << self.mips(),
                 resolution: layout.resolution,
