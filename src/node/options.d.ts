@@ -9,7 +9,7 @@ interface Layout {
   texelsPerUnit?: number;
   packing?: 'fast' | 'tight';
   /** Islands that share their texels, stacked on each other. */
-  stack?: 'off' | 'keep';
+  stack?: 'off' | 'keep' | 'identical' | 'mirrored';
   /** Permitted rotations of charts in the layout. */
   rotate?: 'any' | 'quarter' | 'none';
   threads?: number;

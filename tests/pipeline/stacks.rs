@@ -196,3 +196,155 @@ fn stacks_are_refused_where_they_cannot_be_kept() {
     let outcome = unwrap_document(&stack(), &base, &Unobserved).expect("it fits");
     assert!(outcome.report.certified && !outcome.report.proven.bijective);
 }
+
+// Parts of one shape.
+
+/// A bracket that is no mirror image of itself, `length` times as long.
+fn bracket(length: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    let outline = [
+        [0.0, 0.0],
+        [3.0, 0.0],
+        [3.0, 1.0],
+        [1.3, 1.0],
+        [1.0, 2.2],
+        [0.0, 2.0],
+    ];
+    let at = |[x, y]: [f64; 2], z: f64| [length * (x + 0.3 * z), y + 0.17 * z, z];
+    let [below, above] = [0.0, 0.7].map(|z| outline.map(|p| at(p, z)));
+    let caps = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]];
+    let mut faces: Vec<[u32; 3]> = Vec::new();
+    faces.extend(caps.map(|[a, b, c]| [a, c, b]));
+    faces.extend(caps.map(|cap| cap.map(|v| v + 6)));
+    for k in 0..6 {
+        let next = (k + 1) % 6;
+        faces.extend([[k, next, next + 6], [k, next + 6, k + 6]]);
+    }
+    ([below, above].concat(), faces)
+}
+
+/// Parts each turned and moved, those with a mark as mirror images, as an OBJ file.
+fn scene(parts: &[(f64, bool)]) -> Upload {
+    let mut lines = Vec::new();
+    for (k, &(length, is_mirrored)) in parts.iter().enumerate() {
+        let (positions, faces) = bracket(length);
+        let (sin, cos) = (0.7 * k as f64).sin_cos();
+        // Every other part has its vertices and faces in another order.
+        let n = positions.len();
+        let number = |v: usize| if k % 2 == 0 { v } else { (7 * v + 3) % n };
+        let mut moved = vec![[0.0; 3]; n];
+        for (v, [x, y, z]) in positions.into_iter().enumerate() {
+            let x = if is_mirrored { -x } else { x };
+            let turned = [cos * x - sin * y, sin * x + cos * y, z + 5.0 * k as f64];
+            moved[number(v)] = [turned[2], turned[0], turned[1]];
+        }
+        lines.extend(moved.iter().map(|[x, y, z]| format!("v {x} {y} {z}")));
+        let first = k * n + 1;
+        let mut faces: Vec<[usize; 3]> = (faces.iter())
+            .map(|face| face.map(|v| first + number(v as usize)))
+            .collect();
+        if is_mirrored {
+            for face in &mut faces {
+                face.swap(0, 1);
+            }
+        }
+        let rotated = k % faces.len();
+        faces.rotate_left(rotated);
+        lines.extend(faces.iter().map(|[a, b, c]| format!("f {a} {b} {c}")));
+    }
+    Upload::single("scene.obj", lines.join("\n").into_bytes())
+}
+
+fn unwrapped(upload: &Upload, stack: Stacking) -> Outcome {
+    let options = Options {
+        layout: Layout {
+            stack: Some(stack),
+            ..Layout::default()
+        },
+        format: OutputFormat::Obj,
+        ..Options::default()
+    };
+    unwrap_document(upload, &options, &Unobserved).expect("it fits")
+}
+
+/// Number of parts that lie apart: sets of UV triangles.
+fn n_part_places(outcome: &Outcome) -> usize {
+    let faces = uvs(&written(outcome));
+    let parts = faces.chunks(20).map(|part| {
+        let triangles = part.iter().map(|face| {
+            let mut corners = face.map(|uv| uv.map(f64::to_bits));
+            corners.sort_unstable();
+            corners
+        });
+        triangles.collect::<BTreeSet<_>>()
+    });
+    parts.collect::<BTreeSet<_>>().len()
+}
+
+#[test]
+fn identical_parts_are_mapped_once_and_stacked() {
+    let scene = scene(&[(1.0, false); 12]);
+    let outcome = unwrapped(&scene, Stacking::Identical);
+    assert!(outcome.report.certified, "{:?}", outcome.report.warnings);
+    assert_eq!(n_part_places(&outcome), 1);
+    let stacks = outcome.report.groups[0].stacks.expect("stacks");
+    assert_eq!(stacks.charts, 12 * stacks.stacks);
+    assert!(verified(&outcome, true).certified && !verified(&outcome, false).certified);
+    assert_eq!(n_part_places(&unwrapped(&scene, Stacking::Off)), 12);
+}
+
+#[test]
+fn near_misses_are_not_stacked() {
+    // 1 % longer and more, and mirror images where identical parts were asked for.
+    let longer = (0..10).map(|k| (1.01 + 0.003 * f64::from(k), false));
+    let mirrored = (0..10).map(|k| (1.05 + 0.003 * f64::from(k), true));
+    let parts: Vec<(f64, bool)> = [(1.0, false); 4]
+        .into_iter()
+        .chain(longer)
+        .chain(mirrored)
+        .collect();
+    let outcome = unwrapped(&scene(&parts), Stacking::Identical);
+    assert!(outcome.report.certified, "{:?}", outcome.report.warnings);
+    assert_eq!(n_part_places(&outcome), 21);
+    let both = [(1.0, false), (1.0, true), (1.0, false), (1.0, true)];
+    assert_eq!(
+        n_part_places(&unwrapped(&scene(&both), Stacking::Identical)),
+        2
+    );
+}
+
+#[test]
+fn mirrored_parts_are_stacked_if_that_is_asked_for() {
+    let parts = [
+        (1.0, false),
+        (1.0, true),
+        (1.0, false),
+        (1.0, true),
+        (1.2, true),
+    ];
+    let outcome = unwrapped(&scene(&parts), Stacking::Mirrored);
+    assert!(outcome.report.certified, "{:?}", outcome.report.warnings);
+    assert!(!outcome.report.proven.unmirrored);
+    assert_eq!(n_part_places(&outcome), 2);
+}
+
+#[test]
+fn a_part_that_is_there_twice_is_not_stacked_on_itself() {
+    let text = String::from_utf8(scene(&[(1.0, false); 2]).bytes).expect("text");
+    let again = |line: &str| {
+        let numbers = line.strip_prefix("f ")?.split(' ');
+        let moved = numbers.map(|v| (v.parse::<u32>().expect("a number") + 24).to_string());
+        Some(format!("f {}", moved.collect::<Vec<_>>().join(" ")))
+    };
+    let twice: Vec<String> = text
+        .lines()
+        .map(|line| again(line).unwrap_or(line.to_owned()))
+        .collect();
+    let both = [text, twice.join("\n")].join("\n");
+    let outcome = unwrapped(
+        &Upload::single("twice.obj", both.into_bytes()),
+        Stacking::Identical,
+    );
+    let certificate = &outcome.report.groups[0].certificate;
+    assert!(certificate.is_valid());
+    assert_eq!(certificate.overlapping_pairs_same_chart, Some(0));
+}

@@ -42,6 +42,10 @@ pub enum Stacking {
     Off,
     /// Islands that coincide stay together.
     Keep,
+    /// Parts that are equal but for a rigid motion are mapped once and stacked, too.
+    Identical,
+    /// Parts that are mirror images of each other, too.
+    Mirrored,
 }
 
 options! {
@@ -66,8 +70,10 @@ options! {
         /// Search budget for the fullest layout.
         pub packing: PackingMode = PackingMode::Fast;
         /// Islands that share their texels, stacked on each other. off: none. keep: those that
-        /// coincide stay together, which requires `cut` keep and `kept_maps` as-given. The default
-        /// is keep for `repack`, otherwise off.
+        /// coincide stay together, which requires `cut` keep and `kept_maps` as-given. identical:
+        /// parts of one shape and material are mapped once, too; parts are what is connected, and
+        /// shapes may differ by a rigid motion and by a ten-thousandth of their radius. mirrored:
+        /// mirror images, too. The default is keep for `repack`, otherwise off.
         pub stack: Option<Stacking>;
         /// Permitted rotations of charts in the layout. Without rotation, new charts have the top of
         /// the mesh up, and islands keep their angles.

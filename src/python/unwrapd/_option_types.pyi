@@ -16,7 +16,7 @@ class Layout(TypedDict, total=False):
     pages: int | None
     texels_per_unit: float | None
     packing: Literal["fast", "tight"] | None
-    stack: Literal["off", "keep"] | None
+    stack: Literal["off", "keep", "identical", "mirrored"] | None
     rotate: Literal["any", "quarter", "none"] | None
     threads: int | None
 

@@ -6,6 +6,7 @@ mod candidate;
 mod chart_maps;
 mod clearance;
 mod compact;
+mod copies;
 mod cutter;
 mod divided;
 mod expected_fill;

@@ -90,6 +90,16 @@ impl Seams {
         }
     }
 
+    /// Returns whether two faces have one label, material and weight.
+    pub(crate) fn agree(&self, f: u32, g: u32) -> bool {
+        fn same<T: PartialEq>(all: Option<&Vec<T>>, f: u32, g: u32) -> bool {
+            all.is_none_or(|all| all[f as usize] == all[g as usize])
+        }
+        same(self.labels.as_ref(), f, g)
+            && same(self.materials.as_ref(), f, g)
+            && same(self.weights.as_ref(), f, g)
+    }
+
     /// Rejects pairs that are not the ends of an edge of some triangle: nothing would be cut there.
     pub(crate) fn check_edges(
         edges: &[[u32; 2]],

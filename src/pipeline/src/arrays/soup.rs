@@ -20,6 +20,8 @@ pub struct Soup<'a> {
     pub seams: &'a Seams,
     /// Meshes of a document from which it was put together; empty if they are not known.
     pub parts: &'a [Part],
+    /// Faces of parts that keep bounds on distortion by themselves, as they stand for their copies.
+    pub originals: &'a [Vec<u32>],
 }
 
 /// A mesh of a document within a mesh that was put together from several.
@@ -81,6 +83,9 @@ impl<'a> Soup<'a> {
     /// the others.
     pub fn pieces(&self) -> Result<Vec<Piece<'a>>, PipelineError> {
         self.seams.check(self.positions, self.triangles)?;
+        if !self.originals.is_empty() {
+            return Ok(self.pieces_with_originals());
+        }
         let repeated: Vec<&Part> = self.repeated_parts();
         if repeated.is_empty() {
             return self.whole();
@@ -105,6 +110,45 @@ impl<'a> Soup<'a> {
         });
         let parts = repeated.into_iter().map(|part| self.piece(part));
         Ok(rest.into_iter().chain(parts).collect())
+    }
+
+    /// Returns each original as a piece, and all other faces as one.
+    fn pieces_with_originals(&self) -> Vec<Piece<'a>> {
+        let mut is_left = vec![true; self.triangles.len()];
+        for face in self.originals.iter().flatten() {
+            is_left[*face as usize] = false;
+        }
+        let all = 0..self.triangles.len() as u32;
+        let left: Vec<u32> = all.filter(|&face| is_left[face as usize]).collect();
+        let rest = (!left.is_empty()).then_some(left);
+        let pieces = rest.into_iter().chain(self.originals.iter().cloned());
+        pieces.map(|faces| self.piece_of(faces)).collect()
+    }
+
+    /// Returns some faces as a piece with positions of its own.
+    fn piece_of(&self, faces: Vec<u32>) -> Piece<'a> {
+        let mut number: HashMap<u32, u32> = HashMap::new();
+        let mut positions = Vec::new();
+        let mut renumbered = |v: u32| {
+            *number.entry(v).or_insert_with(|| {
+                positions.push(self.positions[v as usize]);
+                positions.len() as u32 - 1
+            })
+        };
+        let triangles = faces.iter().map(|&face| self.triangles[face as usize]);
+        let triangles: Vec<[u32; 3]> = triangles.map(|t| t.map(&mut renumbered)).collect();
+        let edges = self.seams.edges.iter().flatten();
+        let edges = edges.filter_map(|[a, b]| Some([*number.get(a)?, *number.get(b)?]));
+        let seams = Seams {
+            edges: self.seams.edges.as_ref().map(|_| edges.collect()),
+            ..self.seams.restricted(&faces, 0..0)
+        };
+        Piece {
+            positions: Cow::Owned(positions),
+            triangles: Cow::Owned(triangles),
+            seams: Cow::Owned(seams),
+            faces: Some(faces),
+        }
     }
 
     fn piece(&self, part: &Part) -> Piece<'a> {

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::arranged::arranged;
+use super::copies::WithoutCopies;
 use super::divided::Divided;
 use super::packed::{ChartTerms, packed};
 use super::packing::{atlas_options, expected_words, likely_words};
@@ -21,7 +22,7 @@ use crate::tracker::Tracker;
 use unwrapd_api::Stage;
 use unwrapd_layout::atlas::{self, Atlas, Limit};
 use unwrapd_layout::charts::MappedChart;
-use unwrapd_maps::mesh::Defects;
+use unwrapd_maps::mesh::{Defects, Surface};
 use unwrapd_method::solver::Summary;
 
 /// An unwrapped mesh.
@@ -96,6 +97,7 @@ pub fn unwrap_along<T: Copy + Into<f64>>(
         triangles,
         seams,
         parts: &[],
+        originals: &[],
     };
     let mut atlases = in_pool(settings.workers, || unwrap_all(&[mesh], settings, &tracker))??;
     atlases.pop().ok_or(PipelineError::NoTriangles)
@@ -114,8 +116,36 @@ pub fn in_pool<T: Send>(
 }
 
 /// Unwraps every mesh into its own atlas; the charts of all meshes are mapped from one queue. Meshes of equal shape
-/// are mapped once, and packed once if each has its own atlas.
+/// are mapped once, and packed once if each has its own atlas. If asked for, copies of a part of a mesh are stacked on it.
 pub fn unwrap_all(
+    meshes: &[Soup],
+    settings: &Settings,
+    tracker: &Tracker,
+) -> Result<Vec<Unwrapped>, PipelineError> {
+    let stacking = settings.layout.stack.unwrap_or_default();
+    if !matches!(stacking, Stacking::Identical | Stacking::Mirrored) {
+        return unwrap_each(meshes, settings, tracker);
+    }
+    let defects = meshes.par_iter().map(|mesh| {
+        mesh.seams.check(mesh.positions, mesh.triangles)?;
+        Ok(Surface::new(mesh.positions, mesh.triangles)?.defects)
+    });
+    let defects: Vec<Defects> = defects.collect::<Result<_, PipelineError>>()?;
+    let parts: Vec<WithoutCopies> = (meshes.par_iter())
+        .map(|mesh| WithoutCopies::of(*mesh, stacking))
+        .collect();
+    let soups: Vec<Soup> = parts.iter().map(WithoutCopies::soup).collect();
+    let unwrapped = unwrap_each(&soups, settings, tracker)?;
+    let whole = parts.iter().zip(unwrapped).zip(defects);
+    let whole = whole.map(|((parts, unwrapped), defects)| Unwrapped {
+        grid: parts.with_copies(&unwrapped.grid),
+        defects,
+        ..unwrapped
+    });
+    Ok(whole.collect())
+}
+
+fn unwrap_each(
     meshes: &[Soup],
     settings: &Settings,
     tracker: &Tracker,
@@ -144,12 +174,12 @@ pub fn unwrap_all(
             let charts = weighted(charts, meshes[index].seams);
             let placed = placed_faces(&meshes[index], &plan)?;
             // Islands that coincide are packed as one, unless some are placed by hand.
-            let (charts, stacks) = match (&placed, plan.stacking) {
-                (None, Stacking::Keep) => {
-                    let (charts, stacks) = Stacks::of(charts, meshes[index].seams);
-                    (charts, Some(stacks))
-                }
-                (Some(_), _) | (None, Stacking::Off) => (charts, None),
+            let is_stacked = plan.start == Start::Final && plan.stacking != Stacking::Off;
+            let (charts, stacks) = if is_stacked && placed.is_none() {
+                let (charts, stacks) = Stacks::of(charts, meshes[index].seams);
+                (charts, Some(stacks))
+            } else {
+                (charts, None)
             };
             let expected = expected_words(&plan, &options, &charts);
             let portion = Portion::of_atlas(tracker, words(index), expected);

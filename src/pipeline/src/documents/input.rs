@@ -214,6 +214,7 @@ impl Merged {
             triangles: &self.triangles,
             seams: &self.seams,
             parts: &self.parts,
+            originals: &[],
         }
     }
 }

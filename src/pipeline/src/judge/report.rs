@@ -97,7 +97,7 @@ pub struct AtlasReport {
     /// The chart that alone sets the scale because it is as long as a page; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<LimitReport>,
-    /// One entry per chart.
+    /// One entry per chart that was mapped; charts of copies have none.
     pub charts: Vec<ChartReport>,
 }
 

@@ -67,6 +67,11 @@ impl CommandOptions for RepackOptions {
         for (index, island) in self.islands.iter().enumerate() {
             island.check(index).map_err(PipelineError::InvalidOptions)?;
         }
+        let by_shape = [Some(Stacking::Identical), Some(Stacking::Mirrored)];
+        if !self.islands.is_empty() && by_shape.contains(&self.layout.stack) {
+            let text = "`islands` requires `stack` off or keep";
+            return Err(PipelineError::InvalidOptions(text.to_owned()));
+        }
         self.to_unwrap().check()
     }
 

@@ -151,7 +151,7 @@ impl Options {
             overlap: Overlap::Test,
             stacks: match layout.stack {
                 None | Some(Stacking::Off) => Stacks::Refused,
-                Some(Stacking::Keep) => Stacks::Accepted,
+                Some(Stacking::Keep | Stacking::Identical | Stacking::Mirrored) => Stacks::Accepted,
             },
             padding: Some(Padding {
                 texels: layout.padding << self.mips(),
