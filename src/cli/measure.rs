@@ -90,6 +90,10 @@ pub(super) fn verify(args: &VerifyArgs) -> Result<(), CommandFailure> {
         for group in &verified.groups {
             let text = certificate_text(&group.certificate);
             say(format_args!("{}: {text}", group.label));
+            let islands = &group.certificate.islands;
+            if !islands.faulty.is_empty() {
+                say(format_args!("{}: islands: {islands}", group.label));
+            }
         }
     }
     warn(&verified.warnings);

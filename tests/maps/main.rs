@@ -10,6 +10,7 @@ mod disks;
 mod embed;
 #[path = "../support/few_vertices.rs"]
 mod few_vertices;
+mod islands;
 mod measure;
 mod mesh;
 mod once;

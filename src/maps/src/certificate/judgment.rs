@@ -4,6 +4,7 @@ use super::NAMED;
 use super::boundary::ChartBoundary;
 use super::box_tree::BoxVisit;
 use super::claims::{Claims, Overlap, Stacks};
+use super::islands::{Islands, judge_islands};
 use super::overlap::OrientedFaces;
 use super::padding::{PaddingVerdict, judge_padding};
 use super::rounding::{BitsVerdict, coarsest_bits, coarsest_safe_bits, judge_bits};
@@ -61,6 +62,8 @@ pub struct Certificate {
     pub pages: Option<PagesVerdict>,
     /// Verdict on the requested bits; null if not requested or overlaps were not tested.
     pub bits: Option<BitsVerdict>,
+    /// Charts by their faults.
+    pub islands: Islands,
     /// The first few mirrored charts; charts are numbered in the order of their first faces.
     pub mirrored: Vec<u32>,
     /// The first few faces that are flipped, degenerate or cannot be judged.
@@ -110,11 +113,12 @@ pub fn certify(
     certificate.unaligned_charts =
         (claims.aligned).map(|texels| unaligned_charts(&topology, texels));
     certificate.pages = claims.pages.map(|pages| judge_pages(&topology, pages));
+    let mut stacked = StackedCharts::none(&topology);
+    let mut overlapping = HashSet::new();
     if claims.overlap == Overlap::Test {
-        let stacked = match claims.stacks {
-            Stacks::Refused => StackedCharts::none(&topology),
-            Stacks::Accepted => StackedCharts::find(&topology),
-        };
+        if claims.stacks == Stacks::Accepted {
+            stacked = StackedCharts::find(&topology);
+        }
         if claims.stacks == Stacks::Accepted {
             let stacks = stacked.stacks();
             let charts: HashSet<u32> = stacks.iter().flatten().copied().collect();
@@ -122,9 +126,10 @@ pub fn certify(
             certificate.mirrored_in_stacks = inside.count();
             certificate.stacks = Some(stacks);
         }
-        judge_pairs(&topology, &stacked, &mut certificate);
+        overlapping = judge_pairs(&topology, &stacked, &mut certificate);
         judge_distances(&topology, &stacked, claims, &mut certificate);
     }
+    certificate.islands = judge_islands(&topology, &stacked, &overlapping);
     certificate.mirrored = mirrored.into_iter().take(NAMED).collect();
     certificate
 }
@@ -175,13 +180,20 @@ fn judge_faces(topology: &UvTopology) -> Certificate {
     certificate
 }
 
-fn judge_pairs(topology: &UvTopology, stacked: &StackedCharts, certificate: &mut Certificate) {
+/// Returns the charts that overlap themselves or others, one of each stack.
+fn judge_pairs(
+    topology: &UvTopology,
+    stacked: &StackedCharts,
+    certificate: &mut Certificate,
+) -> HashSet<u32> {
     let (mut same, mut between) = (0, 0);
+    let mut charts = HashSet::new();
     let faces = 0..topology.faces.len() as u32;
     let firsts = faces.filter(|&face| stacked.is_first(topology, face));
     let visit = OrientedFaces::among(topology, firsts).overlaps(|pair| {
         let [a, b] = pair.faces.map(|f| topology.charts.of_face[f as usize]);
         *if a == b { &mut same } else { &mut between } += 1;
+        charts.extend([a, b]);
         if certificate.offending_pairs.len() < NAMED {
             certificate.offending_pairs.push(pair.faces);
         }
@@ -190,6 +202,7 @@ fn judge_pairs(topology: &UvTopology, stacked: &StackedCharts, certificate: &mut
     certificate.overlapping_pairs_same_chart = Some(same);
     certificate.overlapping_pairs_between_charts = Some(between);
     certificate.overlap_truncated = visit == BoxVisit::Truncated;
+    charts
 }
 
 /// Judges boundary edges of charts against each other.
