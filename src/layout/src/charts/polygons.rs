@@ -231,20 +231,30 @@ impl Gluing {
             return;
         }
         parts.sort_by(|a, b| self.hold(b).total_cmp(&self.hold(a)));
-        let has_room = |part: &&BTreeSet<u32>| self.has_room(part, &polygon);
+        let has_room = |part: &&BTreeSet<u32>| self.has_room(part, &polygon, home);
+        // Where more than two faces meet at a diagonal, another polygon may be glued to it.
+        let is_entangled = polygon.iter().flat_map(|&t| 3 * t..3 * t + 3).any(|h| {
+            let [twin, other] = [&self.twin, &self.diagonal].map(|of| of[h as usize]);
+            other != CUT && twin != CUT && twin != other
+        });
         let stays = match home {
-            PolygonHome::WithPart => parts.iter().find(has_room),
-            PolygonHome::Own => None,
+            PolygonHome::WithPart if !is_entangled => parts.iter().find(has_room),
+            PolygonHome::WithPart | PolygonHome::Own => None,
         };
+        // Without a part that stays, take the polygon out and begin with one of its faces.
+        let mut united = stays.cloned().unwrap_or_default();
         if stays.is_none() {
-            for h in parts[0].iter().flat_map(|&t| 3 * t..3 * t + 3) {
-                if self.diagonal[h as usize] == CUT {
-                    self.cut(h);
-                }
+            // A polygon that overlaps itself when it is laid out stays split.
+            let first: BTreeSet<u32> = parts[0].first().copied().into_iter().collect();
+            if !self.has_room(&first, &polygon, PolygonHome::Own) {
+                return;
             }
+            for h in polygon.iter().flat_map(|&t| 3 * t..3 * t + 3) {
+                self.cut(h);
+            }
+            united = first;
         }
-        // Glue the other triangles to the part that stays, one after the other.
-        let mut united = stays.unwrap_or(&parts[0]).clone();
+        // Glue the other triangles to it, one after the other.
         let mut pending: Vec<u32> = united.iter().copied().collect();
         while let Some(face) = pending.pop() {
             for h in 3 * face..3 * face + 3 {
@@ -258,8 +268,8 @@ impl Gluing {
     }
 
     /// Returns whether the triangles of a polygon that are not in `part` overlap nothing when they are laid out beside
-    /// it.
-    fn has_room(&self, part: &BTreeSet<u32>, polygon: &BTreeSet<u32>) -> bool {
+    /// it: neither each other and the part, nor other triangles of its chart if it stays there.
+    fn has_room(&self, part: &BTreeSet<u32>, polygon: &BTreeSet<u32>, home: PolygonHome) -> bool {
         let Some(&first) = part.first() else {
             return false;
         };
@@ -275,11 +285,13 @@ impl Gluing {
                 }
                 let of = images.get(&face).unwrap_or(&self.uv[face as usize]);
                 let image = self.laid_out(h, t, of);
+                let own = part.iter().map(|&t| &self.uv[t as usize]);
                 let guests = guests.iter().map(|&guest| &self.uv[guest as usize]);
-                let is_free = !images.values().chain(guests).any(|it| overlap(&image, it))
-                    && self.is_free(chart, &image, |t| {
-                        part.contains(&t) || !polygon.contains(&t)
-                    });
+                let is_apart = !images.values().chain(own).any(|it| overlap(&image, it));
+                let is_free = is_apart
+                    && (home == PolygonHome::Own
+                        || (!guests.into_iter().any(|it| overlap(&image, it))
+                            && self.is_free(chart, &image, |t| !polygon.contains(&t))));
                 if !is_free {
                     return false;
                 }
@@ -435,7 +447,7 @@ impl Gluing {
             }
             let disk = Disk::new(sheet.positions.len(), sheet.vertex.as_chunks().0.to_vec());
             debug_assert!(disk.is_ok(), "a polygon was united to no disk: {disk:?}");
-            Some(MappedChart {
+            let map = MappedChart {
                 embedding: Embedding {
                     uv,
                     summary: before.embedding.summary,
@@ -447,7 +459,8 @@ impl Gluing {
                     mirror: before.chart.mirror,
                     positions: sheet.positions,
                 },
-            })
+            };
+            Some(map.facing_front())
         });
         mapped.collect()
     }
