@@ -44,6 +44,13 @@ export async function run(page, url) {
     await page.click("text=Side by side");
     await both(page);
   }
+  // Who changes their mind sees what they asked for last.
+  for (let k = 0; k < 3; k++) await page.keyboard.press("d");
+  await page.waitForLoadState("networkidle");
+  await shown(page);
+  assert.equal(await page.locator("#panes.both").count(), 0);
+  await page.keyboard.press("d");
+  await both(page);
   const now = await geometries(page);
   assert.ok(now <= held, `${now} geometries, ${held} before`);
 }

@@ -164,7 +164,7 @@ export class JobView {
     }
     const subject = this.#shown(job);
     if (subject) await this.#showShape(job, await shapeOf(job, subject.report, subject.input));
-    if (source && this.#shown(job)) await viewer.showBeside(source);
+    if (source && this.#shown(job) && store.place.uvs === "both") await viewer.showBeside(source);
   }
 
   async #showShape(job: Job, shape: Shape): Promise<void> {

@@ -37,8 +37,9 @@ export class Viewer {
   readonly #sheetBeside = new Sheet();
   /** Width of the surface in percent as the views have it. */
   #split = START.split;
-  /** Number of requests to show a file, by which late answers are recognized and dropped. */
+  /** Numbers of requests to show a file, and one beside it, by which late answers are recognized and dropped. */
   #shown = 0;
+  #shownBeside = 0;
   /** The model that the cameras look at. */
   #seen: string | null = null;
   #relaxing: Relaxing | null = null;
@@ -81,16 +82,16 @@ export class Viewer {
     if (this.facts) await this.show(this.facts.source);
   }
 
-  /** Shows another file beside, with the same looks and cameras, or none. */
+  /** Shows another file beside, with the same looks and cameras, or none. Does nothing if another one was requested since. */
   async showBeside(source: Source | null): Promise<void> {
     const { stage } = this;
+    const [mine, mineBeside] = [this.#shown, ++this.#shownBeside];
     if (!source && !this.#beside) return;
-    const mine = this.#shown;
     const loaded = source && stage ? await load(source) : null;
     const uvs = source && loaded ? uvsOf(source, loaded, null) : null;
     const soup = loaded && uvs ? soupOf(loaded, uvs) : null;
     const analysis = soup && (await analyzed(soup));
-    if (!stage || mine !== this.#shown) return;
+    if (!stage || mine !== this.#shown || mineBeside !== this.#shownBeside) return;
     this.#beside?.model.dispose();
     this.#beside = null;
     if (loaded && uvs && soup && analysis) {
