@@ -170,3 +170,26 @@ fn a_seam_along_a_diagonal_that_is_asked_for_is_cut() {
     let codes = outcome.report.warnings.iter().map(|warning| &*warning.code);
     assert!(codes.into_iter().any(|code| code == "polygons_split"));
 }
+
+mod shared {
+    use super::*;
+
+    /// Some of its quads have room beside neither of their halves.
+    #[test]
+    #[ignore = "needs ../shared"]
+    fn polygons_make_no_more_charts_than_are_allowed() {
+        let path = crate::places::shared("data/closed/sword-quad-dominant.obj");
+        let bytes = std::fs::read(path).expect("a readable file");
+        let options = Options {
+            format: OutputFormat::Obj,
+            cutting: Cutting {
+                max_charts: Some(8),
+                ..Cutting::default()
+            },
+            ..Options::default()
+        };
+        let upload = Upload::single("sword.obj", bytes);
+        let outcome = unwrap_document(&upload, &options, &Unobserved).expect("a result");
+        assert!(outcome.report.groups[0].measures.seams.charts <= 8);
+    }
+}

@@ -23,13 +23,15 @@ use unwrapd_method::numerics::vec3::{distance, dot, norm, sub};
 /// Chart of a polygon that was split.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PolygonHome {
+    /// The chart of one of its parts if there is room beside that; else it stays split.
+    OnlyWithPart,
     /// The chart of one of its parts if there is room beside that, else one of its own.
     WithPart,
     /// One of its own.
     Own,
 }
 
-/// Returns the charts with each polygon in one piece, or `None` if all are. `corners[f][c]` is the number of the
+/// Returns the charts with polygons in one piece, or `None` if there is none to unite. `corners[f][c]` is the number of the
 /// polygon corner at corner c of face f of the mesh; two faces are of one polygon if they share such numbers.
 pub fn with_whole_polygons(
     charts: &[MappedChart],
@@ -49,6 +51,9 @@ pub fn with_whole_polygons(
     let mut gluing = Gluing::new(charts, &is_affected, &diagonals, corners);
     for face in 0..gluing.corners.len() as u32 {
         gluing.unite_polygon(face, home);
+    }
+    if !gluing.is_moved.contains(&true) {
+        return None;
     }
     // The other charts stay as they are.
     let mut whole: Vec<MappedChart> = (charts.iter().zip(&is_affected))
@@ -238,9 +243,13 @@ impl Gluing {
             other != CUT && twin != CUT && twin != other
         });
         let stays = match home {
-            PolygonHome::WithPart if !is_entangled => parts.iter().find(has_room),
-            PolygonHome::WithPart | PolygonHome::Own => None,
+            _ if is_entangled => None,
+            PolygonHome::OnlyWithPart | PolygonHome::WithPart => parts.iter().find(has_room),
+            PolygonHome::Own => None,
         };
+        if stays.is_none() && home == PolygonHome::OnlyWithPart {
+            return;
+        }
         // Without a part that stays, take the polygon out and begin with one of its faces.
         let mut united = stays.cloned().unwrap_or_default();
         if stays.is_none() {

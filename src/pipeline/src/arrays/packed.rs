@@ -230,12 +230,20 @@ fn settled(
 }
 
 impl ChartTerms<'_> {
-    /// Moves seams off the diagonals of polygons; returns `None` if there are none.
+    /// Moves seams off the diagonals of polygons; returns `None` if there are none. Where the charts would be too many, polygons that
+    /// need one of their own stay split.
     fn with_whole_polygons(
         &self,
         charts: &[MappedChart],
         home: PolygonHome,
     ) -> Option<Vec<MappedChart>> {
-        with_whole_polygons(charts, self.polygons?, home)
+        let polygons = self.polygons?;
+        let most = self.plan.most_charts.map_or(usize::MAX, |n| n as usize);
+        let whole = with_whole_polygons(charts, polygons, home)?;
+        if whole.len() <= most.max(charts.len()) {
+            return Some(whole);
+        }
+        let whole = with_whole_polygons(charts, polygons, PolygonHome::OnlyWithPart)?;
+        (whole.len() <= most.max(charts.len())).then_some(whole)
     }
 }
