@@ -54,6 +54,7 @@ pub(crate) use overlap::OrientedFaces;
 pub use overlap::{Crossings, PlanarCertificate, boundary_crossings, certify_planar, crossings};
 pub use padding::PaddingVerdict;
 pub use rounding::BitsVerdict;
+pub use stacks::{EdgeKey, outline};
 pub(crate) use topology::{Start, UvTopology};
 
 /// Most offending faces and pairs that a certificate names.

@@ -11,10 +11,12 @@
 
 use super::overlap::OrientedFaces;
 use super::topology::UvTopology;
+use crate::mesh::CornerUvs;
 use std::collections::HashMap;
+use unwrapd_method::numerics::predicates::orient2d_sign;
 
 /// Directed edge by the bits of its ends.
-type EdgeKey = [u64; 4];
+pub type EdgeKey = [u64; 4];
 
 /// Charts that coincide.
 pub(super) struct StackedCharts {
@@ -59,6 +61,14 @@ impl StackedCharts {
         members.retain(|members| members.len() > 1);
         members
     }
+}
+
+/// Returns the outline of some faces, in a fixed order: the directed edges around what they cover, by the bits of their ends. Faces
+/// without area do not count. Charts coincide if their outlines are equal.
+pub fn outline(faces: &[CornerUvs]) -> Vec<EdgeKey> {
+    let sign = |&[a, b, c]: &CornerUvs| orient2d_sign(a, b, c);
+    let orientation: Vec<i8> = faces.iter().map(sign).collect();
+    OrientedFaces::of(faces, &orientation).outline()
 }
 
 /// Returns the outline of each chart, in a fixed order.

@@ -4,10 +4,9 @@ use super::placement::Placement;
 use super::seams::Seams;
 use crate::island_error::IslandError;
 use crate::options::Stacking;
-use std::collections::{BTreeMap, HashMap};
-use unwrapd_maps::certificate::chart_ids;
+use std::collections::HashMap;
+use unwrapd_maps::certificate::{chart_ids, outline};
 use unwrapd_maps::mesh::CornerUvs;
-use unwrapd_method::numerics::predicates::orient2d_sign;
 
 /// Faces of islands that stay where they are put.
 pub struct PlacedFaces<'a> {
@@ -82,7 +81,10 @@ fn place_stacks(
         of_first.map(|(face, materials)| materials[*face as usize])
     };
     let outlines: Vec<_> = (faces.iter())
-        .map(|faces| (material(faces), outline(faces, uvs)))
+        .map(|faces| {
+            let corners: Vec<CornerUvs> = faces.iter().map(|&face| uvs[face as usize]).collect();
+            (material(faces), outline(&corners))
+        })
         .collect();
     let mut placed = HashMap::new();
     for (outline, index) in outlines.iter().zip(&*of_island) {
@@ -93,33 +95,4 @@ fn place_stacks(
     for (outline, index) in outlines.iter().zip(of_island) {
         *index = index.or_else(|| placed.get(outline).copied());
     }
-}
-
-/// Directed edge by the bits of its ends.
-type EdgeKey = [[u64; 2]; 2];
-
-/// Returns the edges around some faces, with the area on their left, in ascending order.
-fn outline(faces: &[u32], uvs: &[CornerUvs]) -> Vec<EdgeKey> {
-    let mut balance: BTreeMap<EdgeKey, i32> = BTreeMap::new();
-    for face in faces {
-        let [a, b, c] = uvs[*face as usize];
-        let [a, b, c] = match orient2d_sign(a, b, c) {
-            0 => continue,
-            1 => [a, b, c],
-            _ => [a, c, b],
-        };
-        for edge in [[a, b], [b, c], [c, a]] {
-            let [p, q] = edge.map(|uv| uv.map(|x| (x + 0.0).to_bits()));
-            if p < q {
-                *balance.entry([p, q]).or_default() += 1;
-            } else {
-                *balance.entry([q, p]).or_default() -= 1;
-            }
-        }
-    }
-    let edges = balance.into_iter().flat_map(|([p, q], n)| {
-        let edge = if n > 0 { [p, q] } else { [q, p] };
-        std::iter::repeat_n(edge, n.unsigned_abs() as usize)
-    });
-    edges.collect()
 }
