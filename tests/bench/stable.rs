@@ -98,7 +98,7 @@ fn map((uv, triangles): &Chart) -> ChartMap<'_> {
     ChartMap { uv, triangles }
 }
 
-/// Prints one line about the charts of a file, every third of which stays where it is first packed.
+/// Prints one line about the charts of a file. Every third chart stays where it was first packed.
 fn report_around(file: &str, charts: &[Chart], options: &AtlasOptions) {
     let unit = f64::from(1 << GRID_BITS);
     let atlas = packed(charts, options);

@@ -1,28 +1,16 @@
 //! Needles put back where seams run along flipped edges.
 
+use crate::zoo;
 use unwrapd_layout::charts::{
     Cut, Folds, MappedChart, Unobserved, charts, map_chart, with_needles,
 };
 use unwrapd_maps::embed::{self, Options};
 use unwrapd_maps::mesh::{Surface, origin};
 
-/// A face below a side on which a vertex of three others lies, and the needle between.
-fn surface() -> Surface {
-    let positions = [
-        [0.0, 0.0, 0.0],
-        [2.0, 0.0, 0.0],
-        [1.2, 1e-6, 0.0],
-        [1.0, -1.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [2.0, 1.0, 0.0],
-    ];
-    let triangles = [[1, 0, 3], [0, 2, 4], [2, 5, 4], [2, 1, 5], [0, 1, 2]];
-    Surface::new(&positions, &triangles).unwrap()
-}
-
 #[test]
 fn a_face_beyond_a_seam_is_laid_beside_the_other() {
-    let surface = surface();
+    let mesh = zoo::needle_on_a_side();
+    let surface = Surface::new(&mesh.positions, &mesh.triangles).unwrap();
     // Seams: none, a slit along the flipped edge, and a cut through it.
     for seams in [&[][..], &[[2, 3]], &[[2, 3], [2, 4]]] {
         let (mut without, of, steps) = surface.without_needles().unwrap();

@@ -248,25 +248,9 @@ fn vertices_on_sides_are_removed() {
     }
 }
 
-/// A face below a side on which a vertex of three others lies, and the needle between.
-fn vertex_of_four() -> Mesh {
-    Mesh {
-        name: "a vertex of four faces on a side".to_owned(),
-        positions: vec![
-            [0.0, 0.0, 0.0],
-            [2.0, 0.0, 0.0],
-            [1.0, 1e-6, 0.0],
-            [1.0, -1.0, 0.0],
-            [0.0, 1.0, 0.0],
-            [2.0, 1.0, 0.0],
-        ],
-        triangles: vec![[1, 0, 3], [0, 2, 4], [2, 5, 4], [2, 1, 5], [0, 1, 2]],
-    }
-}
-
 #[test]
 fn sides_of_needles_are_flipped() {
-    let before = surface(&vertex_of_four());
+    let before = surface(&zoo::needle_on_a_side());
     let (without, of, steps) = before.without_needles().expect("a needle");
     assert_eq!(
         steps,

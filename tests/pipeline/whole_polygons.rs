@@ -91,7 +91,7 @@ fn n_written(outcome: &Outcome) -> usize {
     written.polygons().count()
 }
 
-/// Number of quads of which a corner has two UVs.
+/// Number of quads with two UVs at a corner.
 fn n_split(uvs: &[[[f64; 2]; 3]]) -> usize {
     let is_split = |pair: &[[[f64; 2]; 3]; 2]| {
         let [[a, _, c], [first, second, _]] = pair;

@@ -85,8 +85,8 @@ impl Mesh {
         self
     }
 
-    /// With needles: every so many faces are divided at the middle of their first side, and the middle is moved inward by `height` times
-    /// the side.
+    /// With needles: divides every `every`-th face at the middle of its first side, moved by `height` times the way to the third
+    /// corner. The needle lies between the middle and the side.
     pub fn with_needles(mut self, every: usize, height: f32) -> Self {
         for face in (0..self.triangles.len()).step_by(every) {
             let [a, b, c] = self.triangles[face];
@@ -330,6 +330,22 @@ pub fn book(n: u32) -> Mesh {
         }
     };
     mesh(&positions, &(0..n).map(page).collect::<Vec<_>>())
+}
+
+/// A face below a side on which a vertex of three others lies, and the needle between: its side cannot go without a flip.
+pub fn needle_on_a_side() -> Mesh {
+    mesh(
+        &[
+            [0.0, 0.0, 0.0],
+            [2.0, 0.0, 0.0],
+            [1.25, 1e-6, 0.0],
+            [1.0, -1.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [2.0, 1.0, 0.0],
+        ],
+        &[[1, 0, 3], [0, 2, 4], [2, 5, 4], [2, 1, 5], [0, 1, 2]],
+    )
+    .named("needle on a side")
 }
 
 /// Two triangles glued along all three edges.

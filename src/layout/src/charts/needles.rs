@@ -94,7 +94,7 @@ struct Face {
     chart: usize,
     /// Vertex of each corner of the surface's face.
     vertices: [u32; 3],
-    /// Whether its chart winds it as the surface does.
+    /// `true` if its chart winds it as the surface does.
     is_wound_as_surface: bool,
 }
 

@@ -311,7 +311,7 @@ impl Gluing {
         true
     }
 
-    /// Returns whether an image overlaps none of the triangles that a chart had and for which `counts` holds.
+    /// Returns `true` if an image overlaps no triangle that a chart had before. Triangles for which `counts` is `false` are left out.
     fn is_free(&self, chart: usize, image: &[[f64; 2]; 3], counts: impl Fn(u32) -> bool) -> bool {
         let Occupied { first, index, .. } = &self.before[chart];
         let mut is_free = true;

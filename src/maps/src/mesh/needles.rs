@@ -18,7 +18,7 @@
 //!      d                 d
 //! ```
 //!
-//! Whoever decides where to cut then sees the shape without the needle. The steps are undone in reverse order.
+//! The surface that is left has the shape without the needle, and is cut by that. The steps are undone in reverse order.
 
 use super::edges::{CUT, next, origin, same_direction};
 use super::surface::Surface;

@@ -33,8 +33,8 @@ enum Member {
 type VertexPlaces = Vec<u32>;
 
 impl Stacks {
-    /// Separates the charts that are packed from those of the same material that lie on them. Vertices of the latter that
-    /// coincide with none of the former are appended to its map, in no triangle.
+    /// Separates the charts that are packed from those of the same material that lie on them. Inner vertices of a chart
+    /// that lies on another are appended to the map of that one where it has no vertex; they belong to no triangle.
     pub fn of(charts: Vec<MappedChart>, seams: &Seams) -> (Vec<MappedChart>, Self) {
         let all = charts
             .iter()
