@@ -15,7 +15,7 @@ const SET_APART: f64 = 0.9;
 /// Area of a flat panel over that of its neighbors that sets it apart as well.
 const LARGER: f64 = 3.0;
 /// Least area of a wall, as a share of the surface. Smaller ones, of holes and studs, take distortion: with a tenth of this, seams and
-/// charts cost up to twice as much on 6 of 19 machine parts (`cargo bench --bench search`).
+/// charts cost up to twice as much on 6 of 19 machine parts (`cargo bench -p unwrapd-layout --bench search`).
 const LEAST_WALL: f64 = 0.05;
 /// Largest sum of the angle defects inside a wall, in radians; its excess is then below 1e-6.
 const STRAIGHT: f64 = 0.01;

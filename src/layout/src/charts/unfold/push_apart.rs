@@ -11,7 +11,7 @@ use unwrapd_method::solver::Watch;
 
 /// A push helps if it leaves at most this share of the overlapping pairs; at the first that does not a fold is given up. Allowing two
 /// or three such pushes changes seams and charts by more than 1 % on five of 29 meshes, in both directions, and takes up to 1.3 times
-/// the time of the search (`cargo bench --bench search`).
+/// the time of the search (`cargo bench -p unwrapd-layout --bench search`).
 const HELPS: f64 = 0.9;
 
 /// The most folds to push apart: a chart with more is cut anyway.
