@@ -1,9 +1,9 @@
 //! The search for where to cut, beside the cutters.
 //!
-//! `cargo bench --bench search -- [--bound E] FILE.obj…` prints for each file and way: charts, seam length over the root of
+//! `cargo bench -p unwrapd-layout --bench search -- [--bound E] FILE.obj…` prints for each file and way: charts, seam length over the root of
 //! the area, processor seconds on one thread, and how many faces were mapped and predicted for each face of the file. Ways:
 //! `cutters`, without cuts for fill and symmetry; `pieces`, the search from pieces; `charts`, the search from the charts of the
-//! cutters, with the effort of the program and without a limit.
+//! cutters, or from components slit open if these cost less, with the effort of the program and without a limit.
 
 #[expect(dead_code, reason = "only processor time is wanted")]
 mod clock;

@@ -13,7 +13,7 @@ use unwrapd_maps::mesh::{Surface, canonical_order};
 use unwrapd_method::energy::SymmetricDirichlet;
 use unwrapd_method::numerics::square::{Square, times};
 use unwrapd_method::numerics::vec2::{doubled_area, sub};
-use unwrapd_method::numerics::vec3::distance;
+use unwrapd_method::numerics::vec3::{area_vector, distance, dot, unit};
 
 fn options() -> Options {
     Options {
@@ -139,6 +139,61 @@ fn any_surface_is_divided_into_maps_without_overlaps() {
         println!("{}", mesh.name);
         divided(mesh, 4.1);
     }
+}
+
+/// Protects the same from given charts and from components slit open, which hold panels in some of these surfaces.
+#[test]
+fn any_charts_are_improved_without_overlaps() {
+    for mesh in zoo::zoo().iter().filter(|mesh| mesh.name != "empty") {
+        println!("{}", mesh.name);
+        let surface = surface(mesh);
+        let (cut, terms) = (cut(&surface), Terms::default());
+        let (found, _) = from_charts(&surface, cut, &bound(4.1), &terms, &options(), &Unobserved);
+        check(&surface, &found);
+    }
+}
+
+/// Panels that were cut apart are laid out in a few charts even where the effort is far too small to glue them one by one.
+#[test]
+fn panels_are_slit_open_where_that_is_cheaper() {
+    let steps: Vec<[i32; 3]> = (0..8)
+        .flat_map(|x| (0..=x).map(move |z| [x, 0, z]))
+        .collect();
+    let surface = surface(&zoo::voxels(&steps));
+    let mut facets = surface.clone();
+    let normal = |h: u32| {
+        let [a, b, c] = surface.corners(h as usize / 3);
+        unit(area_vector(a, b, c))
+    };
+    facets.cut_along(|h, t| dot(normal(h), normal(t)) < 0.5);
+    let start: Vec<MappedChart> = (charts(&facets, Cut::Keep).into_iter())
+        .flat_map(|chart| map_chart(chart, &options(), Folds::Cut, &Unobserved))
+        .collect();
+    let mut effort = Effort::for_surface(surface.triangles.len(), surface.triangles.len());
+    effort.most = 8.0 * surface.triangles.len() as f64;
+    let terms = Terms {
+        effort,
+        ..Terms::default()
+    };
+    let (found, counts) = from_charts(
+        &surface,
+        start.clone(),
+        &bound(4.1),
+        &terms,
+        &options(),
+        &Unobserved,
+    );
+    check(&surface, &found);
+    assert!(start.len() >= 18, "{}", start.len());
+    assert!(counts.glued < 6, "{}", counts.glued);
+    assert!(found.len() <= 6, "{}", found.len());
+    assert!(
+        seam(&found) < 0.8 * seam(&start),
+        "{} of {}",
+        seam(&found),
+        seam(&start)
+    );
+    assert!(energy(&found) <= 4.1, "{}", energy(&found));
 }
 
 /// A cube opens to one net: seven of its twelve edges are cut.

@@ -188,7 +188,11 @@ impl MappedChart {
             .collect()
     }
 
-    fn parted_until_free(self, pairs: Vec<[u32; 2]>, control: &dyn Fn() -> Control) -> Vec<Self> {
+    pub(crate) fn parted_until_free(
+        self,
+        pairs: Vec<[u32; 2]>,
+        control: &dyn Fn() -> Control,
+    ) -> Vec<Self> {
         let mut unfolded = Vec::new();
         let mut folded = vec![(self, pairs)];
         while let Some((whole, pairs)) = folded.pop() {

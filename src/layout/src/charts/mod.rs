@@ -78,7 +78,7 @@ pub use symmetry::plane::MirrorPlane;
 pub(crate) use bound::distortion::excess_and_area;
 pub(crate) use observer::Watching;
 pub(crate) use unfold::overlaps::overlaps;
-pub(crate) use unfold::push_apart::all_pushed_apart;
+pub(crate) use unfold::push_apart::{all_pushed_apart, pushed_apart};
 
 #[cfg(doc)]
 use unwrapd_maps::mesh::Disk;

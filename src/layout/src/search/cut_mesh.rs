@@ -75,6 +75,12 @@ impl<'a> CutMesh<'a> {
         !self.loops.is_empty() && euler == 2 - self.loops.len() as isize && self.is_connected()
     }
 
+    /// Returns whether the faces form a closed surface of genus 0.
+    pub fn is_sphere(&self) -> bool {
+        let n_edges = self.sheet.twin.len() / 2;
+        self.loops.is_empty() && self.welded.len() + self.faces.len() == n_edges + 2
+    }
+
     fn is_connected(&self) -> bool {
         let mut seen = vec![false; self.faces.len()];
         let mut pending = vec![0u32];

@@ -13,11 +13,11 @@ pub struct Effort {
     pub most: f64,
 }
 
-/// Time that the prediction of a face takes, over that of its map: 0.5 to 0.8 of 10 to 35 microseconds (`cargo bench --bench
-/// search` prints both numbers of faces and the seconds).
+/// Time that the prediction of a face takes, over that of its map: 0.5 to 0.8 of 10 to 35 microseconds (`cargo bench -p
+/// unwrapd-layout --bench search` prints both numbers of faces and the seconds).
 const PREDICTION: f64 = 0.04;
 /// Faces that are mapped for all surfaces of a run together, about a second. On 16 machine parts and game assets, seams and charts cost
-/// 2.6 % more with half of it and 2.5 % less with twice as much (`cargo bench --bench search`).
+/// 2.6 % more with half of it and 2.5 % less with twice as much (`cargo bench -p unwrapd-layout --bench search`).
 const FOR_ALL: f64 = 60_000.0;
 /// Maps of each face beyond that, about 0.1 milliseconds: as long as all other work on a machine part of 9,000 faces takes.
 const PER_FACE: f64 = 5.0;
@@ -45,6 +45,12 @@ impl Effort {
     pub fn share(self, share: f64) -> Self {
         let most = if share > 0.0 { share * self.most } else { 0.0 };
         Self { most, ..self }
+    }
+
+    /// Returns the effort that is left.
+    #[must_use]
+    pub fn left(&self) -> Self {
+        Self::new((self.most - self.spent()).max(0.0))
     }
 
     /// Returns the faces that were mapped, and those that were predicted by the time that they took.

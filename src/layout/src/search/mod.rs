@@ -1,4 +1,4 @@
-//! One search for where to cut a surface, which improves what the cutters of [`charts`](crate::charts) make.
+//! One search for where to cut a surface, which improves what the cutters of [`charts`](crate::charts) make, or starts anew.
 //!
 //! A *net* is a set of faces with its slits and its map. The search lowers
 //!
@@ -30,7 +30,8 @@
 //! Lengths and whatever else decides are rounded, so that parts that are alike tie, and the order of the faces decides between them,
 //! not the rounding of their vertices ([`tied`](unwrapd_method::numerics::ties::tied)): pose, scale and digits seldom change the cut.
 //!
-//! The search starts from given charts, or from facets, joined while they stay nearly developable (`pieces`).
+//! The search starts from given charts, or from the components of the surface, each slit open (`slitting`), if these cost less; or from
+//! facets, joined while they stay nearly developable (`pieces`).
 //!
 //! Every face is in exactly one net, and every net is a disk, possibly with holes, whose map has neither flips nor overlaps.
 //! Not done here: cuts for fill, symmetry, a bound on the stretch.
@@ -46,6 +47,7 @@ mod panels;
 mod pieces;
 mod prediction;
 mod sets;
+mod slitting;
 mod state;
 
 use crate::charts::{Bound, Bounded, MappedChart, Observer, excess_and_area, smoothed_where_rough};
@@ -59,13 +61,17 @@ use state::Search;
 use unwrapd_maps::embed;
 use unwrapd_maps::measure::cost::GIVEN_PAGE;
 use unwrapd_maps::mesh::Surface;
+use unwrapd_method::solver::Control;
 
 /// Prices of the excess, one pass each, from pieces: strict ones make nets of what is flat, loose ones spend the bound. Steps
 /// of 2 instead of 4 give 4 to 7 % less seam for 1.3 times the time.
 const FROM_PIECES: [f64; 5] = [128.0, 32.0, 8.0, 2.0, 0.5];
 /// Prices of the excess from charts that are cut already. A third price of 0.5 leaves each less of the effort: seams and charts cost
-/// 5 % more on ten machine parts and game assets (`cargo bench --bench search`).
+/// 5 % more on ten machine parts and game assets (`cargo bench -p unwrapd-layout --bench search`).
 const FROM_CHARTS: [f64; 2] = [8.0, 2.0];
+
+/// Cost that cuts alike on both sides of a mirror plane are worth. Not tuned: about a tenth of the seams.
+const SYMMETRY: f64 = 0.1;
 
 /// Terms of a search.
 #[derive(Clone, Copy, Debug)]
@@ -109,12 +115,14 @@ pub fn from_pieces(
     (charts.collect(), search.counts)
 }
 
-/// Glues given charts and gives slits back as long as the charts keep a bound on the mean energy; slits charts that break it.
+/// Glues charts and gives slits back as long as the charts keep a bound on the mean energy; slits charts that break it.
 ///
-/// The charts hold every face of the surface once. Of the effort the search takes the share of the bound that the charts leave
-/// unspent, since the rest of them has little to gain, and all of it if they break the bound. Returns the charts, and the work that it
-/// took. If the bound was kept, their seams cost at most as much as before. Charts that no move changed stay as they are; so do all if
-/// the stretch is bounded, which the search does not measure.
+/// The search starts from given charts, which hold every face of the surface once, or from its components slit open if these cost less.
+/// It takes the share of the effort that the charts leave of the bound, or that panels have of the area: bent parts without much of the
+/// bound left have little to gain. It takes all of the effort if the charts break the bound.
+///
+/// Returns the charts, and the work that the search took. If the given charts kept the bound, their seams cost at most as much as before.
+/// Charts that no move changed stay as they are; so do all if the stretch is bounded, which the search does not measure.
 pub fn from_charts(
     surface: &Surface,
     charts: Vec<MappedChart>,
@@ -123,25 +131,28 @@ pub fn from_charts(
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> (Vec<MappedChart>, Counts) {
-    let budget = bound.budget();
-    // If what is left is too little for the smallest chart, even without panels, the search needs no arrays.
-    let smallest = charts.iter().map(|map| map.chart.corners.len()).min();
-    let excess = mean_excess(&charts);
-    let is_broken = excess > bound.mean - 4.0 && !is_of_smoothed(bound, surface);
-    let effort = terms
-        .effort
-        .share(share_of_effort(is_broken, excess, budget));
-    if bound.stretch.is_some() || smallest.is_none_or(|faces| effort.most < faces as f64) {
-        return (charts, Counts::new(effort));
+    if bound.stretch.is_some() || observer.control() == Control::Finish {
+        return (charts, Counts::new(terms.effort.share(0.0)));
     }
     let metric = weighted(surface);
+    let is_measured = !is_of_smoothed(bound, surface);
+    let slit = is_measured.then(|| slit_open(&metric, &charts, bound, terms, options, observer));
+    let (charts, effort) = slit.flatten().unwrap_or((charts, terms.effort));
     let nets = charts.iter().map(|chart| Net::of_chart(&metric, chart));
     let nets = Nets::new(&metric, nets.collect());
-    let terms = Terms {
-        effort: (terms.effort).share(share_of_effort(is_broken, nets.excess(), budget)),
-        ..*terms
+    let unspent = 1.0 - nets.excess() / bound.budget().max(f64::MIN_POSITIVE);
+    let share = if is_measured && is_broken(&charts, bound) {
+        1.0
+    } else {
+        unspent.max(share_of_panels(&metric))
     };
-    let mut search = Search::new(nets, budget, &terms, options, observer);
+    let effort = effort.share(share);
+    let smallest = charts.iter().map(|map| map.chart.corners.len()).min();
+    if smallest.is_none_or(|faces| effort.most < faces as f64) {
+        return (charts, Counts::new(effort));
+    }
+    let terms = Terms { effort, ..*terms };
+    let mut search = Search::new(nets, bound.budget(), &terms, options, observer);
     search.run(&FROM_CHARTS);
     // Nets are numbered in the order of the charts; changed ones have later numbers.
     let found = search.nets.list.iter();
@@ -152,13 +163,53 @@ pub fn from_charts(
     (found.collect(), search.counts)
 }
 
-/// Returns the share of the effort for charts: what they leave of the bound, or all if they break it.
-fn share_of_effort(is_broken: bool, excess: f64, budget: f64) -> f64 {
-    if is_broken {
-        1.0
-    } else {
-        (1.0 - excess / budget.max(f64::MIN_POSITIVE)).max(0.0)
+/// Slits the components of a surface open until they keep a bound on the mean energy.
+///
+/// Returns the charts, and the effort that is left, if they [cost](unwrapd_maps::measure::cost) less than `rival`, other charts of the surface,
+/// or only they keep the bound. Charts that are cut alike on both sides of a plane give way only to much cheaper ones. Where panels are
+/// so small that their share of the effort is not one map, nothing is tried: the cutters have slit such a surface open already.
+fn slit_open(
+    metric: &Metric,
+    rival: &[MappedChart],
+    bound: &Bound,
+    terms: &Terms,
+    options: &embed::Options,
+    observer: &dyn Observer,
+) -> Option<(Vec<MappedChart>, Effort)> {
+    if terms.effort.share(share_of_panels(metric)).most < metric.corners.len() as f64 {
+        return None;
     }
+    let nets = Nets::new(metric, Vec::new());
+    let mut search = Search::new(nets, bound.budget(), terms, options, observer);
+    search.start_from_components(bound)?;
+    let charts = search.nets.list.values();
+    let charts: Vec<MappedChart> = charts.filter_map(|net| net.mapped_chart(metric)).collect();
+    let nets = rival.iter().map(|chart| Net::of_chart(metric, chart));
+    let most = Nets::new(metric, nets.collect()).cost(terms.fill_weight);
+    let symmetry = if is_symmetric(rival) { SYMMETRY } else { 0.0 };
+    let is_cheaper = search.nets.cost(terms.fill_weight) < most - symmetry;
+    let is_better = !is_broken(&charts, bound) && (is_cheaper || is_broken(rival, bound));
+    is_better.then(|| (charts, search.counts.effort.left()))
+}
+
+/// Returns the share of the area that lies on panels.
+fn share_of_panels(metric: &Metric) -> f64 {
+    let faces = metric.weight.iter().zip(&metric.area);
+    let panels = faces.filter(|(weight, area)| weight > area);
+    panels.map(|(_, area)| area).sum()
+}
+
+/// Returns whether most of the area of some charts is cut alike on both sides of a plane.
+fn is_symmetric(charts: &[MappedChart]) -> bool {
+    let (mut symmetric, mut area) = (0.0, 0.0);
+    for map in charts {
+        let own = map.surface_area();
+        area += own;
+        if map.chart.mirror.is_some() {
+            symmetric += own;
+        }
+    }
+    symmetric > 0.5 * area
 }
 
 /// Returns whether a bound is on the surface that a rough one is a sample of, whose distortion the search does not measure.
@@ -166,14 +217,14 @@ fn is_of_smoothed(bound: &Bound, surface: &Surface) -> bool {
     bound.of == Bounded::Smoothed && smoothed_where_rough(surface).is_some()
 }
 
-/// Returns the excess of charts over an energy of 4, per area.
-fn mean_excess(charts: &[MappedChart]) -> f64 {
+/// Returns whether the mean energy of charts exceeds a bound.
+fn is_broken(charts: &[MappedChart], bound: &Bound) -> bool {
     let mut sum = [0.0; 2];
     for chart in charts {
         let [excess, area] = excess_and_area(chart, &chart.rest_shapes());
         sum = [sum[0] + excess, sum[1] + area];
     }
-    sum[0] / sum[1].max(f64::MIN_POSITIVE)
+    sum[0] > (bound.mean - 4.0) * sum[1]
 }
 
 /// Measures a surface; the excess on its panels counts [several times](PANEL_FACTOR).

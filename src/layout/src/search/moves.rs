@@ -7,6 +7,7 @@ use super::sets::{branching, chains, difference, halves, union};
 use super::state::Search;
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap};
+use unwrapd_maps::measure::cost::PER_CHART;
 
 /// Least defect of a vertex, in radians, at which a contact is divided into stretches that may be hinges: ten times the fold
 /// within a facet.
@@ -156,7 +157,7 @@ impl Search<'_> {
     /// Returns the price of some nets as they are, without what one chart costs.
     fn price_of(&self, nets: &[u32], contact: f64, lambda: f64) -> f64 {
         let each = nets.iter().map(|net| self.nets.list[net].price(lambda));
-        each.sum::<f64>() + contact + self.per_chart * (nets.len() - 1) as f64
+        each.sum::<f64>() + contact + PER_CHART * (nets.len() - 1) as f64
     }
 
     /// Puts a move back by the price of its best way or map, unless it gains nothing.

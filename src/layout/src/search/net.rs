@@ -124,27 +124,18 @@ impl Net {
 
     /// Creates the net of a chart as it is mapped.
     pub fn of_chart(metric: &Metric, map: &MappedChart) -> Self {
-        let mut placed: Vec<(u32, [[f64; 2]; 3])> = (map.chart.corners.iter())
-            .zip(&map.chart.disk.triangles)
-            .map(|(corners, triangle)| {
-                let face = corners[0] / 3;
-                let mut uv = [[0.0; 2]; 3];
-                for (&corner, &v) in corners.iter().zip(triangle) {
-                    let k = own_corner(metric, corner);
-                    uv[k] = map.embedding.uv[v as usize].map(|x| x / metric.unit);
-                }
-                (face, uv)
-            })
-            .collect();
-        placed.sort_by_key(|(face, _)| *face);
-        let (faces, mut uv): (Vec<u32>, Vec<[[f64; 2]; 3]>) = placed.into_iter().unzip();
+        let place = |v: u32| map.embedding.uv[v as usize].map(|x| x / metric.unit);
+        let (faces, mut uv) = own_corners(metric, &map.chart, place);
         if uv.iter().map(doubled_area).sum::<f64>() < 0.0 {
             for p in uv.as_flattened_mut() {
                 p[0] = -p[0];
             }
         }
         let slits = slits(metric, &faces, &uv);
-        Self::new(metric, faces, slits, uv, map.embedding.summary)
+        Self {
+            seconds: map.seconds,
+            ..Self::new(metric, faces, slits, uv, map.embedding.summary)
+        }
     }
 
     /// Returns the net as a chart with its map.
@@ -201,6 +192,26 @@ pub fn chart(mesh: &CutMesh) -> Option<Chart> {
     })
 }
 
+/// Returns the faces of a chart in ascending order, and what its vertices have at the corners of each, in the winding of the metric.
+fn own_corners<T: Copy + Default>(
+    metric: &Metric,
+    chart: &Chart,
+    of_vertex: impl Fn(u32) -> T,
+) -> (Vec<u32>, Vec<[T; 3]>) {
+    let corners = chart.corners.iter().zip(&chart.disk.triangles);
+    let mut faces: Vec<(u32, [T; 3])> = corners
+        .map(|(corners, triangle)| {
+            let mut own = [T::default(); 3];
+            for (&corner, &v) in corners.iter().zip(triangle) {
+                own[own_corner(metric, corner)] = of_vertex(v);
+            }
+            (corners[0] / 3, own)
+        })
+        .collect();
+    faces.sort_by_key(|(face, _)| *face);
+    faces.into_iter().unzip()
+}
+
 /// Returns the corner, in the winding of the metric, of a corner `3 f + c` of the surface.
 fn own_corner(metric: &Metric, corner: u32) -> usize {
     let k = corner as usize % 3;
@@ -224,9 +235,9 @@ fn excess(metric: &Metric, faces: &[u32], uv: &[[[f64; 2]; 3]]) -> f64 {
     faces.iter().zip(uv).map(of_face).sum()
 }
 
-/// Returns the edges between faces of a map that are not glued there.
-fn slits(metric: &Metric, faces: &[u32], uv: &[[[f64; 2]; 3]]) -> Vec<u32> {
-    let ends = |face: usize, h: u32| [h % 3, next(h) % 3].map(|k| uv[face][k as usize]);
+/// Returns the edges between faces whose corners differ there: places of a map, or vertices of a chart.
+fn slits<T: Copy + PartialEq>(metric: &Metric, faces: &[u32], corners: &[[T; 3]]) -> Vec<u32> {
+    let ends = |face: usize, h: u32| [h % 3, next(h) % 3].map(|k| corners[face][k as usize]);
     let mut slits = Vec::new();
     for (place, &face) in faces.iter().enumerate() {
         for h in 3 * face..3 * face + 3 {

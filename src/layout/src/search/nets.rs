@@ -3,6 +3,7 @@
 use super::metric::Metric;
 use super::net::Net;
 use std::collections::{BTreeMap, BTreeSet};
+use unwrapd_maps::measure::cost::{FIRST_SEAM, PER_CHART};
 use unwrapd_maps::mesh::CUT;
 
 /// Share of a square page that charts usually fill if no single chart sets the scale: `pack_square` in the reports of `unwrap`, which is
@@ -84,6 +85,16 @@ impl<'a> Nets<'a> {
     pub fn fill<'n>(nets: impl Iterator<Item = &'n Net>) -> f64 {
         let largest = nets.map(|net| net.page).fold(0.0, f64::max);
         USUAL_FILL.min(1.0 / largest)
+    }
+
+    /// Returns the [cost](unwrapd_maps::measure::cost) of the nets on a square page, for a weight of its fill.
+    pub fn cost(&self, fill_weight: f64) -> f64 {
+        self.seam_and_charts().ln() - fill_weight * Self::fill(self.list.values())
+    }
+
+    /// Returns ½ + S + n/10.
+    pub fn seam_and_charts(&self) -> f64 {
+        FIRST_SEAM + self.seam() + PER_CHART * self.list.len() as f64
     }
 
     /// Returns the length of the borders between nets and of their slits.

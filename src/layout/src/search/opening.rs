@@ -152,7 +152,7 @@ fn opened_further(
 }
 
 /// Returns a path on a closed surface from the vertex of largest defect to the one farthest from it.
-fn first_slit(mesh: &CutMesh) -> Option<Vec<u32>> {
+pub fn first_slit(mesh: &CutMesh) -> Option<Vec<u32>> {
     let defect = |v: usize| tied((2.0 * std::f64::consts::PI - mesh.angle[v]).abs());
     let position = |v: usize| mesh.sheet.positions[v];
     let n = mesh.welded.len();
@@ -165,7 +165,7 @@ fn first_slit(mesh: &CutMesh) -> Option<Vec<u32>> {
 
 /// Returns the paths along which a slit would relieve the predicted distortion most, as halfedges: from the hole that fails
 /// most to close to the outer boundary, and from there to the vertex whose scale differs most.
-fn paths(mesh: &CutMesh, neighbors: &Neighbors, prediction: &Prediction) -> Vec<Vec<u32>> {
+pub fn paths(mesh: &CutMesh, neighbors: &Neighbors, prediction: &Prediction) -> Vec<Vec<u32>> {
     let mut found = Vec::new();
     if let Some(hole) = prediction.charged_hole() {
         let mut add = |from: &[u32]| {

@@ -9,11 +9,10 @@ use super::sets::union;
 use crate::charts::Observer;
 use std::collections::HashMap;
 use unwrapd_maps::embed;
-use unwrapd_maps::measure::cost::{FIRST_SEAM, PER_CHART};
 use unwrapd_method::solver::Control;
 
 /// Share of the effort that may be spent without a move that pays. Seams and charts of 17 machine parts and game assets cost .3 % more
-/// than without this end (`cargo bench --bench search`); organic surfaces, on which few moves pay, take less time.
+/// than without this end (`cargo bench -p unwrapd-layout --bench search`); organic surfaces, on which few moves pay, take less time.
 const PATIENCE: f64 = 0.2;
 
 /// A surface in nets, and what the search knows.
@@ -23,8 +22,6 @@ pub struct Search<'a> {
     pub budget: f64,
     /// Weight of the fill of a square page beside the cost of the seams.
     fill_weight: f64,
-    /// Length of seam that a chart costs.
-    pub per_chart: f64,
     /// The most effort at the present price.
     most: f64,
     /// Effort that may be spent without a move.
@@ -83,7 +80,6 @@ impl<'a> Search<'a> {
             nets,
             budget,
             fill_weight: terms.fill_weight,
-            per_chart: PER_CHART,
             most: terms.effort.most,
             patience: f64::INFINITY,
             options,
@@ -124,15 +120,9 @@ impl<'a> Search<'a> {
 
     /// Returns the excess beyond the bound, and the [cost](unwrapd_maps::measure::cost) of the nets on a square page. States are
     /// compared by the first, then by the second.
-    fn cost(&self) -> [f64; 2] {
-        let fill = self.fill_weight * Nets::fill(self.nets.list.values());
+    pub fn cost(&self) -> [f64; 2] {
         let beyond = (self.nets.excess() - self.budget).max(0.0);
-        [beyond, self.seam_and_charts().ln() - fill]
-    }
-
-    /// Returns ½ + S + n/10.
-    fn seam_and_charts(&self) -> f64 {
-        FIRST_SEAM + self.nets.seam() + self.per_chart * self.nets.list.len() as f64
+        [beyond, self.nets.cost(self.fill_weight)]
     }
 
     /// Returns the length of seam that costs as much as the fill that is lost if a net replaces others.
@@ -144,7 +134,7 @@ impl<'a> Search<'a> {
             .filter(|(number, _)| !nets.contains(number));
         let after = Nets::fill(others.map(|(_, net)| net).chain([by]));
         let lost = Nets::fill(self.nets.list.values()) - after;
-        self.fill_weight * lost * self.seam_and_charts()
+        self.fill_weight * lost * self.nets.seam_and_charts()
     }
 
     /// Returns whether the search has to end: no effort is left, or it was told to finish.

@@ -1,0 +1,379 @@
+//! The other start: components, each slit open until the maps keep the bound.
+//!
+//! A component that is opened to a disk is slit further, each time along the path where one sparse solve predicts the most relief
+//! for its length (`prediction`). The slits are planned one by one, and the bound says how many of them are made: the excess of the
+//! last map over its prediction tells what to expect of the next. All components share one budget. Where a map overlaps itself, the
+//! component is parted, and parts are given back to their neighbors if that is cheaper.
+
+use super::cut_mesh::CutMesh;
+use super::effort::Effort;
+use super::metric::Metric;
+use super::net::{Net, chart, weighted};
+use super::nets::Nets;
+use super::opening::{first_slit, paths};
+use super::prediction::{Grounded, Prediction};
+use super::sets::union;
+use super::state::Search;
+use crate::charts::{Bound, MappedChart, Watching, given_back, overlaps, pushed_apart};
+use unwrapd_maps::cut::{Branches, Neighbors, open_to_disk};
+use unwrapd_maps::embed;
+use unwrapd_maps::mesh::{CUT, UnionFind};
+use unwrapd_method::numerics::ties::tied;
+
+/// Excess of a map over its prediction before one is known. Measured on 14 meshes: 0.2 to 0.6.
+const USUAL_RATIO: f64 = 0.34;
+/// Maps of a component at most. One to seven were needed on 36 meshes.
+const MOST_ROUNDS: i32 = 8;
+/// Budget that a round aims at, over that of the round before: where maps keep falling short, less is aimed at. Not tuned.
+const PROMISE: f64 = 0.95;
+/// Share of the budget that may be left unspent; with more, slits are taken back. Not tuned.
+const UNSPENT: f64 = 0.3;
+
+/// A slit of a plan.
+struct Slit {
+    edges: Vec<u32>,
+    /// Predicted excess that it relieves for its length.
+    rate: f64,
+    /// Predicted excess with it.
+    excess: f64,
+}
+
+/// A component, with slits that are planned one by one.
+struct Slitting<'a> {
+    mesh: &'a CutMesh<'a>,
+    neighbors: Neighbors,
+    prediction: Prediction<'a>,
+    /// Slits that open it to a disk.
+    opening: &'a [u32],
+    /// Predicted excess without further slits.
+    unslit: f64,
+    /// Further slits, in the order in which they were planned.
+    plan: Vec<Slit>,
+    /// Number of slits of the plan that are made.
+    n_made: usize,
+    /// Excess of the last map over its prediction.
+    ratio: f64,
+    /// The last map; `None` if the slits have changed since.
+    map: Option<Mapped>,
+}
+
+/// Map of a component with some slits, which may overlap itself.
+struct Mapped {
+    map: MappedChart,
+    excess: f64,
+}
+
+impl<'a> Slitting<'a> {
+    /// Creates a component without slits; `None` if it is no disk.
+    fn new(mesh: &'a CutMesh<'a>, opening: &'a [u32]) -> Option<Self> {
+        let prediction = Prediction::new(mesh)?;
+        Some(Self {
+            neighbors: Neighbors::new(&mesh.sheet),
+            unslit: prediction.excess(),
+            prediction,
+            mesh,
+            opening,
+            plan: Vec::new(),
+            n_made: 0,
+            ratio: USUAL_RATIO,
+            map: None,
+        })
+    }
+
+    /// Returns the next slit, the one that relieves most for its length; `None` where nothing is distorted.
+    ///
+    /// A slit may be predicted to relieve nothing: where most of a component shrinks alike, some of it has to be opened first.
+    fn next_slit(&mut self, effort: &mut Effort) -> Option<&Slit> {
+        if self.n_made == self.plan.len() {
+            let (slit, grounded) = self.best_slit(effort)?;
+            self.prediction.accept(grounded);
+            self.plan.push(slit);
+        }
+        Some(&self.plan[self.n_made])
+    }
+
+    fn best_slit(&mut self, effort: &mut Effort) -> Option<(Slit, Grounded)> {
+        let before = self.prediction.excess();
+        let mut best: Option<(Slit, Grounded)> = None;
+        for path in paths(self.mesh, &self.neighbors, &self.prediction) {
+            effort.predicted_faces += self.mesh.faces.len();
+            let ends = path.iter().flat_map(|&h| self.mesh.sheet.ends(h));
+            let grounded = self.prediction.grounded(ends);
+            let edges = self.mesh.edges(&path);
+            let excess = grounded.excess;
+            let rate = tied((before - excess).max(0.0) / self.mesh.metric.length_of(&edges));
+            if best.as_ref().is_none_or(|(slit, _)| rate > slit.rate) {
+                let slit = Slit {
+                    edges,
+                    rate,
+                    excess,
+                };
+                best = Some((slit, grounded));
+            }
+        }
+        best
+    }
+
+    /// Returns the slits that are made, with those that open the component.
+    fn slits(&self) -> Vec<u32> {
+        let made = self.plan[..self.n_made].iter();
+        made.fold(self.opening.to_vec(), |slits, slit| {
+            union(&slits, &slit.edges)
+        })
+    }
+
+    /// Returns the excess that is predicted with the first `n` slits of the plan.
+    fn predicted(&self, n: usize) -> f64 {
+        n.checked_sub(1)
+            .map_or(self.unslit, |last| self.plan[last].excess)
+    }
+
+    /// Returns the excess of the map, or the expected one.
+    fn excess(&self) -> f64 {
+        match &self.map {
+            Some(mapped) => mapped.excess,
+            None => self.ratio * self.predicted(self.n_made),
+        }
+    }
+}
+
+impl Search<'_> {
+    /// Starts from the components of the surface; returns `None` if one of them has no map.
+    pub fn start_from_components(&mut self, bound: &Bound) -> Option<()> {
+        let metric = self.nets.metric;
+        let components: Vec<(Vec<u32>, Vec<u32>)> = components(metric)
+            .into_iter()
+            .map(|faces| {
+                let slits = self.opening(&faces)?;
+                Some((faces, slits))
+            })
+            .collect::<Option<_>>()?;
+        let meshes = (components.iter()).map(|(faces, slits)| CutMesh::new(metric, faces, slits));
+        let meshes: Vec<CutMesh> = meshes.collect();
+        let slittings = meshes.iter().zip(&components);
+        let mut slittings: Vec<Slitting> = slittings
+            .map(|(mesh, (_, slits))| Slitting::new(mesh, slits))
+            .collect::<Option<_>>()?;
+        self.slit_under_bound(&mut slittings)?;
+        let maps = slittings.into_iter().filter_map(|slitting| slitting.map);
+        let nets: Vec<Net> = maps.flat_map(|mapped| self.parted(mapped)).collect();
+        self.nets = Nets::new(metric, nets);
+        if self.nets.list.len() > components.len() {
+            self.give_back(bound);
+        }
+        Some(())
+    }
+
+    /// Returns the slits that open a component to a disk: of several ways, if it is closed, the one that promises to keep the bound with
+    /// the shortest slits.
+    ///
+    /// The best has the least length of slits times the excess that they leave: longer slits are not worse if they leave less.
+    fn opening(&mut self, faces: &[u32]) -> Option<Vec<u32>> {
+        let metric = self.nets.metric;
+        let mut ways = ways_to_open(metric, faces);
+        if ways.len() < 2 {
+            return ways.pop();
+        }
+        let weight: f64 = faces.iter().map(|&face| metric.weight[face as usize]).sum();
+        let budget = self.budget * weight / metric.weight.iter().sum::<f64>();
+        let mut best: Option<(f64, Vec<u32>)> = None;
+        for slits in ways {
+            let mesh = CutMesh::new(metric, faces, &slits);
+            let Some(slitting) = Slitting::new(&mesh, &slits) else {
+                continue;
+            };
+            let mut slitting = [slitting];
+            self.slit_until(&mut slitting, budget);
+            let [slitting] = slitting;
+            let price = tied(metric.length_of(&slitting.slits()) * slitting.excess());
+            if best.as_ref().is_none_or(|(least, _)| price < *least) {
+                best = Some((price, slits));
+            }
+        }
+        best.map(|(_, slits)| slits)
+    }
+
+    /// Slits components until their maps keep the bound, as far as slits help.
+    fn slit_under_bound(&mut self, slittings: &mut [Slitting]) -> Option<()> {
+        let mut wanted = self.budget;
+        for round in 0..MOST_ROUNDS {
+            self.slit_until(slittings, wanted);
+            self.map_all(slittings)?;
+            let excess = excess_of(slittings);
+            if excess <= self.budget || self.must_end() {
+                break;
+            }
+            // Half of the way: slits relieve more than is expected of them.
+            let promised = self.budget * PROMISE.powi(round);
+            wanted = (excess * promised).sqrt().min(2.0 * promised);
+        }
+        if self.budget - excess_of(slittings) > UNSPENT * self.budget && !self.must_end() {
+            self.take_back(slittings)?;
+        }
+        Some(())
+    }
+
+    /// Plans slits where they relieve most for their length, until no more than some excess is expected.
+    fn slit_until(&mut self, slittings: &mut [Slitting], wanted: f64) {
+        while excess_of(slittings) > wanted && !self.must_end() {
+            let mut best: Option<([f64; 2], usize)> = None;
+            for (place, slitting) in slittings.iter_mut().enumerate() {
+                let (ratio, excess) = (slitting.ratio, slitting.excess());
+                if let Some(slit) = slitting.next_slit(&mut self.counts.effort) {
+                    let rate = [ratio * slit.rate, excess];
+                    if best.is_none_or(|(most, _)| rate > most) {
+                        best = Some((rate, place));
+                    }
+                }
+            }
+            let Some((_, place)) = best else { return };
+            let slitting = &mut slittings[place];
+            slitting.n_made += 1;
+            slitting.map = None;
+            self.observer.worked(slitting.mesh.faces.len());
+        }
+    }
+
+    /// Maps the components whose slits have changed.
+    fn map_all(&mut self, slittings: &mut [Slitting]) -> Option<()> {
+        for slitting in slittings.iter_mut().filter(|it| it.map.is_none()) {
+            let mapped = self.mapped(slitting)?;
+            let predicted = slitting.predicted(slitting.n_made);
+            slitting.ratio = mapped.excess / predicted.max(f64::MIN_POSITIVE);
+            slitting.map = Some(mapped);
+        }
+        Some(())
+    }
+
+    /// Maps a component with its slits; returns `None` if the map has flips.
+    fn mapped(&mut self, slitting: &Slitting) -> Option<Mapped> {
+        let (metric, observer) = (self.nets.metric, self.observer);
+        let begin = observer.elapsed();
+        let mesh = CutMesh::new(metric, slitting.mesh.faces, &slitting.slits());
+        let chart = chart(&mesh)?;
+        self.counts.maps += 1;
+        self.counts.effort.mapped_faces += mesh.faces.len();
+        let options = weighted(self.options, metric, mesh.faces);
+        let watching = Watching {
+            chart: &chart,
+            observer,
+        };
+        let embedding = embed::parameterize(&chart.disk, &chart.positions, &options, &watching);
+        if !embed::is_positive(&chart.disk.triangles, &embedding.uv) {
+            return None;
+        }
+        let map = MappedChart {
+            chart,
+            embedding,
+            seconds: observer.elapsed().saturating_sub(begin).as_secs_f64(),
+        };
+        Some(Mapped {
+            excess: Net::of_chart(metric, &map).excess,
+            map,
+        })
+    }
+
+    /// Takes back the slits that the bound can do without, if the maps are as good as expected then.
+    fn take_back(&mut self, slittings: &mut [Slitting]) -> Option<()> {
+        let made: Vec<usize> = slittings.iter().map(|slitting| slitting.n_made).collect();
+        let mut before = Vec::new();
+        unslit_until(slittings, self.budget, &mut before);
+        self.map_all(slittings)?;
+        if excess_of(slittings) > self.budget {
+            for (place, map) in before {
+                slittings[place].n_made = made[place];
+                slittings[place].map = Some(map);
+            }
+        }
+        Some(())
+    }
+
+    /// Parts a map where it overlaps itself.
+    fn parted(&self, mapped: Mapped) -> Vec<Net> {
+        let (metric, observer) = (self.nets.metric, self.observer);
+        let mut map = mapped.map;
+        let faces: Vec<u32> = (map.chart.corners.iter())
+            .map(|corners| corners[0] / 3)
+            .collect();
+        let options = weighted(self.options, metric, &faces);
+        let watching = Watching {
+            chart: &map.chart,
+            observer,
+        };
+        let pairs = overlaps(&map.chart.disk, &map.embedding.uv);
+        let (uv, pairs) = pushed_apart(&map.chart, &map.embedding.uv, pairs, &options, &watching);
+        map.embedding.uv = uv;
+        let parts = map.parted_until_free(pairs, &|| observer.control());
+        parts
+            .iter()
+            .map(|part| Net::of_chart(metric, part))
+            .collect()
+    }
+
+    /// Lays small nets back on their neighbors if that is cheaper.
+    fn give_back(&mut self, bound: &Bound) {
+        let metric = self.nets.metric;
+        let charts = self.nets.list.values();
+        let charts = charts.filter_map(|net| net.mapped_chart(metric)).collect();
+        let given = given_back(metric.surface, charts, bound, self.options, self.observer);
+        let given = given.iter().map(|map| Net::of_chart(metric, map));
+        let given = Nets::new(metric, given.collect());
+        let before = self.cost();
+        let nets = std::mem::replace(&mut self.nets, given);
+        if self.cost() >= before {
+            self.nets = nets;
+        }
+    }
+}
+
+/// Returns the faces of each component, in ascending order.
+fn components(metric: &Metric) -> Vec<Vec<u32>> {
+    let mut sets = UnionFind::new(metric.corners.len());
+    for (h, &t) in (0u32..).zip(&metric.twin).filter(|(_, t)| **t != CUT) {
+        sets.unite(h / 3, t / 3);
+    }
+    let (labels, n) = sets.labels();
+    let mut components = vec![Vec::new(); n];
+    for (face, &label) in (0u32..).zip(&labels) {
+        components[label as usize].push(face);
+    }
+    components
+}
+
+/// Returns ways to open a component to a disk, possibly with holes: two for a closed one of genus 0, between vertices far apart and from
+/// its sharpest vertex.
+fn ways_to_open(metric: &Metric, faces: &[u32]) -> Vec<Vec<u32>> {
+    let mesh = CutMesh::new(metric, faces, &[]);
+    let mut ways = vec![open_to_disk(&mesh.sheet, Branches::None)];
+    if mesh.is_sphere() {
+        ways.extend(first_slit(&mesh));
+    }
+    ways.iter().map(|slits| mesh.edges(slits)).collect()
+}
+
+fn excess_of(slittings: &[Slitting]) -> f64 {
+    slittings.iter().map(Slitting::excess).sum()
+}
+
+/// Takes slits back, the one that relieves least for its length first, as long as no more than some excess is expected. Moves the maps
+/// of their components, with their places, to `before`.
+fn unslit_until(slittings: &mut [Slitting], wanted: f64, before: &mut Vec<(usize, Mapped)>) {
+    loop {
+        let all = excess_of(slittings);
+        let mut least: Option<(f64, usize)> = None;
+        for (place, slitting) in slittings.iter().enumerate() {
+            let Some(last) = slitting.n_made.checked_sub(1) else {
+                continue;
+            };
+            let after = all - slitting.excess() + slitting.ratio * slitting.predicted(last);
+            let rate = slitting.ratio * slitting.plan[last].rate;
+            if after <= wanted && least.is_none_or(|(least, _)| rate < least) {
+                least = Some((rate, place));
+            }
+        }
+        let Some((_, place)) = least else { return };
+        let slitting = &mut slittings[place];
+        before.extend(slitting.map.take().map(|map| (place, map)));
+        slitting.n_made -= 1;
+    }
+}
