@@ -162,8 +162,6 @@ def test_functions_that_are_no_energies(tets):  # noqa: F811
     for wrong in [ARAP[:2], ARAP.value, 5, (1, 2, 3), [ARAP.value, "arap", ARAP.value]]:
         with pytest.raises(TypeError, match="three functions"):
             unwrapd.Problem(*grid(2), energy=wrong)
-    with pytest.raises(TypeError):
-        unwrapd.Session(*grid(2), energy=ARAP)
 
 
 def test_a_bound_on_the_distortion_and_bijectivity_join_functions():
@@ -186,3 +184,83 @@ def test_a_problem_with_functions_works_on_any_thread():
     for thread in threads:
         thread.join()
     assert len(set(found)) == 1 and len(found) == 4
+
+
+def dragged(energy):
+    session = unwrapd.Session(*grid(30), energy=energy, threads=1)
+    session.add({"center": (0, 0.5), "radius": 0.3, "to": (0, 0.5)})
+    corner = session.add({"vertex": 899, "to": (1, 1)})
+    begin = time.process_time()
+    for target in np.linspace((1, 1), (1.4, 1.3), 10):
+        session.move(corner, target)
+        session.step()
+    assert session.settle() == "settled"
+    return session, time.process_time() - begin
+
+
+def test_a_session_with_functions_is_one_with_the_named_energy_in_at_most_three_times_the_time():
+    (own, seconds), (named, of_named) = dragged(SYMMETRIC_DIRICHLET), dragged("symmetric-dirichlet")
+    np.testing.assert_allclose(own.x, named.x, atol=1e-9)
+    assert own.summary["iterations"] == named.summary["iterations"]
+    assert own.worth["energy"] == pytest.approx(named.worth["energy"], rel=1e-9)
+    assert seconds <= 3 * of_named, (seconds, of_named)
+    # Functions and names are exchanged for each other.
+    for energy in (ARAP, "symmetric-dirichlet", SYMMETRIC_DIRICHLET):
+        own.remodel(energy=energy)
+        assert own.settle() == "settled"
+    np.testing.assert_allclose(own.x, named.x, atol=1e-4)
+
+
+@pytest.mark.parametrize("name", unwrapd.Energy._fields)
+def test_an_exception_ends_a_session_with_its_last_map(name):
+    session = unwrapd.Session(*grid(12), energy=failing(name, broken, after=60))
+    session.add({"center": (0, 0.5), "radius": 0.3, "to": (0, 0.5)})
+    corner = session.add({"vertex": 143, "to": (1, 1)})
+    with pytest.raises(Broken, match="by the user"):
+        for turn in range(200):
+            before = session.x
+            session.move(corner, (1.2 + 0.1 * np.cos(turn), 1.2 + 0.1 * np.sin(turn)))
+            session.step()
+    assert np.abs(session.x - before).max() < 0.3
+    a, b, c = session.x[grid(12)[1]].transpose(1, 0, 2)
+    assert (np.linalg.det(np.stack([b - a, c - a], 1)) > 0).all()
+    with pytest.raises(RuntimeError, match="ended the session"):
+        session.step()
+
+
+def dome(side=40):
+    vertices, faces = grid(side)
+    x, y = vertices.T - 0.5
+    return np.column_stack([vertices, np.exp(-8 * (x**2 + y**2))]), faces
+
+
+@pytest.mark.parametrize("options", [{"cut": "disk"}, {}])
+def test_unwrap_minimizes_functions_as_the_named_energy_in_at_most_three_times_the_time(options):
+    found = []
+    for energy in (SYMMETRIC_DIRICHLET, "symmetric-dirichlet"):
+        begin = time.process_time()
+        atlas = unwrapd.unwrap(*dome(), energy=energy, barrier_strength=0.02, threads=1, **options)
+        found.append((atlas, time.process_time() - begin))
+    (own, seconds), (named, of_named) = found
+    assert own.certified and own.n_charts == named.n_charts
+    np.testing.assert_allclose(own.uvs, named.uvs, atol=1e-6)
+    energies = [atlas.measures["sym_dirichlet_mean"] for atlas in (own, named)]
+    assert energies[0] == pytest.approx(energies[1], rel=1e-9)
+    assert seconds <= 3 * of_named, (seconds, of_named)
+    assert own.report["options"]["energy"] == "functions"
+
+
+def test_unwrap_raises_what_a_function_raises(tmp_path):
+    with pytest.raises(Broken, match="by the user"):
+        unwrapd.unwrap(*dome(), energy=failing("gradient", broken, after=5))
+    with pytest.raises(TypeError, match="three functions"):
+        unwrapd.unwrap(*dome(), energy=ARAP[:2])
+    vertices, faces = dome(8)
+    mesh = tmp_path / "dome.obj"
+    lines = [*("v {} {} {}".format(*v) for v in vertices), *("f {} {} {}".format(*f + 1) for f in faces)]
+    mesh.write_text("\n".join(lines))
+    with pytest.raises(Broken):
+        unwrapd.unwrap_file(mesh, tmp_path / "out.glb", energy=failing("hessian", broken, after=5))
+    assert not (tmp_path / "out.glb").exists()
+    report = unwrapd.unwrap_file(mesh, tmp_path / "out.glb", energy=ARAP)
+    assert report["certified"]

@@ -56,7 +56,7 @@ def main():
         assert solution.status == "converged" and slope < 1e-3
 
     # A drag: each map starts from the one before.
-    session = unwrapd.Session(vertices, faces, energy=HENCKY)
+    session = unwrapd.Session(vertices, faces, energy=HENCKY_ON_ARRAYS)
     for vertex in (0, 1, 2):
         session.add({"vertex": vertex, "to": vertices[vertex]})
     tip = session.add({"vertex": 37, "to": vertices[37]})

@@ -6,8 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use unwrapd::deform::ProblemError;
-use unwrapd::energy::{Batched, DensityBatch, DensityKind, EnergyKind, FormulaError, OwnEnergy};
+use unwrapd::energy::{Batched, DensityBatch, DensityKind, FormulaError, OwnEnergy};
 
 /// ψ, its gradient and its Hessian as functions of the singular values (n, D). Each returns its n items as one flat array.
 /// The package checks their shapes and numbers.
@@ -35,7 +34,7 @@ impl PyEnergy {
     ///
     /// # Errors
     /// If it is no energy, or if a function fails.
-    pub fn kind(self: &Arc<Self>, dim: usize) -> PyResult<Result<EnergyKind, ProblemError>> {
+    pub fn density(self: &Arc<Self>, dim: usize) -> PyResult<Result<DensityKind, FormulaError>> {
         let calls = Calls(Arc::clone(self));
         let own = self.run(|| -> Result<OwnEnergy, FormulaError> {
             Ok(match dim {
@@ -43,9 +42,7 @@ impl PyEnergy {
                 _ => Batched::<3>::new(calls)?.into(),
             })
         })?;
-        Ok(own
-            .map(|own| DensityKind::Formula(own).into())
-            .map_err(ProblemError::from))
+        Ok(own.map(DensityKind::Formula))
     }
 
     /// Runs work that may call the functions. An exception that one of them raises ends the work by unwinding, and is
@@ -55,8 +52,15 @@ impl PyEnergy {
             .map_err(|panic| self.take_failure().unwrap_or_else(|| resume_unwind(panic)))
     }
 
+    /// Returns the outcome of work on another thread: an exception that a function raised is the reason why it has no
+    /// result.
+    pub fn outcome<T>(energy: Option<&Arc<Self>>, outcome: PyResult<T>) -> PyResult<T> {
+        let failure = energy.and_then(|energy| energy.take_failure());
+        failure.map_or(outcome, Err)
+    }
+
     /// Returns the exception that ended the work, once.
-    pub fn take_failure(&self) -> Option<PyErr> {
+    fn take_failure(&self) -> Option<PyErr> {
         (self.failure.lock())
             .unwrap_or_else(PoisonError::into_inner)
             .take()

@@ -3,14 +3,16 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use serde::Serialize;
 
-use crate::call::{internal, invalid_options, run};
-use unwrapd::deform::Model;
+use crate::call::{internal, invalid_options, refused, run};
+use crate::energy::{Functions, PyEnergy};
+use unwrapd::deform::{Model, ProblemError};
 use unwrapd::document::{Upload, with_references};
 use unwrapd::options::{Object, OptionSet};
 use unwrapd::pipeline::{
@@ -68,10 +70,13 @@ pub fn unwrap_document<'py>(
     py: Python<'py>,
     file: File<'py>,
     options: &str,
+    functions: Option<Functions>,
     stem: Option<String>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<PyWritten<'py>> {
-    written::<Options>(py, file, options, stem, progress, pipeline::unwrap_document)
+    let (options, energy) = unwrap_options(py, options, functions)?;
+    let made = written(py, file, options, stem, progress, pipeline::unwrap_document);
+    PyEnergy::outcome(energy.as_ref(), made)
 }
 
 /// Packs the UV islands of a file.
@@ -83,7 +88,8 @@ pub fn repack_document<'py>(
     stem: Option<String>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<PyWritten<'py>> {
-    written::<RepackOptions>(py, file, options, stem, progress, pipeline::repack_document)
+    let options: RepackOptions = parsed(py, options)?;
+    written(py, file, options, stem, progress, pipeline::repack_document)
 }
 
 /// Measures the UVs of a file.
@@ -106,15 +112,15 @@ pub fn verify_document(py: Python<'_>, file: File<'_>, options: &str) -> PyResul
     json(py, &verified)
 }
 
-fn written<'py, O: OptionSet + CommandOptions + Send + 'static>(
+fn written<'py, O: CommandOptions + Send + 'static>(
     py: Python<'py>,
     file: File<'py>,
-    options: &str,
+    mut options: O,
     stem: Option<String>,
     progress: Option<Bound<'py, PyAny>>,
     make: fn(&Upload, &O, &dyn Observer) -> Result<Outcome, PipelineError>,
 ) -> PyResult<PyWritten<'py>> {
-    let (upload, mut options) = (file.upload(), parsed::<O>(py, options)?);
+    let upload = file.upload();
     options.caller_mut().stem = stem;
     let outcome = run(py, progress.as_ref(), move |observer| {
         make(&upload, &options, observer)
@@ -143,6 +149,21 @@ pub fn option_names(function: &str) -> PyResult<Vec<&'static str>> {
         "solve" => Ok(SolveOptions::names()),
         _ => Err(PyValueError::new_err(format!("no function {function:?}"))),
     }
+}
+
+/// Returns the options of unwrapping, and the functions of their energy if it consists of functions.
+pub fn unwrap_options(
+    py: Python<'_>,
+    options: &str,
+    functions: Option<Functions>,
+) -> PyResult<(Options, Option<Arc<PyEnergy>>)> {
+    let mut options: Options = parsed(py, options)?;
+    let energy = functions.map(PyEnergy::new);
+    if let Some(energy) = &energy {
+        let density = energy.density(2)?;
+        options.mapping.energy = density.map_err(|error| refused(py, ProblemError::from(error)))?;
+    }
+    Ok((options, energy))
 }
 
 /// Parses the options in a JSON object; the caller has checked their names.

@@ -8,12 +8,12 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::call::run;
-use crate::files::{json, parsed};
+use crate::energy::{Functions, PyEnergy};
+use crate::files::{json, parsed, unwrap_options};
 use unwrapd::bake::{Corners, Coverage, MOST_TEXELS, baked_attribute};
-use unwrapd::options::OptionSet;
 use unwrapd::pipeline::{
-    self, MeasureOptions, MeshArrays, Observer, Options, PipelineError, RepackOptions,
-    UnwrappedMeshes, VerifyOptions, WeldedUvs, Workers, in_pool,
+    self, MeasureOptions, MeshArrays, Observer, PipelineError, RepackOptions, UnwrappedMeshes,
+    VerifyOptions, WeldedUvs, Workers, in_pool,
 };
 
 /// Meshes that share an atlas, and the report.
@@ -25,9 +25,12 @@ pub fn unwrap<'py>(
     py: Python<'py>,
     meshes: Vec<Mesh<'py>>,
     options: &str,
+    functions: Option<Functions>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<PyAtlas<'py>> {
-    atlas::<Options>(py, &meshes, options, progress, pipeline::unwrap_meshes)
+    let (options, energy) = unwrap_options(py, options, functions)?;
+    let made = atlas(py, &meshes, options, progress, pipeline::unwrap_meshes);
+    PyEnergy::outcome(energy.as_ref(), made)
 }
 
 /// Packs the UV islands of meshes into one atlas.
@@ -38,7 +41,8 @@ pub fn repack<'py>(
     options: &str,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<PyAtlas<'py>> {
-    atlas::<RepackOptions>(py, &meshes, options, progress, pipeline::repack_meshes)
+    let options: RepackOptions = parsed(py, options)?;
+    atlas(py, &meshes, options, progress, pipeline::repack_meshes)
 }
 
 /// Measures UVs.
@@ -61,14 +65,14 @@ pub fn verify(py: Python<'_>, meshes: Vec<Mesh<'_>>, options: &str) -> PyResult<
     json(py, &verified)
 }
 
-fn atlas<'py, O: OptionSet + Send + 'static>(
+fn atlas<'py, O: Send + 'static>(
     py: Python<'py>,
     meshes: &[Mesh<'py>],
-    options: &str,
+    options: O,
     progress: Option<Bound<'py, PyAny>>,
     make: fn(&[MeshArrays], &O, &dyn Observer) -> Result<UnwrappedMeshes, PipelineError>,
 ) -> PyResult<PyAtlas<'py>> {
-    let (meshes, options) = (taken(meshes)?, parsed::<O>(py, options)?);
+    let meshes = taken(meshes)?;
     let (meshes, unwrapped) = run(py, progress.as_ref(), move |observer| {
         let unwrapped = make(&meshes, &options, observer)?;
         Ok((meshes, unwrapped))

@@ -14,6 +14,7 @@ use crate::meshes::rows;
 use unwrapd::deform::{
     self, Body, Bound as Held, Handle, Model, Potential, ProblemError, Units, bind,
 };
+use unwrapd::energy::EnergyKind;
 use unwrapd::mesh::{PlanarMesh, TetMesh};
 use unwrapd::pipeline::{SolveOptions, solve_problem};
 
@@ -53,8 +54,7 @@ impl PyProblem {
         let mut model: Model = parsed(py, options)?;
         let energy = functions.map(PyEnergy::new);
         if let Some(energy) = &energy {
-            let kind = energy.kind(body.dim())?;
-            model.energy = kind.map_err(|error| refused(py, error))?;
+            model.energy = energy_kind(py, energy, body.dim())?;
         }
         let made = problem(body, start, &model, is_normalized);
         let (problem, potential) = made.map_err(|error| refused(py, error))?;
@@ -148,12 +148,7 @@ impl PyProblem {
         let solved = run_shown(py, None, show, move |observer, watch| {
             solve_problem(&problem, &options, observer, watch)
         });
-        // If a function of the energy failed, that is why there is no result.
-        let failure = self
-            .energy
-            .as_ref()
-            .and_then(|energy| energy.take_failure());
-        let (solution, report) = failure.map_or(solved, Err)?;
+        let (solution, report) = PyEnergy::outcome(self.energy.as_ref(), solved)?;
         Ok((PyArray1::from_vec(py, solution.x), json(py, &report)?))
     }
 }
@@ -193,6 +188,13 @@ impl PyProblem {
             ..self.problem.clone()
         })
     }
+}
+
+/// Returns functions as the energy of a body of dimension `dim`.
+pub fn energy_kind(py: Python<'_>, energy: &Arc<PyEnergy>, dim: usize) -> PyResult<EnergyKind> {
+    let density = energy.density(dim)?;
+    let density = density.map_err(|error| refused(py, ProblemError::from(error)))?;
+    Ok(density.into())
 }
 
 fn problem(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Callable, Optional, Union, overload
 
 import numpy as np
 
-from . import _meshes, _native
+from . import _energy, _meshes, _native
 from ._atlas import Atlas
 from ._options import to_json
 from ._progress import heard
@@ -72,7 +72,8 @@ def unwrap(
         is valid; an exception cancels it.
     **options
         The options of ``unwrapd unwrap`` in snake case, such as ``cut="fast"``, ``quality="few"``, ``resolution=2048``,
-        ``padding=4``, ``time_budget=10`` (seconds), ``threads=2``. `unwrapd.options("unwrap")` lists them.
+        ``padding=4``, ``time_budget=10`` (seconds), ``threads=2``. `unwrapd.options("unwrap")` lists them. `energy` may be an
+        `Energy`, too: its functions are called for all elements of a chart at once, and what they raise is raised to the caller.
 
     Returns
     -------
@@ -88,9 +89,10 @@ def unwrap(
     The interpreter is released meanwhile, and Ctrl-C ends the call at once.
     """
     meshes, is_list = _taken(mesh, faces, uvs, normals, options.get("cut") in ("keep", "seams"))
-    given = to_json("unwrap", options)
+    texts, functions = _energy.split(options)
+    given = to_json("unwrap", texts)
     with heard(progress) as listener:
-        return _atlas(_native.unwrap(meshes, given, listener), is_list)
+        return _atlas(_native.unwrap(meshes, given, functions, listener), is_list)
 
 
 @overload

@@ -7,7 +7,7 @@ import json
 import os
 from typing import TYPE_CHECKING, Any, Callable, Mapping, Optional, Union
 
-from . import _native
+from . import _energy, _native
 from ._errors import InvalidOptions
 from ._options import to_json
 from ._progress import heard
@@ -43,13 +43,18 @@ def unwrap_file(
     output : path of a .glb, .gltf or .obj
         Written when all is done, with the files beside it that the format needs. Its folder must exist.
     **options
-        Those of ``unwrapd unwrap`` in snake case.
+        Those of ``unwrapd unwrap`` in snake case. `energy` may be an `Energy`, too, as in `unwrap`.
 
     Returns
     -------
     The report, whose certificate is of the written bytes.
     """
-    return _converted("unwrap", _native.unwrap_document, input, output, options, progress)
+    texts, functions = _energy.split(options)
+
+    def make(file: _native.File, given: str, stem: str, listener: Any) -> Any:
+        return _native.unwrap_document(file, given, functions, stem, listener)
+
+    return _converted("unwrap", make, input, output, texts, progress)
 
 
 def repack_file(
@@ -109,9 +114,10 @@ def unwrap_bytes(
         "resources": dict(resources or {}),
         "folder": None,
     }
-    given = to_json("unwrap", options, of_files=True)
+    texts, functions = _energy.split(options)
+    given = to_json("unwrap", texts, of_files=True)
     with heard(progress) as listener:
-        files, report = _native.unwrap_document(file, given, None, listener)
+        files, report = _native.unwrap_document(file, given, functions, None, listener)
     return files[0][1], _parsed(report)
 
 

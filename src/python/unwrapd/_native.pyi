@@ -14,6 +14,7 @@ class File(TypedDict):
 Mesh = tuple[np.ndarray, np.ndarray, np.ndarray | None, np.ndarray | None]
 Welded = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 Listener = Callable[[Progress], Any]
+Functions = tuple[Callable[[np.ndarray], np.ndarray], ...]
 
 __version__: str
 
@@ -71,7 +72,7 @@ class Problem:
         elements: np.ndarray,
         start: np.ndarray | None,
         options: str,
-        functions: tuple[Callable[[np.ndarray], np.ndarray], ...] | None,
+        functions: Functions | None,
         is_normalized: bool,
     ) -> None: ...
     dim: int
@@ -91,6 +92,7 @@ class Session:
         elements: np.ndarray,
         start: np.ndarray | None,
         options: str,
+        functions: Functions | None,
         threads: int | None,
     ) -> None: ...
     dim: int
@@ -99,7 +101,7 @@ class Session:
     def add(self, handle: str) -> int: ...
     def move_to(self, number: int, to: list[float]) -> None: ...
     def remove(self, number: int) -> None: ...
-    def remodel(self, options: str) -> None: ...
+    def remodel(self, options: str, functions: Functions | None) -> None: ...
     def step(self) -> str: ...
     def settle(self, seconds: float) -> str: ...
     def worth(self) -> str: ...
@@ -111,7 +113,7 @@ class Session:
 
 def option_names(function: str) -> list[str]: ...
 def unwrap(
-    meshes: list[Mesh], options: str, progress: Listener | None
+    meshes: list[Mesh], options: str, functions: Functions | None, progress: Listener | None
 ) -> tuple[list[Welded], str]: ...
 def repack(
     meshes: list[Mesh], options: str, progress: Listener | None
@@ -119,7 +121,11 @@ def repack(
 def measure(meshes: list[Mesh], options: str) -> str: ...
 def verify(meshes: list[Mesh], options: str) -> str: ...
 def unwrap_document(
-    file: File, options: str, stem: str | None, progress: Listener | None
+    file: File,
+    options: str,
+    functions: Functions | None,
+    stem: str | None,
+    progress: Listener | None,
 ) -> tuple[list[tuple[str, bytes]], str]: ...
 def repack_document(
     file: File, options: str, stem: str | None, progress: Listener | None

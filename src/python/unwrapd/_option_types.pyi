@@ -34,7 +34,7 @@ class UnwrapOptions(Layout, total=False):
     max_stretch: float | None
     seam_weight: float | None
     symmetry: Literal["auto", "off"] | None
-    energy: str | None
+    energy: str | Energy | None
     barrier: str | None
     barrier_strength: float | None
     barrier_support: float | None

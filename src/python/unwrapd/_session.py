@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional
 
 import numpy as np
 
-from . import _bodies, _native
+from . import _bodies, _energy, _native
 from ._options import to_json
 
 if TYPE_CHECKING:
@@ -19,9 +19,10 @@ if TYPE_CHECKING:
 class Session:
     """A body that is pulled while someone watches: each iteration starts from the map before, and every map is valid.
 
-    Takes `vertices`, `elements`, `start` and `**options` as `Problem` does, but no `Energy` of functions; `barrier_strength` is meant
-    in a unit in which the mean element has size 1. `threads` is how many work, by default all. A body starts at rest, a surface at
-    its `start`. A session belongs to one thread at a time.
+    Takes `vertices`, `elements`, `start` and `**options` as `Problem` does; `barrier_strength` is meant in a unit in which the mean
+    element has size 1. `threads` is how many work, by default all. A body starts at rest, a surface at its `start`. A session belongs
+    to one thread at a time. An exception of a function of its `Energy` is raised and ends it: `x` stays the last valid map, and any
+    further work is a RuntimeError.
 
     >>> import unwrapd
     >>> session = unwrapd.Session([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
@@ -44,7 +45,8 @@ class Session:
         **options: Unpack[ProblemOptions],
     ) -> None:
         body = _bodies.native(vertices, elements, start)
-        self._native = _native.Session(*body, to_json("Problem", options), threads)
+        texts, functions = _energy.split(options)
+        self._native = _native.Session(*body, to_json("Problem", texts), functions, threads)
 
     def add(self, handle: Mapping[str, Any]) -> int:
         """Take hold, with a handle as files of handles have it; the number of the handle. Raises `InvalidInput`."""
@@ -60,7 +62,8 @@ class Session:
 
     def remodel(self, **options: Unpack[ProblemOptions]) -> None:
         """Exchange energy and barrier; map and handles stay. Raises `InvalidInput` if the map is outside their domain."""
-        self._native.remodel(to_json("Problem", options))
+        texts, functions = _energy.split(options)
+        self._native.remodel(to_json("Problem", texts), functions)
 
     def step(self) -> str:
         """One iteration; ``"moving"`` if more of them change the map, ``"settled"`` or ``"unreachable"``."""

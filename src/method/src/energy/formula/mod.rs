@@ -15,7 +15,6 @@ use check::{check, is_finite_inverted};
 pub use jet::Jet;
 pub use parser::FormulaError;
 use parser::LONGEST;
-use serde::ser::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::sync::Arc;
 
@@ -227,12 +226,12 @@ fn same<T: ?Sized>(a: &Result<Arc<T>, FormulaError>, b: &Result<Arc<T>, FormulaE
     }
 }
 
-/// Serializes the text; a density cannot be serialized.
+/// Serializes the text. A density has none and is written as `functions`, which cannot be read back.
 impl Serialize for OwnEnergy {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match &self.text {
             Some(text) => serializer.serialize_str(text),
-            None => Err(S::Error::custom("a density cannot be written")),
+            None => serializer.serialize_str("functions"),
         }
     }
 }
