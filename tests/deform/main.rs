@@ -26,6 +26,7 @@ mod pulled;
 #[path = "../support/random.rs"]
 #[allow(dead_code)]
 mod random;
+mod regions;
 mod searched;
 mod session;
 mod session_model;

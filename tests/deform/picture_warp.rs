@@ -59,7 +59,7 @@ fn with_a_fixed_border_extreme_moves_are_bijective() {
     for run in 0..RUNS {
         let n_handles = 1 + run % 4;
         let handles: Vec<PictureHandle> = (0..n_handles)
-            .map(|_| PictureHandle {
+            .map(|_| PictureHandle::Point {
                 at: random.place(size),
                 to: random.place(size),
             })
@@ -100,7 +100,7 @@ fn with_a_fixed_border_extreme_moves_are_bijective() {
 
 #[test]
 fn a_target_outside_a_fixed_border_is_out_of_reach() {
-    let handle = PictureHandle {
+    let handle = PictureHandle::Point {
         at: [16.0, 12.0],
         to: [100.0, 12.0],
     };
@@ -127,7 +127,7 @@ fn a_free_border_travels_with_its_handles() {
     // Every corner shifted: the picture is the same, elsewhere.
     let image = ramp(40, 20);
     let at = [[0.0, 0.0], [40.0, 0.0], [0.0, 20.0], [40.0, 20.0]];
-    let handles = at.map(|at| PictureHandle {
+    let handles = at.map(|at| PictureHandle::Point {
         at,
         to: [at[0] - 7.0, at[1] + 12.0],
     });
@@ -168,7 +168,7 @@ fn a_handle_holds_the_very_point_it_names() {
         ([24.0, 8.0], [22.0, 7.0]),
         ([30.5, 13.1], [33.25, 9.75]),
     ];
-    let handles = pairs.map(|(at, to)| PictureHandle { at, to });
+    let handles = pairs.map(|(at, to)| PictureHandle::Point { at, to });
     for boundary in [Boundary::Free, Boundary::Fixed] {
         let warp = warp_picture(&image, &handles, &options(10, boundary), &go_on).expect("a warp");
         assert_eq!(warp.summary.status, Status::Converged);
@@ -183,7 +183,7 @@ fn a_handle_holds_the_very_point_it_names() {
 #[test]
 fn next_to_a_fixed_border_a_handle_moves_the_nearest_inner_vertex() {
     let image = ramp(40, 20);
-    let handle = PictureHandle {
+    let handle = PictureHandle::Point {
         at: [13.0, 0.5],
         to: [14.0, 1.5],
     };
@@ -198,7 +198,7 @@ fn next_to_a_fixed_border_a_handle_moves_the_nearest_inner_vertex() {
 #[test]
 fn without_a_barrier_the_map_may_fold_and_the_report_says_so() {
     let image = ramp(32, 32);
-    let handle = PictureHandle {
+    let handle = PictureHandle::Point {
         at: [8.0, 16.0],
         to: [28.0, 16.0],
     };
@@ -221,7 +221,7 @@ fn without_a_barrier_the_map_may_fold_and_the_report_says_so() {
 #[test]
 fn what_cannot_be_warped_has_a_code() {
     let image = ramp(32, 24);
-    let handle = |at: [f64; 2], to: [f64; 2]| PictureHandle { at, to };
+    let handle = |at: [f64; 2], to: [f64; 2]| PictureHandle::Point { at, to };
     let middle = [16.0, 12.0];
     let code = |handles: &[PictureHandle], options: &WarpOptions| {
         warp_picture(&image, handles, options, &go_on)

@@ -16,11 +16,11 @@ fn go_on(_: &Iterate) -> Control {
 fn a_warp_that_searches_tries_bent_ways_too() {
     let image = Image::transparent(64, 64);
     let handles = [
-        PictureHandle {
+        PictureHandle::Point {
             at: [16.0, 32.0],
             to: [24.0, 24.0],
         },
-        PictureHandle {
+        PictureHandle::Point {
             at: [48.0, 32.0],
             to: [40.0, 44.0],
         },

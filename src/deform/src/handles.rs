@@ -48,6 +48,24 @@ pub enum Handle {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         axis: Option<[f64; 3]>,
     },
+    /// Every vertex in a box along the axes, moved as a rigid body.
+    Box {
+        /// The corner of the least coordinates at rest.
+        #[serde(deserialize_with = "place")]
+        low: Vec<f64>,
+        /// The corner of the largest coordinates at rest.
+        #[serde(deserialize_with = "place")]
+        high: Vec<f64>,
+        /// Where the middle goes.
+        #[serde(deserialize_with = "place")]
+        to: Vec<f64>,
+        /// A turn about the middle, as that of a disc.
+        #[serde(default)]
+        turn: f64,
+        /// In space: the direction to turn about, as that of a disc.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        axis: Option<[f64; 3]>,
+    },
     /// A point of an element at rest, a vertex if it is one.
     Point {
         /// The point.
@@ -60,7 +78,7 @@ pub enum Handle {
 }
 
 /// Parses `{"handles": [{"vertex": i, "to": […]}, {"at": […], "to": …}, {"center": …, "radius": r, "to": …, "turn": d,
-/// "axis": […]}, …]}`.
+/// "axis": […]}, {"low": …, "high": …, "to": …}, …]}`.
 pub fn parse_body_handles(json: &[u8]) -> Result<Vec<Handle>, ProblemError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -203,8 +221,41 @@ where
                 turn,
                 axis,
             } => {
-                let center = (position(index, center)?, position(index, to)?);
-                self.add_disc(index, center, *radius, (*turn, *axis))?;
+                if !(*radius >= 0.0 && radius.is_finite()) {
+                    let (name, range) = ("radius", "finite and not negative");
+                    return Err(ProblemError::BadParameter { name, range });
+                }
+                let center: [f64; D] = position(index, center)?;
+                let is_inside = |place: &[f64; D]| {
+                    let squares = place.iter().zip(center).map(|(x, c)| (x - c) * (x - c));
+                    squares.sum::<f64>() <= radius * radius
+                };
+                let motion = RigidMotion {
+                    center,
+                    to: position(index, to)?,
+                    degrees: *turn,
+                    axis: turning_axis::<D>(*turn, *axis)?,
+                };
+                self.add_region(index, is_inside, &motion)?;
+            }
+            Handle::Box {
+                low,
+                high,
+                to,
+                turn,
+                axis,
+            } => {
+                let (low, high): ([f64; D], [f64; D]) =
+                    (position(index, low)?, position(index, high)?);
+                let is_inside =
+                    |place: &[f64; D]| (0..D).all(|k| (low[k]..=high[k]).contains(&place[k]));
+                let motion = RigidMotion {
+                    center: std::array::from_fn(|k| 0.5 * (low[k] + high[k])),
+                    to: position(index, to)?,
+                    degrees: *turn,
+                    axis: turning_axis::<D>(*turn, *axis)?,
+                };
+                self.add_region(index, is_inside, &motion)?;
             }
             Handle::Point { at, to } => {
                 let (at, to) = (position(index, at)?, position::<D>(index, to)?);
@@ -232,30 +283,23 @@ where
             .push(TurningPath::straight(self.place(vertex), to));
     }
 
-    fn add_disc(
+    /// Holds every vertex inside a region.
+    fn add_region(
         &mut self,
         index: usize,
-        (center, to): ([f64; D], [f64; D]),
-        radius: f64,
-        (turn, axis): (f64, Option<[f64; 3]>),
+        is_inside: impl Fn(&[f64; D]) -> bool,
+        motion: &RigidMotion<D>,
     ) -> Result<(), ProblemError> {
-        if !(radius >= 0.0 && radius.is_finite()) {
-            let (name, range) = ("radius", "finite and not negative");
-            return Err(ProblemError::BadParameter { name, range });
-        }
-        let axis = turning_axis::<D>(turn, axis)?;
-        // Hold every vertex within the radius.
         let before = self.vertices.len();
         for v in 0..self.body.n_vertices() as u32 {
             let place = self.place(v);
-            let arm: [f64; D] = std::array::from_fn(|k| place[k] - center[k]);
-            if arm.iter().map(|x| x * x).sum::<f64>() <= radius * radius {
+            if is_inside(&place) {
                 self.vertices.push(v);
                 self.paths.push(TurningPath {
-                    from: center,
-                    to,
-                    arm,
-                    spin: Matrix::<D>::about(axis, turn.to_radians()),
+                    from: motion.center,
+                    to: motion.to,
+                    arm: std::array::from_fn(|k| place[k] - motion.center[k]),
+                    spin: Matrix::<D>::about(motion.axis, motion.degrees.to_radians()),
                 });
             }
         }
@@ -263,16 +307,26 @@ where
             return Err(ProblemError::HandleOutside { handle: index });
         }
         // Keep the turn, for the stations and for the count of turns left.
-        if turn != 0.0 {
+        if motion.degrees != 0.0 {
             self.turns.push(Turned {
                 handle: index,
                 vertices: self.vertices[before..].to_vec(),
-                axis,
-                degrees: turn,
+                axis: motion.axis,
+                degrees: motion.degrees,
             });
         }
         Ok(())
     }
+}
+
+/// Where the center of a region goes, and the turn about it.
+struct RigidMotion<const D: usize> {
+    center: [f64; D],
+    to: [f64; D],
+    /// Counter-clockwise, seen against the axis.
+    degrees: f64,
+    /// Unit vector; zero in the plane.
+    axis: [f64; 3],
 }
 
 /// Returns the unit vector to turn about; zero in the plane, where no axis may be given.

@@ -7,7 +7,7 @@ use super::problem::{Model, Problem, Units};
 use super::problem_error::ProblemError;
 use super::solve::Solution;
 use serde::Serialize;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use unwrapd_method::barrier::epsilon;
 use unwrapd_method::energy::Row;
 use unwrapd_method::solver::{Handles, LevenbergSettings, Settings, Status, Watch};
@@ -106,23 +106,16 @@ impl Holds {
         heaviest.map_or(Grip::Fixed, |&(vertex, _)| Grip::Vertex(vertex))
     }
 
-    /// Returns one aim per pulled vertex, then one per point.
-    fn aims(&self) -> Vec<Aim> {
-        let vertices = self.pulled.iter().map(|hold| Aim::at_vertex(hold.0));
-        let points = (0..self.points.len()).map(Aim::at_point);
-        vertices.chain(points).collect()
-    }
-
-    /// Converts unreached [aims](Self::aims) to the caller's handles, with distances in the caller's unit.
-    fn named(&self, unreached: Vec<Unreached>, unit: f64) -> Vec<Unreached> {
-        let handles = [&self.of_vertices[..], &self.of_points].concat();
-        let named = unreached.into_iter().map(|aim| Unreached {
-            handle: handles[aim.handle],
-            distance: aim.distance * unit,
-        });
-        let mut named: Vec<Unreached> = named.collect();
-        named.sort_by_key(|unreached| unreached.handle);
-        named
+    /// Returns the vertices and points that each of the caller's handles pulls, by the number of the handle.
+    fn aims(&self) -> BTreeMap<usize, Aim> {
+        let mut aims: BTreeMap<usize, Aim> = BTreeMap::new();
+        for (handle, (vertex, _)) in self.of_vertices.iter().zip(&self.pulled) {
+            aims.entry(*handle).or_default().vertices.push(*vertex);
+        }
+        for (point, handle) in self.of_points.iter().enumerate() {
+            aims.entry(*handle).or_default().points.push(point);
+        }
+        aims
     }
 
     /// Returns the handles of all fixed and pulled vertices and points. Fixed vertices form a group of their own, so
@@ -167,13 +160,20 @@ pub(super) fn pull(
 ) -> Result<PulledMap, ProblemError> {
     // Pull, and collect the handles that did not arrive.
     let (handles, unit) = (holds.handles(&body, start)?, how.unit);
+    let aims = holds.aims();
     let problem = Problem {
-        aims: holds.aims(),
+        aims: aims.values().cloned().collect(),
         search: how.search,
         ..pulled(body, start, handles, how.model)?
     };
     let solution = problem.approach(&Settings::follow(), watch)?;
-    let unreached = holds.named(problem.unreached(&solution), unit);
+    let numbers: Vec<usize> = aims.into_keys().collect();
+    let unreached = problem.unreached(&solution).into_iter();
+    let unreached = unreached.map(|aim| Unreached {
+        handle: numbers[aim.handle],
+        distance: aim.distance * unit,
+    });
+    let unreached: Vec<Unreached> = unreached.collect();
     // Move the vertices that arrived onto their targets, exactly.
     let mut vertices = solution.x.as_chunks::<2>().0.to_vec();
     arrive(&mut vertices, &problem.stations[0]);

@@ -102,9 +102,10 @@ impl Editable for LiveBody {
 
     fn retarget(handle: &mut Handle, target: &[f64]) {
         match handle {
-            Handle::Vertex { to, .. } | Handle::Disc { to, .. } | Handle::Point { to, .. } => {
-                *to = target.to_vec();
-            }
+            Handle::Vertex { to, .. }
+            | Handle::Disc { to, .. }
+            | Handle::Box { to, .. }
+            | Handle::Point { to, .. } => *to = target.to_vec(),
         }
     }
 

@@ -4,11 +4,12 @@
 //! draws the deformed picture. [`warp_picture`] does both.
 
 use super::body::{Boundary, locate};
-use super::handles;
+use super::handles::{self, Handle};
 use crate::body::Body;
 use crate::problem::Model;
 use crate::problem_error::ProblemError;
 use crate::pull::{Grip, Holds, How, PullSummary, pull};
+use crate::region::Region;
 use serde::{Deserialize, Serialize};
 use unwrapd_files::picture::{Deformation, Extent, Image, ImageError, Warped, warped};
 use unwrapd_maps::mesh::PlanarMesh;
@@ -46,20 +47,40 @@ impl Default for WarpOptions {
     }
 }
 
-/// A place of a picture and where it goes, in pixels, (0, 0) the upper left corner, y down.
+/// A part of a picture and where it goes, in pixels, (0, 0) the upper left corner, y down.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-#[serde(deny_unknown_fields)]
-pub struct PictureHandle {
-    /// A place in the picture.
-    #[serde(deserialize_with = "handles::planar")]
-    pub at: [f64; 2],
-    /// Where it goes.
-    #[serde(deserialize_with = "handles::planar")]
-    pub to: [f64; 2],
+#[serde(untagged, deny_unknown_fields)]
+pub enum PictureHandle {
+    /// A point.
+    Point {
+        /// A place in the picture.
+        #[serde(deserialize_with = "handles::planar")]
+        at: [f64; 2],
+        /// Where it goes.
+        #[serde(deserialize_with = "handles::planar")]
+        to: [f64; 2],
+    },
+    /// A disc or a box that keeps its shape.
+    Region(Region),
 }
 
-/// Parses `{"handles": [{"at": [x, y], "to": [x, y]}, …]}`.
+/// Returns the handle of the grid, a body in pixels.
+impl From<PictureHandle> for Handle {
+    fn from(handle: PictureHandle) -> Self {
+        match handle {
+            PictureHandle::Point { at, to } => Self::Point {
+                at: at.to_vec(),
+                to: to.to_vec(),
+            },
+            // y points down.
+            PictureHandle::Region(region) => region.mirrored().into(),
+        }
+    }
+}
+
+/// Parses `{"handles": [{"at": [x, y], "to": [x, y]}, {"center": [x, y], "radius": r, "to": [x, y], "turn": degrees},
+/// {"low": [x, y], "high": [x, y], "to": [x, y]}, …]}`.
 pub fn parse_handles(json: &[u8]) -> Result<Vec<PictureHandle>, WarpError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -84,9 +105,14 @@ pub enum WarpError {
     /// A handle is not in the picture.
     #[error("handle {0} lies outside the picture")]
     HandleOutside(usize),
-    /// The target of a handle is not a position.
-    #[error("the target of handle {0} must be two finite numbers up to 1e9 pixels")]
+    /// The target of a handle is not a position, or a region has no size or turns too far.
+    #[error(
+        "handle {0} must have finite numbers up to 1e9 pixels, low below high, and turn by at most 180 degrees"
+    )]
     BadTarget(usize),
+    /// A region holds no vertex that may move.
+    #[error("handle {0} holds no vertex of the grid inside its border; it needs more cells")]
+    EmptyRegion(usize),
     /// All vertices of the grid are on its border, which is fixed.
     #[error("the grid has no vertex inside its border")]
     NothingInside,
@@ -109,6 +135,7 @@ impl WarpError {
             Self::HandleCount(_) => "handle_count",
             Self::HandleOutside(_) => "handle_outside",
             Self::BadTarget(_) => "bad_target",
+            Self::EmptyRegion(_) => "empty_region",
             Self::NothingInside => "grid_too_coarse",
             Self::Grid(error) => error.code(),
             Self::Image(error) => error.code(),
@@ -132,7 +159,7 @@ pub struct PictureWarp {
 
 /// Warps a picture: deforms a grid over it without inverting a triangle while the handles go to their targets.
 ///
-/// A handle pulls its own point. Only next to a fixed border, where most of a point's weight is fixed, it pulls the
+/// A point pulls itself, a region the vertices of the grid inside it, but not those of a fixed border. Only next to a fixed border, where most of a point's weight is fixed, it pulls the
 /// nearest free vertex instead, whose target is the handle's shifted by the same offset. Handles at one place must
 /// agree. Targets that cannot be reached end in
 /// [`Status::TargetsUnreachable`](unwrapd_method::solver::Status::TargetsUnreachable) with a valid map, and
@@ -199,20 +226,35 @@ fn warp_grid(
             .held(grid.vertices().len(), grid.triangles()),
     );
     for (index, handle) in handles.iter().enumerate() {
-        let is_inside = (0..2).all(|k| (0.0..=size[k]).contains(&handle.at[k]));
-        if !is_inside {
+        let (place, is_valid) = match handle {
+            PictureHandle::Point { at, to } => (*at, to.iter().all(|x| x.abs() <= FARTHEST)),
+            PictureHandle::Region(region) => (region.center(), region.is_valid(FARTHEST)),
+        };
+        if !(0..2).all(|k| (0.0..=size[k]).contains(&place[k])) {
             return Err(WarpError::HandleOutside(index));
         }
-        if !handle.to.iter().all(|x| x.abs() <= FARTHEST) {
+        if !is_valid {
             return Err(WarpError::BadTarget(index));
         }
-        take_hold(
-            &mut holds,
-            &body,
-            index,
-            to_unit(handle.at),
-            to_unit(handle.to),
-        )?;
+        match *handle {
+            PictureHandle::Point { at, to } => {
+                take_hold(&mut holds, &body, index, to_unit(at), to_unit(to))?;
+            }
+            PictureHandle::Region(region) => {
+                let region = region.mirrored();
+                let inside =
+                    |v: &u32| !holds.is_fixed(*v) && region.contains(grid.vertices()[*v as usize]);
+                let vertices = (0..grid.vertices().len() as u32).filter(inside);
+                let vertices: Vec<u32> = vertices.collect();
+                if vertices.is_empty() {
+                    return Err(WarpError::EmptyRegion(index));
+                }
+                for v in vertices {
+                    let to = region.moved(grid.vertices()[v as usize]);
+                    holds.pull_vertex(index, v, to_unit(to));
+                }
+            }
+        }
     }
     // Pull, and convert back to pixels.
     let how = How {

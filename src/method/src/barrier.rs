@@ -45,7 +45,7 @@ pub enum BarrierKind {
     /// The inverse spline of the paper. No element inverts, and elements of ordinary size do not feel it.
     #[default]
     #[serde(alias = "spline", alias = "inverse_spline")]
-    #[cfg_attr(feature = "schema", value(alias = "inverse_spline"))]
+    #[cfg_attr(feature = "schema", value(aliases = ["inverse_spline", "spline"]))]
     InverseSpline,
     /// The augmented logarithm.
     #[serde(alias = "auglog", alias = "augmented_log")]

@@ -75,7 +75,7 @@ pub fn impossible((body, handles): (Body, Vec<Handle>)) {
             let squares = place.iter().zip(to).map(|(x, t)| (x - t) * (x - t));
             squares.sum::<f64>().sqrt()
         }
-        Handle::Disc { .. } | Handle::Point { .. } => f64::NAN,
+        Handle::Disc { .. } | Handle::Box { .. } | Handle::Point { .. } => f64::NAN,
     };
     let easy: Vec<f64> = handles[1..5].iter().map(distance).collect();
     println!(

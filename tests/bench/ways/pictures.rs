@@ -82,7 +82,9 @@ pub fn crowded(n: u64) {
 
 fn paired(at: &[[f64; 2]], to: &[[f64; 2]]) -> Vec<PictureHandle> {
     let pairs = at.iter().zip(to);
-    pairs.map(|(&at, &to)| PictureHandle { at, to }).collect()
+    pairs
+        .map(|(&at, &to)| PictureHandle::Point { at, to })
+        .collect()
 }
 
 /// Random pictures.

@@ -5,7 +5,10 @@ use super::map::{EditError, MOST_ANCHORS, UvMap, UvMesh};
 use crate::body::{Body, Boundary, locate};
 use crate::handles;
 use crate::pull::{Grip, Holds};
+use crate::region::Region;
 use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use unwrapd_maps::mesh::PlanarMesh;
 use unwrapd_maps::plane::segment_distance;
 use unwrapd_method::numerics::predicates::orient2d_sign;
@@ -16,7 +19,7 @@ const FARTHEST: f64 = 1e6;
 /// Distance by which an anchor may lie outside a chart: a texel of a texture of 1024, the accuracy of a pointer.
 const OUTSIDE: f64 = 1e-3;
 
-/// A vertex of a UV map and where it goes, in the numbers of the map.
+/// A part of a UV map and where it goes, in the numbers of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(untagged, deny_unknown_fields)]
@@ -39,10 +42,32 @@ pub enum Anchor {
         #[serde(deserialize_with = "handles::planar")]
         to: [f64; 2],
     },
+    /// A disc or a box that keeps its shape: its vertices in the chart in which its center lies.
+    Region(Region),
 }
 
-/// Parses `{"anchors": [{"vertex": i, "to": [u, v]}, {"at": [u, v], "to": [u, v]}, …]}`; `points` is another name of
-/// `anchors`.
+impl Anchor {
+    /// Changes the target.
+    pub(super) fn retarget(&mut self, target: [f64; 2]) {
+        match self {
+            Self::Vertex { to, .. } | Self::Place { to, .. } => *to = target,
+            Self::Region(region) => region.retarget(target),
+        }
+    }
+
+    /// Returns whether every number is finite, none exceeds [`FARTHEST`], and a region is one.
+    fn is_valid(&self) -> bool {
+        let are_near = |place: &[f64; 2]| place.iter().all(|x| x.abs() <= FARTHEST);
+        match self {
+            Self::Vertex { to, .. } => are_near(to),
+            Self::Place { at, to } => are_near(at) && are_near(to),
+            Self::Region(region) => region.is_valid(FARTHEST),
+        }
+    }
+}
+
+/// Parses `{"anchors": [{"vertex": i, "to": [u, v]}, {"at": [u, v], "to": [u, v]}, {"center": [u, v], "radius": r,
+/// "to": [u, v], "turn": degrees}, …]}`; `points` is another name of `anchors`.
 pub fn parse_anchors(json: &[u8]) -> Result<Vec<Anchor>, EditError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -64,12 +89,25 @@ pub(super) struct Held {
 }
 
 /// The spot that an anchor holds.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 pub(super) enum Spot {
     /// A vertex of the UV map.
     Vertex(u32),
     /// A UV in a chart.
     Place { chart: u32, at: [f64; 2] },
+}
+
+/// A vertex, or a chart with the bits of a UV: equal for equal spots.
+type SpotKey = (u32, Option<[u64; 2]>);
+
+impl Spot {
+    fn key(self) -> SpotKey {
+        match self {
+            Self::Vertex(vertex) => (vertex, None),
+            // 0 and −0 are one place.
+            Self::Place { chart, at } => (chart, Some(at.map(|x| (x + 0.0).to_bits()))),
+        }
+    }
 }
 
 /// Finds the spots that anchors hold, each spot once.
@@ -83,32 +121,59 @@ pub(super) fn hold(
         return Err(EditError::HandleCount(anchors.len()));
     }
     let mut held: Vec<Held> = Vec::with_capacity(anchors.len());
+    let mut place_of: HashMap<SpotKey, usize> = HashMap::new();
     for (anchor, which) in anchors.iter().enumerate() {
-        let (at, to) = match *which {
-            Anchor::Vertex { to, .. } => ([0.0; 2], to),
-            Anchor::Place { at, to } => (at, to),
-        };
-        if !at.iter().chain(&to).all(|x| x.abs() <= FARTHEST) {
+        if !which.is_valid() {
             return Err(EditError::BadTarget(anchor));
         }
-        // Find the spot.
-        let (spot, to) = match *which {
+        // Find the spots.
+        let spots = match *which {
             Anchor::Vertex { vertex, to } => {
                 let vertex = only_vertex(mesh, map, vertices, anchor, vertex)?;
-                (Spot::Vertex(vertex), to)
+                vec![(Spot::Vertex(vertex), to)]
             }
             Anchor::Place { at, to } => {
-                place(map, vertices, at, to).ok_or(EditError::Outside(anchor))?
+                vec![place(map, vertices, at, to).ok_or(EditError::Outside(anchor))?]
+            }
+            Anchor::Region(region) => {
+                let chart = chart_at(map, region.center()).ok_or(EditError::Outside(anchor))?;
+                let spots = inside(map, vertices, chart, &region);
+                if spots.is_empty() {
+                    return Err(EditError::EmptyRegion(anchor));
+                }
+                spots
             }
         };
         // Hold each spot once; anchors at one spot must agree on the target.
-        match held.iter().find(|other| other.spot == spot) {
-            None => held.push(Held { anchor, spot, to }),
-            Some(same) if same.to == to => {}
-            Some(other) => return Err(EditError::Contradictory(other.anchor, anchor)),
+        for (spot, to) in spots {
+            match place_of.entry(spot.key()) {
+                Entry::Vacant(entry) => {
+                    entry.insert(held.len());
+                    held.push(Held { anchor, spot, to });
+                }
+                Entry::Occupied(entry) => {
+                    let other = &held[*entry.get()];
+                    if other.to != to {
+                        return Err(EditError::Contradictory(other.anchor, anchor));
+                    }
+                }
+            }
         }
     }
     Ok(held)
+}
+
+/// Returns the vertices of a chart in a region, with their targets.
+fn inside(
+    map: &UvMap,
+    vertices: &UvVertices,
+    chart: u32,
+    region: &Region,
+) -> Vec<(Spot, [f64; 2])> {
+    usable_vertices(map, vertices)
+        .filter(|&(v, uv)| vertices.chart(map, v) == chart && region.contains(uv))
+        .map(|(v, uv)| (Spot::Vertex(v), region.moved(uv)))
+        .collect()
 }
 
 /// Returns the only vertex of the UV map at a vertex of the mesh.
@@ -162,11 +227,18 @@ fn distance_from_faces(map: &UvMap, at: [f64; 2]) -> f64 {
 
 /// Returns the vertex nearest to a UV and its own UV; the first of equally near ones.
 fn nearest_vertex(map: &UvMap, vertices: &UvVertices, at: [f64; 2]) -> Option<(u32, [f64; 2])> {
-    let usable = (0..vertices.first_corner.len() as u32)
-        .filter(|&v| !map.unusable[vertices.first_corner[v as usize] as usize / 3])
-        .map(|v| (v, vertices.uv(map, v)));
     let distance = |uv: [f64; 2]| (uv[0] - at[0]).hypot(uv[1] - at[1]);
-    usable.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))
+    usable_vertices(map, vertices).min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))
+}
+
+/// Iterates over the vertices that have a finite UV, and those UVs.
+fn usable_vertices<'a>(
+    map: &'a UvMap,
+    vertices: &'a UvVertices,
+) -> impl Iterator<Item = (u32, [f64; 2])> + 'a {
+    (0..vertices.first_corner.len() as u32)
+        .filter(|&v| !map.unusable[vertices.first_corner[v as usize] as usize / 3])
+        .map(|v| (v, vertices.uv(map, v)))
 }
 
 /// Returns the chart of the first face that contains a UV.

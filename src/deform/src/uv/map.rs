@@ -204,9 +204,14 @@ pub enum EditError {
     /// There are no anchors, or too many.
     #[error("there are {0} anchors; 1 to {MOST_ANCHORS} are allowed")]
     HandleCount(usize),
-    /// A number of an anchor is not finite or beyond 1e6.
-    #[error("anchor {0} has a coordinate that is not finite or exceeds 1e6")]
+    /// A number of an anchor is not finite or beyond 1e6, or a region has no size or turns too far.
+    #[error(
+        "anchor {0} must have finite numbers up to 1e6, low below high, and turn by at most 180 degrees"
+    )]
     BadTarget(usize),
+    /// No vertex lies in a region.
+    #[error("anchor {0} holds no vertex of its chart")]
+    EmptyRegion(usize),
     /// An anchor's vertex has no UV.
     #[error("anchor {0} names a vertex without UVs")]
     UnknownHandle(usize),
@@ -253,6 +258,7 @@ impl EditError {
             Self::Outside(_) => "handle_outside",
             Self::AmbiguousVertex(_) => "ambiguous_vertex",
             Self::Contradictory(..) => "contradictory_handles",
+            Self::EmptyRegion(_) => "empty_region",
             Self::OnBoundary(_) => "anchor_on_boundary",
             Self::Flipped { .. } => "flipped_uvs",
             Self::Nonorientable { .. } => "nonorientable_chart",

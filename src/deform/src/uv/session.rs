@@ -129,9 +129,8 @@ impl Editable for LiveUvs {
     type Error = EditError;
 
     fn retarget(anchor: &mut Anchor, target: &[f64]) {
-        let (Anchor::Vertex { to, .. } | Anchor::Place { to, .. }) = anchor;
         // What is not two numbers is not a target.
-        *to = <[f64; 2]>::try_from(target).unwrap_or([f64::NAN; 2]);
+        anchor.retarget(<[f64; 2]>::try_from(target).unwrap_or([f64::NAN; 2]));
     }
 
     fn no_such_handle(HandleId(number): HandleId) -> EditError {

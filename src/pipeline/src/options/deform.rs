@@ -29,10 +29,10 @@ options! {
         pub split: bool;
     }
     files {
-        /// Handles and their targets. A handle is a vertex, a point inside an element, or a disc of
-        /// vertices: {"handles": [{"vertex": 0, "to": [x, y]}, {"at": [x, y], "to": …}, {"center":
-        /// …, "radius": r, "to": …, "turn": degrees, "axis": …}]}. A disc may turn by any angle, in
-        /// space about an axis.
+        /// Handles and their targets. A handle is a vertex, a point inside an element, or a disc or a
+        /// box of vertices: {"handles": [{"vertex": 0, "to": [x, y]}, {"at": [x, y], "to": …},
+        /// {"center": …, "radius": r, "to": …, "turn": degrees, "axis": …}, {"low": …, "high": …,
+        /// "to": …}]}. A disc or a box may turn by any angle, in space about an axis.
         pub handles: Vec<Handle>;
         /// Record the map of every iteration. Over HTTP these become files beside the result, at
         /// most 256 MiB. Not available for gltf, which consists of several files.

@@ -32,8 +32,11 @@ options! {
     }
     files {
         /// Anchors of the map and their targets: {"anchors": [{"vertex": i, "to": [u, v]}, {"at":
-        /// [u, v], "to": …}, …]}. All UVs are as in the file; in glTF, v points down. `at` selects
-        /// the point of the surface with this UV. `points` is another name for this list.
+        /// [u, v], "to": …}, {"center": [u, v], "radius": r, "to": …, "turn": degrees}, {"low": [u,
+        /// v], "high": [u, v], "to": …}, …]}. All UVs are as in the file; in glTF, v points down. `at`
+        /// selects the point of the surface with this UV. A disc or a box keeps its shape: it has
+        /// the vertices in it that belong to the chart of its center, and turns by at most 180
+        /// degrees, from u to v. `points` is another name for this list.
         pub anchors: Vec<Anchor>, also "points";
         /// Format of the result.
         pub format: OutputFormat = OutputFormat::Glb;
@@ -95,10 +98,12 @@ options! {
         pub fix_border: bool;
     }
     files {
-        /// Points of the picture and their targets, in pixels, y down: {"handles": [{"at": [x, y],
-        /// "to": [x, y]}, …]}.
+        /// Points, discs and boxes of the picture and their targets, in pixels, y down: {"handles":
+        /// [{"at": [x, y], "to": [x, y]}, {"center": [x, y], "radius": r, "to": [x, y], "turn":
+        /// degrees}, {"low": [x, y], "high": [x, y], "to": [x, y]}, …]}.
         ///
-        /// Each handle moves its exact point. Next to a fixed border it moves the nearest inner
+        /// A disc or a box keeps its shape; `to` is where its middle goes, and it turns by at most
+        /// 180 degrees, counter-clockwise as seen. Each point moves exactly. Next to a fixed border it moves the nearest inner
         /// vertex of the grid by the same offset.
         pub handles: Vec<PictureHandle>;
     }

@@ -255,7 +255,7 @@ codes! {
 // Codes of invalid inputs. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Codes with their meanings.
-pub(super) const CAUSES: [(&str, &str); 68] = [
+pub(super) const CAUSES: [(&str, &str); 69] = [
     // Handles.
     ("malformed_handles", "The list of handles cannot be parsed"),
     ("no_handle", "There is no handle"),
@@ -291,6 +291,10 @@ pub(super) const CAUSES: [(&str, &str); 68] = [
     (
         "anchor_on_boundary",
         "An anchor moves a vertex of a fixed boundary",
+    ),
+    (
+        "empty_region",
+        "A disc or box of a handle holds no vertex that may move",
     ),
     (
         "grid_too_coarse",

@@ -246,9 +246,8 @@ impl Edited for BodyView {
         match self.format {
             HandleFormat::Body => parsed(handle),
             HandleFormat::Picture => {
-                let PictureHandle { at, to } = parsed(handle)?;
-                let (at, to) = (at.to_vec(), to.to_vec());
-                Ok(Handle::Point { at, to })
+                let handle: PictureHandle = parsed(handle)?;
+                Ok(handle.into())
             }
             HandleFormat::Cage => match parsed(handle)? {
                 Handle::Vertex { .. } => {
