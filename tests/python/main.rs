@@ -45,6 +45,7 @@ native::tests_of_files!(
         readme,
         session,
         trimesh,
+        untangle,
         words,
         xatlas
     ]

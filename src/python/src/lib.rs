@@ -15,6 +15,7 @@ mod files;
 mod meshes;
 mod problem;
 mod session;
+mod untangle;
 
 #[cfg(unix)]
 use std::ffi::OsString;
@@ -47,6 +48,8 @@ mod unwrapd_native {
     use super::run_command;
     #[pymodule_export]
     use super::session::PySession;
+    #[pymodule_export]
+    use super::untangle::untangle;
 
     #[pymodule_export]
     #[allow(non_upper_case_globals, reason = "Python's name for it")]

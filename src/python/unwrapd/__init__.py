@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from ._problem import Problem, Solution
     from ._progress import JobProgress
     from ._session import Session
+    from ._untangle import Untangled, untangle
 
 __version__: str = _native.__version__
 
@@ -51,6 +52,7 @@ _MODULES = {
     "_problem": ("Problem", "Solution"),
     "_progress": ("JobProgress",),
     "_session": ("Session",),
+    "_untangle": ("Untangled", "untangle"),
 }
 
 
@@ -92,12 +94,14 @@ __all__ = [
     "ServiceError",
     "Session",
     "Solution",
+    "Untangled",
     "bake",
     "measure",
     "measure_file",
     "options",
     "repack",
     "repack_file",
+    "untangle",
     "unwrap",
     "unwrap_bytes",
     "unwrap_file",
