@@ -154,3 +154,11 @@ def test_an_atlas_can_be_pickled(pyramid):
 def test_threads_do_not_change_the_result(sheet):
     one = unwrapd.unwrap(*sheet(30), threads=1)
     assert (one.uvs == unwrapd.unwrap(*sheet(30), threads=2).uvs).all()
+
+
+def test_words_may_have_underscores_in_the_place_of_hyphens(pyramid):
+    uvs = pyramid[0][:, :2]
+    atlas = unwrapd.unwrap(*pyramid, uvs=uvs, cut="keep", kept_maps="as_given")
+    assert atlas.report["options"]["kept_maps"] == "as-given"
+    with pytest.raises(unwrapd.InvalidOptions, match="kept_maps"):
+        unwrapd.unwrap(*pyramid, kept_maps="as_givn")

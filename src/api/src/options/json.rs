@@ -25,7 +25,8 @@ where
     }
 }
 
-/// Removes an option from an object by one of its names and returns its value, or the default if it is absent.
+/// Removes an option from an object by one of its names and returns its value, or the default if it is absent. A word
+/// may have underscores in the place of its hyphens.
 pub fn taken<T: DeserializeOwned>(
     given: &mut Object,
     names: &[&str],
@@ -34,7 +35,14 @@ pub fn taken<T: DeserializeOwned>(
     let Some((name, value)) = names.iter().find_map(|name| given.remove_entry(*name)) else {
         return Ok(default);
     };
-    serde_json::from_value(value).map_err(|error| format!("`{name}`: {error}"))
+    let hyphenated = value.as_str().map(|word| word.replace('_', "-"));
+    serde_json::from_value(value)
+        .or_else(|error| {
+            let word = hyphenated.map(Value::String);
+            word.and_then(|word| serde_json::from_value(word).ok())
+                .ok_or(error)
+        })
+        .map_err(|error| format!("`{name}`: {error}"))
 }
 
 // The trait of all sets of options.
