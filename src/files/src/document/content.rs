@@ -72,12 +72,33 @@ impl Document {
         }
     }
 
-    /// Returns the index of a material with this name, or else with this number; files other than glTF are read without
-    /// materials.
+    /// Returns the index of a material with this name, or else with this number. Materials of OBJ are those that it
+    /// uses, in the order of their first uses; OFF, PLY and STL have none.
     pub fn material(&self, name: &str) -> Option<usize> {
         match self {
             Self::Gltf(document) => document.material(name),
-            Self::Obj(_) | Self::Soup(_) => None,
+            Self::Obj(document) => document.material(name),
+            Self::Soup(_) => None,
+        }
+    }
+
+    /// Returns the material of each face of a primitive; `None` for a face without one.
+    pub fn face_materials(&self, primitive: usize) -> Vec<Option<usize>> {
+        match self {
+            Self::Obj(document) => document.face_materials(),
+            Self::Gltf(_) | Self::Soup(_) => {
+                let primitive = &self.primitives()[primitive];
+                vec![primitive.material; primitive.triangles.len()]
+            }
+        }
+    }
+
+    /// Returns the color of each vertex of a primitive, linear and with alpha; `None` if it has none.
+    pub fn vertex_colors(&self, primitive: usize) -> Result<Option<Vec<[f32; 4]>>, DocumentError> {
+        match self {
+            Self::Gltf(document) => document.vertex_colors(primitive),
+            Self::Obj(document) => Ok(document.vertex_colors()),
+            Self::Soup(document) => Ok(document.colors().map(<[_]>::to_vec)),
         }
     }
 

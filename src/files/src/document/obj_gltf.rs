@@ -14,6 +14,25 @@ impl ObjDocument {
     pub(super) fn to_gltf(&self, old_uvs: OldUvs) -> Result<Conversion, DocumentError> {
         convert(self, old_uvs)
     }
+
+    /// Returns the index of a material with this name, or else with this number, in the order of first uses.
+    pub fn material(&self, name: &str) -> Option<usize> {
+        let names = ObjParts::of(self.bytes()).materials;
+        let named = names.iter().position(|known| known == name);
+        named.or_else(|| name.parse().ok().filter(|&index| index < names.len()))
+    }
+
+    /// Returns the material of each triangle; `None` for one without.
+    pub fn face_materials(&self) -> Vec<Option<usize>> {
+        let parts = parts_of_faces(self, &ObjParts::of(self.bytes()));
+        let materials = parts.iter().map(|part| part.material);
+        materials.map(|material| Some(material? as usize)).collect()
+    }
+
+    /// Returns the color of each vertex, linear; `None` if no vertex has one.
+    pub fn vertex_colors(&self) -> Option<Vec<Color>> {
+        ObjParts::of(self.bytes()).colors
+    }
 }
 
 /// Converts the document to glTF.

@@ -105,33 +105,40 @@ fn part<'a>(
                 .map(|face: [[f64; 3]; 3]| face.map(|normal| normal.map(|x| x as f32 + 0.0)))
                 .collect()
         }),
-        colors: colors(document, body, index)?,
+        colors: document.colors_in(body, index)?,
     })
 }
 
-/// Reads `COLOR_0`, if it is a color.
-fn colors(
-    document: &GltfDocument,
-    body: &GltfBody,
-    index: usize,
-) -> Result<Option<Vec<Color>>, DocumentError> {
-    let attributes = &document.object(&document.primitives[index])?["attributes"];
-    let Some(accessor) = unsigned(attributes, "COLOR_0")? else {
-        return Ok(None);
-    };
-    let accessor = Accessor::open(body, accessor)?;
-    let n_channels = match (accessor.is("VEC3"), accessor.is("VEC4")) {
-        (true, _) => 3,
-        (_, true) => 4,
-        _ => return Ok(None),
-    };
-    let values = accessor.values()?;
-    let all: Vec<Color> = values.chunks_exact(n_channels).map(from_linear).collect();
-    let own = match &document.used[index] {
-        Some(used) => used.iter().map(|&v| all[v as usize]).collect(),
-        None => all,
-    };
-    Ok(Some(own))
+impl GltfDocument {
+    /// Returns the colors of a primitive's vertices, linear; `None` if it has none.
+    pub fn vertex_colors(&self, index: usize) -> Result<Option<Vec<Color>>, DocumentError> {
+        self.colors_in(&self.body, index)
+    }
+
+    /// Reads `COLOR_0` from a body, if it is a color.
+    fn colors_in(
+        &self,
+        body: &GltfBody,
+        index: usize,
+    ) -> Result<Option<Vec<Color>>, DocumentError> {
+        let attributes = &self.object(&self.primitives[index])?["attributes"];
+        let Some(accessor) = unsigned(attributes, "COLOR_0")? else {
+            return Ok(None);
+        };
+        let accessor = Accessor::open(body, accessor)?;
+        let n_channels = match (accessor.is("VEC3"), accessor.is("VEC4")) {
+            (true, _) => 3,
+            (_, true) => 4,
+            _ => return Ok(None),
+        };
+        let values = accessor.values()?;
+        let all: Vec<Color> = values.chunks_exact(n_channels).map(from_linear).collect();
+        let own = match &self.used[index] {
+            Some(used) => used.iter().map(|&v| all[v as usize]).collect(),
+            None => all,
+        };
+        Ok(Some(own))
+    }
 }
 
 fn material_of(
