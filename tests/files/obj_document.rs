@@ -50,7 +50,6 @@ fn new_uvs(faces: &GridFaces) -> NewUvs {
     let faces = faces.iter().map(|face| face.map(|uv| uv.map(unit)));
     NewUvs {
         layout: Layout::New,
-        pages: 1,
         v_axis: VAxis::Up,
         corners: vec![Some(faces.collect())],
     }

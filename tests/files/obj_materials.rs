@@ -50,7 +50,6 @@ fn written(document: &Document, format: OutputFormat, layout: Layout) -> Written
     let primitives = document.primitives().iter();
     let uvs = NewUvs {
         layout,
-        pages: 1,
         v_axis: VAxis::Up,
         corners: primitives.map(|p| some_uvs(p.triangles.len())).collect(),
     };

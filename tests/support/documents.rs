@@ -89,7 +89,6 @@ pub fn new_uvs(grid: &[Vec<[[i32; 2]; 3]>], bits: u32) -> NewUvs {
     };
     NewUvs {
         layout: Layout::New,
-        pages: 1,
         v_axis: VAxis::Up,
         corners: grid.iter().map(corners).collect(),
     }

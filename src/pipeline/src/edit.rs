@@ -188,7 +188,6 @@ fn new_uvs(document: &Document, whole: &Whole, edited: &EditedUvs) -> NewUvs {
     };
     NewUvs {
         layout: Layout::Edited,
-        pages: 1,
         v_axis: document.v_axis(),
         corners: whole.n_faces.iter().map(|n| n.map(&mut next)).collect(),
     }

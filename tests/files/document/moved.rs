@@ -35,7 +35,6 @@ impl SpaceMap for QuarterTurn {
 fn write(document: &Document, format: OutputFormat) -> Written {
     let no_uvs = NewUvs {
         layout: Layout::Edited,
-        pages: 1,
         v_axis: document.v_axis(),
         corners: vec![None; document.primitives().len()],
     };

@@ -13,8 +13,6 @@ pub type Corners = [[f32; 2]; 3];
 pub struct NewUvs {
     /// Relation to the set that it replaces.
     pub layout: Layout,
-    /// Number of unit squares side by side along u that a new layout may cover.
-    pub pages: u32,
     /// Direction of v in these numbers; 1 − v is written if that of the file is opposite.
     pub v_axis: VAxis,
     /// For each primitive of the document the UVs of each corner of each face; `None` if the primitive takes no part.
@@ -31,32 +29,11 @@ pub enum Layout {
 }
 
 impl NewUvs {
-    /// Checks that there is one entry per primitive and one corner triple per face, all finite and in a new layout on
-    /// its pages.
+    /// Checks that there is one entry per primitive and one corner triple per face, all finite.
     pub(super) fn check(&self, primitives: &[Primitive]) -> Result<(), DocumentError> {
-        let fits = self.corners.len() == primitives.len()
-            && self
-                .corners
-                .iter()
-                .zip(primitives)
-                .all(|(corners, primitive)| {
-                    corners
-                        .as_ref()
-                        .is_none_or(|corners| corners.len() == primitive.triangles.len())
-                });
-        let mut corners = self.corners.iter().flatten();
-        if fits
-            && corners.all(|c| {
-                c.as_flattened()
-                    .iter()
-                    .all(|[u, v]: &[f32; 2]| match self.layout {
-                        Layout::New => {
-                            (0.0..=self.pages as f32).contains(u) && (0.0..=1.0).contains(v)
-                        }
-                        Layout::Edited => u.is_finite() && v.is_finite(),
-                    })
-            })
-        {
+        let is_complete = self.corners.len() == primitives.len();
+        let mut all = self.corners.iter().zip(primitives);
+        if is_complete && all.all(|(corners, primitive)| fit(corners.as_deref(), primitive)) {
             Ok(())
         } else {
             Err(DocumentError::InvalidUvs)
@@ -74,6 +51,14 @@ impl NewUvs {
         };
         Some(corners.iter().map(|face| face.map(turned)).collect())
     }
+}
+
+/// Returns whether there is a finite corner triple for each face, if there are any.
+fn fit(corners: Option<&[Corners]>, primitive: &Primitive) -> bool {
+    corners.is_none_or(|corners| {
+        let mut numbers = corners.as_flattened().as_flattened().iter();
+        corners.len() == primitive.triangles.len() && numbers.all(|x| x.is_finite())
+    })
 }
 
 /// Format of the file to write.

@@ -277,7 +277,6 @@ pub fn moved(
     };
     let no_uvs = NewUvs {
         layout: Layout::Edited,
-        pages: 1,
         v_axis: moved.v_axis(),
         corners: vec![None; moved.primitives().len()],
     };

@@ -252,7 +252,6 @@ pub fn new_uvs(
     }
     Ok(NewUvs {
         layout: Layout::New,
-        pages: options.layout.pages,
         v_axis,
         corners,
     })
