@@ -14,8 +14,8 @@ use unwrapd_api::options::help_of;
 use unwrapd_files::document::OutputFormat;
 use unwrapd_maps::certificate::Overlap;
 use unwrapd_pipeline::{
-    self as pipeline, AtlasPicture, CommandOptions, GivenSeams, Island, Mirrored, NamedSeams,
-    Options, Outcome, RepackOptions, Report, repack_document,
+    self as pipeline, AtlasPicture, CommandOptions, GivenSeams, GroupReport, Island, Mirrored,
+    NamedSeams, Options, Outcome, RepackOptions, Report, repack_document,
 };
 use unwrapd_server::jobs::{Gate, Gates};
 use unwrapd_worker::quality_of;
@@ -72,9 +72,28 @@ fn drawn(
 pub(super) fn summarize(outcome: &Outcome) {
     let report = &outcome.report;
     super::measure::print_table(&report.groups);
+    for group in &report.groups {
+        tell_rules(group);
+    }
     warn(&report.warnings);
     if report.certified {
         say(format_args!("certified: {}", report.proven));
+    }
+}
+
+/// Prints what rules for islands did in an atlas.
+fn tell_rules(group: &GroupReport) {
+    for rule in &group.rules {
+        let islands = match rule.islands {
+            1 => "1 island".to_owned(),
+            n => format!("{n} islands"),
+        };
+        let density = rule.texels_per_unit;
+        let density = density.map_or_else(String::new, |t| format!(", {t:.3} texels per unit"));
+        let changed = rule.changed.as_ref();
+        let changed = changed.map_or_else(String::new, |all| format!(", {} changed", all.len()));
+        let (name, rule) = (&group.label, &rule.rule);
+        say(format_args!("{name}: {rule}: {islands}{density}{changed}"));
     }
 }
 

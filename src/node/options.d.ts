@@ -12,6 +12,10 @@ interface Layout {
   stack?: 'off' | 'keep' | 'identical' | 'mirrored';
   /** Permitted rotations of charts in the layout. */
   rotate?: 'any' | 'quarter' | 'none';
+  /** Rules for islands, `SELECTOR: ACTION`, as `material=Glass: lock`. */
+  control?: string[];
+  /** Rectangles that rules can name, `NAME=U,V,U,V`. */
+  rectangle?: string[];
   threads?: number;
 }
 

@@ -5,6 +5,7 @@ mod array_meshes;
 mod build;
 mod caged;
 mod clearance;
+mod control;
 mod cuts_for_fill;
 mod document;
 #[path = "../support/documents.rs"]

@@ -717,6 +717,115 @@ fn islands_stay_where_a_file_puts_them() {
     }
 }
 
+/// The example of the guide does what the guide says.
+#[test]
+fn rules_of_the_guide_hold_for_the_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    // Squares of side .2 in UV and 2 in space, of four materials; two of them are red.
+    let mut lines = Vec::new();
+    let materials = ["glass", "wood", "wood", "trim", "hero"];
+    for (k, material) in materials.iter().enumerate() {
+        let color = if matches!(k, 1 | 2) { "1 0 0" } else { "1 1 1" };
+        for [x, y] in [[0, 0], [1, 0], [1, 1], [0, 1]] {
+            lines.push(format!("v {} {} 0 {color}", 2 * x + 3 * k, 2 * y));
+            let [u, v] = [
+                x as f64 + (k % 4) as f64 * 1.1,
+                y as f64 + (k / 4) as f64 * 1.1,
+            ];
+            lines.push(format!("vt {} {}", 0.05 + 0.2 * u, 0.05 + 0.2 * v));
+        }
+        let n = |corner: usize| 4 * k + corner;
+        lines.push(format!(
+            "usemtl {material}\nf {0}/{0} {1}/{1} {2}/{2} {3}/{3}\n",
+            n(1),
+            n(2),
+            n(3),
+            n(4)
+        ));
+    }
+    let names = ["IN.obj", "OUT.obj", "report.json"].map(|name| (name, path(name)));
+    std::fs::write(&names[0].1, lines.join("\n")).expect("a file");
+    // Run the command as it is written.
+    let guide = include_str!("../../src/cli/guide.md");
+    let command = guide
+        .split("```sh\n")
+        .find(|block| block.starts_with("unwrapd repack IN.obj"));
+    let command = command
+        .and_then(|block| block.split("```").next())
+        .expect("an example");
+    let words = command.replace("\\\n", " ");
+    let words = words
+        .trim()
+        .split('\'')
+        .enumerate()
+        .flat_map(|(k, part)| match k % 2 {
+            0 => part
+                .split_whitespace()
+                .map(str::to_owned)
+                .collect::<Vec<_>>(),
+            _ => vec![part.to_owned()],
+        });
+    let words: Vec<String> = words
+        .skip(1)
+        .map(|word| {
+            names
+                .iter()
+                .find(|(name, _)| *name == word)
+                .map_or(word, |(_, path)| path.clone())
+        })
+        .collect();
+    let run = unwrapd(&words.iter().map(String::as_str).collect::<Vec<_>>());
+    assert_status(&run, 0);
+    let told = String::from_utf8_lossy(&run.stdout);
+    assert!(
+        told.contains("material=hero: density 400: 1 island, 400.0"),
+        "{told}"
+    );
+    // Judge what it wrote.
+    let bytes = std::fs::read(&names[1].1).expect("a file");
+    let document = Document::read(&Upload::single("OUT.obj", bytes)).expect("a file");
+    let faces = document.corner_uvs(0, 0).expect("a set").expect("UVs");
+    let [a, b, c] = faces[0].map(|uv| uv.map(|x| x as f32));
+    assert_eq!([a, b, c], [[0.05, 0.05], [0.25, 0.05], [0.25, 0.25]]);
+    let apart = |f: usize, g: usize| {
+        (faces[f][0][0] - faces[g][0][0]).hypot(faces[f][0][1] - faces[g][0][1])
+    };
+    let side = |f: usize| (faces[f][0][0] - faces[f][1][0]).hypot(faces[f][0][1] - faces[f][1][1]);
+    assert!(
+        (apart(2, 4) / side(2) - 1.1).abs() < 1e-4,
+        "{}",
+        apart(2, 4) / side(2)
+    );
+    assert!(faces[6..8].as_flattened().iter().all(|uv| uv[1] > 0.75));
+    assert!(faces[8..10].as_flattened().iter().all(|uv| uv[0] > 1.0));
+    assert!((side(8) * 1024.0 / 2.0 / 400.0 - 1.0).abs() < 1e-3);
+    let report = std::fs::read(&names[2].1).expect("a report");
+    let report: serde_json::Value = serde_json::from_slice(&report).expect("JSON");
+    let rules = report["groups"][0]["rules"].as_array().expect("rules");
+    assert_eq!(rules.len(), 5);
+    assert_eq!(rules[4]["changed"].as_array().map(Vec::len), Some(1));
+    // What cannot be done is one line and an exit status.
+    for (rule, status, words) in [
+        ("material=brass: lock", 3, "(unknown_material)"),
+        ("color=00ff00: lock", 3, "(selects_nothing)"),
+        ("material=trim: in nowhere", 2, "no --rectangle \"nowhere\""),
+        ("material=trim: hide", 2, "no action"),
+    ] {
+        let run = unwrapd(&[
+            "repack",
+            &names[0].1,
+            "-o",
+            &path("no.obj"),
+            "--control",
+            rule,
+        ]);
+        assert_status(&run, status);
+        let error = String::from_utf8_lossy(&run.stderr).into_owned();
+        assert!(error.contains(words), "{error}");
+    }
+}
+
 #[test]
 fn a_reader_that_goes_away_is_no_failure() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_unwrapd"))

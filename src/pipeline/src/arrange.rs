@@ -52,6 +52,10 @@ pub fn open_islands(
         let text = "`texels_per_unit` has no effect in a session, where islands make room";
         return Err(PipelineError::InvalidOptions(text.to_owned()));
     }
+    if !options.control.control.is_empty() {
+        let text = "`control` has no effect in a session, where islands make room";
+        return Err(PipelineError::InvalidOptions(text.to_owned()));
+    }
     let islands = LiveIslands::read(upload, options)?;
     let counts = islands.atlases.iter().map(|atlas| atlas.shapes.len());
     match counts.min() {

@@ -39,6 +39,7 @@ mod start;
 mod tracker;
 
 pub use arrange::{IslandHandle, IslandSession, LiveIslands, Place, open_islands};
+pub use arrays::control::{DensityRule, FaceControl, FaceRules};
 pub use arrays::placement::Placement;
 pub use arrays::repeated::GridCorners;
 pub use arrays::seams::Seams;
@@ -62,6 +63,7 @@ pub use judge::report::{
     AtlasReport, ChartReport, GroupReport, LimitReport, Report, SCHEMA_VERSION, Seconds,
     StacksReport,
 };
+pub use judge::rules::{ChangedIsland, RuleReport};
 pub use judge::verify::{Judged, Verified, VerifiedGroup, measure_document, verify_document};
 pub use meshes::{
     MeshArrays, UnwrappedMeshes, WeldedUvs, measure_meshes, repack_meshes, unwrap_meshes,
@@ -69,10 +71,11 @@ pub use meshes::{
 };
 pub use observer::{Observer, Progress, Unobserved};
 pub use options::{
-    Baking, BodyFormat, Budget, Caller, CommandOptions, Course, Cutting, DeformOptions,
-    EditOptions, Editing, GivenSeams, ImageFormat, Island, KeptMaps, Layout, Mapping,
-    MeasureOptions, NamedSeams, Options, PackingMode, Preset, Pulling, RepackOptions, Sets,
-    SolveOptions, Stacking, TexelWeight, VerifyOptions, WarpOptions, Workers,
+    Action, Baking, BodyFormat, Budget, Caller, CommandOptions, Course, Cutting, DeformOptions,
+    EditOptions, Editing, GivenSeams, ImageFormat, Island, IslandControl, IslandRule, KeptMaps,
+    Layout, Mapping, MeasureOptions, NamedRectangle, NamedSeams, Options, PackingMode, Preset,
+    Pulling, RepackOptions, Selector, Sets, SolveOptions, Stacking, TexelWeight, VerifyOptions,
+    WarpOptions, Workers,
 };
 pub use start::{start_file, start_file_of_text};
 pub use unwrapd_api::{Limits, START, Stage};

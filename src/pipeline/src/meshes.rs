@@ -3,16 +3,21 @@
 //! UVs have v up. Vertices at equal positions are identified, also across meshes, as in a document whose meshes share
 //! an atlas.
 
+use crate::arrays::placed_faces::on_border;
 use crate::arrays::placement::Placement;
 use crate::arrays::plan::Plan;
 use crate::arrays::seams::Seams;
 use crate::arrays::soup::Part;
 use crate::arrays::unwrap::{Unwrapped, in_pool, unwrap_all};
 use crate::documents::input::Merged;
+use crate::documents::selection::{
+    FaceAttributes, add_control, check_faces, check_selections, face_control, rule_materials,
+};
 use crate::island_error::IslandError;
 use crate::judge::group_uvs::GroupUvs;
 use crate::judge::groups::{Question, WrittenUvs};
 use crate::judge::report::{Report, Seconds};
+use crate::judge::rules::{intended_weights, rule_reports};
 use crate::judge::shortfalls::{add_history, promise_kept, shortfalls};
 use crate::judge::verify::{Promise, Verified};
 use crate::observer::Observer;
@@ -246,6 +251,7 @@ fn unwrap_in_pool(
     let plan = Plan::new(&options.settings())?;
     let mut mesh = merged(meshes, options, &plan)?;
     limits::check_count(&options.caller.limits, mesh.triangles.len())?;
+    add_rules(&mut mesh, meshes, options, &plan)?;
     mesh.seams.placed = placements(meshes, islands)?;
     seconds.read = watch.lap();
 
@@ -256,7 +262,8 @@ fn unwrap_in_pool(
 
     // Judge the UVs as returned.
     tracker.stage(Stage::Judge);
-    let group = judged(meshes.len(), mesh.positions, mesh.triangles, uvs);
+    let mut group = judged(meshes.len(), mesh.positions, mesh.triangles, uvs);
+    group.weights = intended_weights(&mesh.seams, &group, &plan);
     let charts = chart_ids(&group.positions, &group.triangles, &group.uvs);
     let uvs = WrittenUvs {
         groups: vec![group],
@@ -265,6 +272,9 @@ fn unwrap_in_pool(
     };
     let mut groups = uvs.judge(&options.claims(), options.layout.resolution);
     add_history(&mut groups, &atlases, &uvs, &plan, options);
+    for (group, uvs) in groups.iter_mut().zip(&uvs.groups) {
+        group.rules = rule_reports(&mesh.seams, uvs, options.layout.resolution);
+    }
     seconds.judge = watch.lap();
 
     // Report.
@@ -283,6 +293,39 @@ fn unwrap_in_pool(
     })
 }
 
+/// Adds rules for islands. Meshes given as arrays have no materials and colors; their primitives are the meshes.
+fn add_rules(
+    merged: &mut Merged,
+    meshes: &[MeshArrays],
+    options: &Options,
+    plan: &Plan,
+) -> Result<(), PipelineError> {
+    let rules = &options.control.control;
+    let n_faces: Vec<usize> = meshes.iter().map(|mesh| mesh.triangles.len()).collect();
+    check_faces(rules, &n_faces)?;
+    let faces = n_faces.iter().enumerate();
+    let faces = faces.flat_map(|(mesh, &n)| (0..n as u32).map(move |face| [mesh as u32, face]));
+    let n_all = merged.triangles.len();
+    let attributes = FaceAttributes {
+        faces: faces.collect(),
+        materials: vec![None; n_all],
+        colors: vec![None; n_all],
+    };
+    let materials = rule_materials(rules, |_| None)?;
+    let control = &options.control;
+    if let Some(control) = face_control(
+        control,
+        &attributes,
+        &materials,
+        &merged.soup(),
+        plan,
+        VAxis::Up,
+    )? {
+        add_control(&mut merged.seams, control);
+    }
+    Ok(check_selections(rules, &[&merged.seams])?)
+}
+
 /// Returns the UVs of an atlas, with the given UVs for islands that stay in place.
 fn corner_uvs(atlases: &[Unwrapped], given: Option<&[CornerUvs]>) -> Vec<CornerUvs> {
     let Some(atlas) = atlases.first() else {
@@ -291,8 +334,7 @@ fn corner_uvs(atlases: &[Unwrapped], given: Option<&[CornerUvs]>) -> Vec<CornerU
     let mut uvs = atlas.corner_uvs();
     if let Some(given) = given {
         for face in atlas.still.iter().map(|&face| face as usize) {
-            // A UV less than a step below a page belongs on its border.
-            uvs[face] = given[face].map(|uv| uv.map(|x| f64::from((x as f32).max(0.0))));
+            uvs[face] = given[face].map(|uv| uv.map(|x| f64::from(on_border(x) as f32)));
         }
     }
     uvs

@@ -18,6 +18,8 @@ class Layout(TypedDict, total=False):
     packing: Literal["fast", "tight"] | None
     stack: Literal["off", "keep", "identical", "mirrored"] | None
     rotate: Literal["any", "quarter", "none"] | None
+    control: Sequence[str] | None
+    rectangle: Sequence[str] | None
     threads: int | None
 
 class UnwrapOptions(Layout, total=False):

@@ -235,6 +235,52 @@ async fn islands_stay_where_they_are_put() {
 }
 
 #[tokio::test]
+async fn rules_for_islands_hold_and_their_faults_are_named() {
+    let server = Server::start();
+    let triangles = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nvt .125 .125\nvt .375 .125\n\
+                     vt .125 .375\nvt .625 .625\nvt .875 .625\nvt .625 .875\nusemtl a\nf 1/1 2/2 3/3\nusemtl b\n\
+                     f 4/4 5/5 6/6\n";
+    let by = |rules: &str| {
+        let options = format!(r#"{{"control": {rules}, "format": "obj"}}"#);
+        form(
+            "repack",
+            &options,
+            ("in.obj", triangles.as_bytes().to_vec()),
+        )
+    };
+    let (report, _, obj) =
+        outcome(&server, by(r#"["material=a: lock", "all: density 150"]"#)).await;
+    assert_eq!(report["certified"], true, "{report}");
+    let rules = &report["groups"][0]["rules"];
+    assert_eq!(rules[0]["islands"], 1, "{rules}");
+    assert_eq!(
+        rules[1]["changed"].as_array().map(Vec::len),
+        Some(1),
+        "{rules}"
+    );
+    assert_eq!(
+        report["options"]["control"][0], "material=a: lock",
+        "{report}"
+    );
+    assert!(String::from_utf8_lossy(&obj).contains("vt 0.125 0.125"));
+    for (rules, code, status) in [
+        (r#"["color=00ff00: lock"]"#, "selects_nothing", 422),
+        (
+            r#"["material=a: group", "all: group"]"#,
+            "island_in_two_groups",
+            422,
+        ),
+        (r#"["all: density 5000"]"#, "texture_too_small", 422),
+    ] {
+        let job = ended(&server, by(rules)).await;
+        assert_eq!(job["error"]["code"], code, "{job}");
+        assert_eq!(job["error"]["status"], status, "{job}");
+    }
+    let problem = ended(&server, by(r#"["a: lock"]"#)).await;
+    assert_eq!(problem["code"], "invalid_options", "{problem}");
+}
+
+#[tokio::test]
 async fn a_body_stops_early_with_a_valid_map() {
     let server = Server::start();
     let swung = r#"{"handles": [{"center": [0, 0.5, 0.5], "radius": 0.8, "to": [0, 0.5, 0.5]},

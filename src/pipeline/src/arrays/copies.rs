@@ -79,6 +79,7 @@ impl<'a> WithoutCopies<'a> {
         let of_kept = |corners: &Vec<[u32; 3]>| kept.iter().map(|&f| corners[f as usize]).collect();
         let seams = Seams {
             polygons: mesh.seams.polygons.as_ref().map(of_kept),
+            control: (mesh.seams.control.as_ref()).map(|control| control.restricted(&kept)),
             ..mesh.seams.restricted(&kept, 0..mesh.positions.len() as u32)
         };
         // Number the originals as the faces that are kept.

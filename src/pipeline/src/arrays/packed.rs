@@ -15,7 +15,7 @@ use unwrapd_method::solver::Control;
 
 /// Maximum number of packings because rounding made a chart overlap itself. A chart that was cut for this overlaps
 /// itself again only if another scale rounds it differently.
-const PACKINGS: usize = 8;
+pub const PACKINGS: usize = 8;
 
 /// Maximum number of openings for rounding: opened places take room, and at the smaller scale more places are too
 /// thin.
@@ -45,15 +45,12 @@ pub struct ChartTerms<'a> {
 /// Tries each number of pages in turn, beginning with the charts that were cut for the one before. The attempts do
 /// not depend on the maximum number of pages, so a larger maximum never gives less.
 pub fn packed(
-    mut charts: Vec<MappedChart>,
+    charts: Vec<MappedChart>,
     terms: ChartTerms,
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Result<(Vec<MappedChart>, Atlas), PipelineError> {
-    charts = (terms.with_whole_polygons(&charts, PolygonHome::WithPart)).unwrap_or(charts);
-    if terms.plan.is_turned_up {
-        charts.par_iter_mut().for_each(MappedChart::turn_up);
-    }
+    let charts = terms.prepared(charts);
     match options.scale {
         Scale::Largest => Ok(largest(charts, (options, terms), on_read)?),
         Scale::TexelsPerUnit(texels) => fewest(charts, texels, (options, terms), on_read),
@@ -215,13 +212,7 @@ fn settled(
             return Ok((charts, atlas));
         }
         let n_before = charts.len();
-        let unfolded = |(chart, placed): (MappedChart, &Placed)| {
-            let rounded: Vec<[f64; 2]> = placed.grid.iter().map(|p| p.map(f64::from)).collect();
-            chart.unfolded(&rounded, &|| on_read(0))
-        };
-        charts = (charts.into_par_iter().zip(&atlas.placed))
-            .flat_map_iter(unfolded)
-            .collect();
+        charts = unfolded(charts, &atlas.placed, on_read);
         if charts.len() == n_before {
             return Ok((charts, atlas));
         }
@@ -229,7 +220,28 @@ fn settled(
     }
 }
 
+/// Cuts charts that rounding to the grid makes overlap themselves.
+pub fn unfolded(charts: Vec<MappedChart>, placed: &[Placed], on_read: &OnRead) -> Vec<MappedChart> {
+    let parts = |(chart, placed): (MappedChart, &Placed)| {
+        let rounded: Vec<[f64; 2]> = placed.grid.iter().map(|p| p.map(f64::from)).collect();
+        chart.unfolded(&rounded, &|| on_read(0))
+    };
+    (charts.into_par_iter().zip(placed))
+        .flat_map_iter(parts)
+        .collect()
+}
+
 impl ChartTerms<'_> {
+    /// Returns charts with polygons in one piece, and with the top of the mesh up where the plan says so.
+    pub fn prepared(&self, charts: Vec<MappedChart>) -> Vec<MappedChart> {
+        let whole = self.with_whole_polygons(&charts, PolygonHome::WithPart);
+        let mut charts = whole.unwrap_or(charts);
+        if self.plan.is_turned_up {
+            charts.par_iter_mut().for_each(MappedChart::turn_up);
+        }
+        charts
+    }
+
     /// Moves seams off the diagonals of polygons; returns `None` if there are none. Where the charts would be too many, polygons that
     /// need one of their own stay split.
     fn with_whole_polygons(

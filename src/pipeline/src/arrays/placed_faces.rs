@@ -5,29 +5,38 @@ use super::seams::Seams;
 use crate::island_error::IslandError;
 use crate::options::Stacking;
 use std::collections::HashMap;
+use unwrapd_layout::atlas::GRID_BITS;
 use unwrapd_maps::certificate::{chart_ids, outline};
 use unwrapd_maps::mesh::CornerUvs;
 
 /// Faces of islands that stay where they are put.
-pub struct PlacedFaces<'a> {
-    placed: &'a [Placement],
+pub struct PlacedFaces {
+    /// Placements from the caller's list, then one of all locked islands, if there are any.
+    placed: Vec<Placement>,
+    /// Number of placements in the caller's list.
+    n_listed: usize,
     /// Island of each face.
     island: Vec<u32>,
-    /// Index of each island's placement in the list.
+    /// Index of each island's placement.
     of_island: Vec<Option<usize>>,
 }
 
-impl<'a> PlacedFaces<'a> {
-    /// Finds the placed islands; returns `None` without UVs or without placements. With [`Stacking::Keep`] islands that
-    /// coincide exactly with a placed one go with it.
+impl PlacedFaces {
+    /// Finds the placed and the locked islands; returns `None` without UVs or without such islands. With [`Stacking::Keep`]
+    /// islands that coincide exactly with a placed one go with it.
     pub fn new(
         positions: &[[f64; 3]],
         triangles: &[[u32; 3]],
-        seams: &'a Seams,
+        seams: &Seams,
         stacking: Stacking,
     ) -> Result<Option<Self>, IslandError> {
         let placed = seams.placed.as_slice();
-        let Some(uvs) = seams.uvs.as_ref().filter(|_| !placed.is_empty()) else {
+        let control = seams.control.as_ref();
+        let is_locked =
+            |face: &u32| control.is_some_and(|control| control.of(*face).lock.is_some());
+        let locked: Vec<u32> = (0..triangles.len() as u32).filter(is_locked).collect();
+        let is_any = !placed.is_empty() || !locked.is_empty();
+        let Some(uvs) = seams.uvs.as_ref().filter(|_| is_any) else {
             return Ok(None);
         };
         let island = chart_ids(positions, triangles, uvs);
@@ -43,11 +52,28 @@ impl<'a> PlacedFaces<'a> {
         if stacking == Stacking::Keep {
             place_stacks(&mut of_island, &island, uvs, seams.materials.as_deref());
         }
+        let n_listed = placed.len();
+        let mut placed = placed.to_vec();
+        for &face in &locked {
+            of_island[island[face as usize] as usize].get_or_insert(n_listed);
+        }
+        placed.extend(locked.first().map(|&face| Placement::still(n_listed, face)));
         Ok(Some(Self {
             placed,
+            n_listed,
             island,
             of_island,
         }))
+    }
+
+    /// Returns the placements.
+    pub fn placements(&self) -> &[Placement] {
+        &self.placed
+    }
+
+    /// Returns whether this is the placement of locked islands.
+    pub fn is_locked(&self, index: usize) -> bool {
+        index >= self.n_listed
     }
 
     /// Returns the index of the placement of a face's island.
@@ -65,6 +91,12 @@ impl<'a> PlacedFaces<'a> {
     }
 }
 
+/// Returns a coordinate of an island that stays: less than a step of the grid below the first page, it is on its border.
+pub fn on_border(x: f64) -> f64 {
+    let step = 1.0 / f64::from(1_u32 << GRID_BITS);
+    if -step < x && x < 0.0 { 0.0 } else { x }
+}
+
 /// Gives islands without a placement that of the first placed island with the same outline and material.
 fn place_stacks(
     of_island: &mut [Option<usize>],
@@ -72,7 +104,26 @@ fn place_stacks(
     uvs: &[CornerUvs],
     materials: Option<&[u32]>,
 ) {
-    let mut faces: Vec<Vec<u32>> = vec![Vec::new(); of_island.len()];
+    let stacks = stacks_of(island, of_island.len(), uvs, materials);
+    let mut placed = HashMap::new();
+    for (stack, index) in stacks.iter().zip(&*of_island) {
+        if let Some(index) = index {
+            placed.entry(stack).or_insert(*index);
+        }
+    }
+    for (stack, index) in stacks.iter().zip(of_island) {
+        *index = index.or_else(|| placed.get(stack).copied());
+    }
+}
+
+/// Returns for each of `n_islands` islands the first one with the same outline and material.
+pub fn stacks_of(
+    island: &[u32],
+    n_islands: usize,
+    uvs: &[CornerUvs],
+    materials: Option<&[u32]>,
+) -> Vec<u32> {
+    let mut faces: Vec<Vec<u32>> = vec![Vec::new(); n_islands];
     for (face, &island) in (0..).zip(island) {
         faces[island as usize].push(face);
     }
@@ -80,19 +131,11 @@ fn place_stacks(
         let of_first = faces.first().zip(materials);
         of_first.map(|(face, materials)| materials[*face as usize])
     };
-    let outlines: Vec<_> = (faces.iter())
-        .map(|faces| {
-            let corners: Vec<CornerUvs> = faces.iter().map(|&face| uvs[face as usize]).collect();
-            (material(faces), outline(&corners))
-        })
-        .collect();
-    let mut placed = HashMap::new();
-    for (outline, index) in outlines.iter().zip(&*of_island) {
-        if let Some(index) = index {
-            placed.entry(outline).or_insert(*index);
-        }
-    }
-    for (outline, index) in outlines.iter().zip(of_island) {
-        *index = index.or_else(|| placed.get(outline).copied());
-    }
+    let mut first_with = HashMap::new();
+    let stack = |(island, faces): (u32, &Vec<u32>)| {
+        let corners: Vec<CornerUvs> = faces.iter().map(|&face| uvs[face as usize]).collect();
+        let key = (material(faces), outline(&corners));
+        *first_with.entry(key).or_insert(island)
+    };
+    (0..).zip(&faces).map(stack).collect()
 }

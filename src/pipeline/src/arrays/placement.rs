@@ -20,6 +20,18 @@ pub struct Placement {
 }
 
 impl Placement {
+    /// Creates the placement of an island that stays where it is.
+    pub(super) fn still(number: usize, face: u32) -> Self {
+        Self {
+            number,
+            face,
+            shift: [0.0; 2],
+            turn: 0.0,
+            scale: 1.0,
+            pivot: None,
+        }
+    }
+
     /// Returns whether the island stays where it is.
     pub fn is_still(&self) -> bool {
         self.shift == [0.0; 2] && self.turn == 0.0 && self.scale == 1.0

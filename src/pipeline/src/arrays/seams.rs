@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
+use super::control::FaceControl;
 use super::placement::Placement;
 use super::position_key::position_key;
 use crate::PipelineError;
@@ -23,6 +24,8 @@ pub struct Seams {
     pub texture: Option<Resolution>,
     /// Islands of the UVs that stay where they are put, where all maps are kept as they are given.
     pub placed: Vec<Placement>,
+    /// Rules for islands.
+    pub control: Option<FaceControl>,
     /// Normals: an edge at which those of two faces differ by more than a degree is a seam.
     pub normals: Option<Vec<[[f64; 3]; 3]>>,
     /// Labels, as of materials: an edge between faces of different labels is a seam.
@@ -55,6 +58,7 @@ impl Seams {
             self.weights.as_ref().map(Vec::len),
             self.materials.as_ref().map(Vec::len),
             self.polygons.as_ref().map(Vec::len),
+            self.control.as_ref().map(|control| control.of_face.len()),
         ];
         if lengths.into_iter().flatten().any(|n| n != n_faces) {
             return Err(PipelineError::Seams("not one entry per face".to_owned()));
@@ -80,6 +84,8 @@ impl Seams {
             uvs: of(self.uvs.as_ref(), faces),
             texture: self.texture,
             placed: Vec::new(),
+            // Rules hold for charts of the whole mesh, like placements.
+            control: None,
             normals: of(self.normals.as_ref(), faces),
             labels: of(self.labels.as_ref(), faces),
             materials: of(self.materials.as_ref(), faces),
@@ -90,12 +96,14 @@ impl Seams {
         }
     }
 
-    /// Returns whether two faces have one label, material and weight.
+    /// Returns whether two faces have one label, material and weight, and the same rules.
     pub(crate) fn agree(&self, f: u32, g: u32) -> bool {
         fn same<T: PartialEq>(all: Option<&Vec<T>>, f: u32, g: u32) -> bool {
             all.is_none_or(|all| all[f as usize] == all[g as usize])
         }
+        let rules = self.control.as_ref().map(|control| &control.of_face);
         same(self.labels.as_ref(), f, g)
+            && same(rules, f, g)
             && same(self.materials.as_ref(), f, g)
             && same(self.weights.as_ref(), f, g)
     }

@@ -33,7 +33,7 @@ enum Member {
 type VertexPlaces = Vec<u32>;
 
 impl Stacks {
-    /// Separates the charts that are packed from those of the same material that lie on them. Inner vertices of a chart
+    /// Separates the charts that are packed from those of the same material and rules that lie on them. Inner vertices of a chart
     /// that lies on another are appended to the map of that one where it has no vertex; they belong to no triangle.
     pub fn of(charts: Vec<MappedChart>, seams: &Seams) -> (Vec<MappedChart>, Self) {
         let all = charts
@@ -42,15 +42,15 @@ impl Stacks {
         let tolerance = ROUNDINGS * all.fold(0.0, |most: f64, x| most.max(x.abs()));
         let mut tops: Vec<MappedChart> = Vec::new();
         let mut outlines: Vec<Outline> = Vec::new();
-        let mut by_place: BTreeMap<(usize, u32, i64), Vec<usize>> = BTreeMap::new();
+        let mut by_place: BTreeMap<(usize, [u32; 2], i64), Vec<usize>> = BTreeMap::new();
         let mut stacks = Self {
             members: Vec::with_capacity(charts.len()),
         };
         for chart in charts {
             let outline = Outline::new(&chart);
             let step = (outline.low[0] / tolerance).floor() as i64;
-            let material = material(&chart, seams);
-            let key = |step: i64| (outline.edges.len(), material, step);
+            let kind = material_and_rules(&chart, seams);
+            let key = |step: i64| (outline.edges.len(), kind, step);
             let near = by_place.range(key(step.saturating_sub(1))..=key(step.saturating_add(1)));
             let found = near
                 .flat_map(|(_, tops)| tops)
@@ -109,11 +109,15 @@ impl Stacks {
     }
 }
 
-/// Returns the material of a chart's first face.
-fn material(chart: &MappedChart, seams: &Seams) -> u32 {
-    let corner = chart.chart.corners.first().map(|corners| corners[0]);
-    let of_face = corner.zip(seams.materials.as_ref());
-    of_face.map_or(0, |(corner, materials)| materials[corner as usize / 3])
+/// Returns the material of a chart's first face, and the number of its rules.
+fn material_and_rules(chart: &MappedChart, seams: &Seams) -> [u32; 2] {
+    let Some([corner, ..]) = chart.chart.corners.first() else {
+        return [0; 2];
+    };
+    let face = *corner as usize / 3;
+    let material = seams.materials.as_ref().map_or(0, |all| all[face]);
+    let rules = (seams.control.as_ref()).map_or(0, |control| control.of_face[face]);
+    [material, rules]
 }
 
 /// Returns a vertex of `top` for each of a chart's vertices: that on its border, a vertex at exactly the same place, or a

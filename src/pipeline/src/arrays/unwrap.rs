@@ -2,7 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::arranged::arranged;
+use super::arranged::{
+    ArrangementTerms, RuledCharts, Sizes, are_constrained, arranged, at_own_sizes, resize,
+};
 use super::copies::WithoutCopies;
 use super::divided::Divided;
 use super::packed::{ChartTerms, packed};
@@ -171,35 +173,54 @@ fn unwrap_each(
                 return Ok(None);
             }
             let options = atlas_options((settings, &plan), n_atlases, &charts);
-            let charts = weighted(charts, meshes[index].seams);
-            let placed = placed_faces(&meshes[index], &plan)?;
-            // Islands that coincide are packed as one, unless some are placed by hand.
+            let mesh = &meshes[index];
+            let charts = weighted(charts, mesh.seams);
+            // Islands that stay are not packed, and others that coincide are packed as one.
+            let placed = placed_faces(mesh, &plan)?;
+            let mut ruled = RuledCharts::new(charts, mesh, placed.as_ref(), options.texture)?;
+            let charts = std::mem::take(&mut ruled.free);
             let is_stacked = plan.start == Start::Final && plan.stacking != Stacking::Off;
-            let (charts, stacks) = if is_stacked && placed.is_none() {
-                let (charts, stacks) = Stacks::of(charts, meshes[index].seams);
+            let (mut charts, stacks) = if is_stacked {
+                let (charts, stacks) = Stacks::of(charts, mesh.seams);
                 (charts, Some(stacks))
             } else {
                 (charts, None)
             };
+            resize(&mut charts, mesh.seams, options.texture.resolution);
+            let sizes = Sizes::of(&charts, mesh.seams);
             let expected = expected_words(&plan, &options, &charts);
             let portion = Portion::of_atlas(tracker, words(index), expected);
             let on_read = |words| portion.read(words);
-            let how = (settings, &plan, n_atlases);
-            let (charts, atlas) = match placed {
-                None => {
-                    let terms = ChartTerms {
-                        plan: &plan,
-                        cuts: plan.cut_terms(divided.n_components(index)),
-                        polygons: meshes[index].seams.polygons.as_deref(),
-                    };
-                    packed(charts, terms, &options, &on_read)?
-                }
-                Some(placed) => arranged(charts, &meshes[index], &placed, how, &on_read)?,
+            let terms = ChartTerms {
+                plan: &plan,
+                cuts: plan.cut_terms(divided.n_components(index)),
+                polygons: mesh.seams.polygons.as_deref(),
             };
-            Ok(Some(match stacks {
+            let is_alone = ruled.is_free() && !are_constrained(&charts, mesh.seams);
+            let (charts, atlas) = match sizes {
+                Sizes::Common if is_alone => packed(charts, terms, &options, &on_read)?,
+                Sizes::Own if is_alone => packed(charts, terms, &at_own_sizes(&options), &on_read)?,
+                Sizes::Common | Sizes::Own | Sizes::Both => {
+                    let terms = ArrangementTerms {
+                        seams: mesh.seams,
+                        charts: terms,
+                        settings,
+                        plan: &plan,
+                        n_atlases,
+                        on_read: &on_read,
+                    };
+                    arranged(charts, &ruled, placed.as_ref(), &terms)?
+                }
+            };
+            // Add what was not packed by itself: islands of stacks, and those that stay.
+            let mut atlas = atlas;
+            let obstacles = atlas.placed.split_off(charts.len());
+            let (charts, mut atlas) = match stacks {
                 None => (charts, atlas),
                 Some(stacks) => stacks.restored(charts, atlas),
-            }))
+            };
+            atlas.placed.extend(obstacles);
+            Ok(Some(ruled.with_staying(charts, atlas)))
         })
         .collect::<Result<_, PipelineError>>()?;
     (meshes.par_iter().enumerate())
@@ -224,10 +245,7 @@ fn unwrap_each(
 type PackedMesh = (Vec<MappedChart>, Atlas);
 
 /// Returns the faces of islands that stay where they are put, if there are any.
-fn placed_faces<'a>(
-    mesh: &Soup<'a>,
-    plan: &Plan,
-) -> Result<Option<PlacedFaces<'a>>, PipelineError> {
+fn placed_faces(mesh: &Soup, plan: &Plan) -> Result<Option<PlacedFaces>, PipelineError> {
     if plan.start == Start::Final {
         Ok(PlacedFaces::new(
             mesh.positions,

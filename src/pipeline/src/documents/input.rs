@@ -4,6 +4,7 @@ use crate::arrays::plan::Plan;
 use crate::arrays::position_key::position_key;
 use crate::arrays::seams::Seams;
 use crate::arrays::soup::{Part, Soup};
+use crate::documents::selection::{FaceAttributes, add_control, face_control, rule_materials};
 use crate::options::{GivenSeams, NamedSeams, Options, check_grouping};
 use crate::options::{Stacking, TexelWeight};
 use crate::{PipelineError, limits};
@@ -180,14 +181,25 @@ impl Merged {
             merged.seams.uvs = Some(corner_uvs(document, group, options.sets.source())?);
         }
         if options.material_borders {
-            merged.seams.labels = Some(face_materials(primitives, group));
+            merged.seams.labels = Some(face_materials(document, group));
         }
         if plan.stacking != Stacking::Off {
-            merged.seams.materials = Some(face_materials(primitives, group));
+            merged.seams.materials = Some(face_materials(document, group));
         }
         if !options.texel_weight.is_empty() {
-            let weights = face_weights(document, primitives, group, &options.texel_weight);
+            let weights = face_weights(document, group, &options.texel_weight);
             merged.seams.weights = Some(weights?);
+        }
+        let rules = &options.control;
+        if !rules.control.is_empty() {
+            let attributes = FaceAttributes::of_group(document, group)?;
+            let materials = rule_materials(&rules.control, |name| document.material(name))?;
+            let v_axis = document.v_axis();
+            let control =
+                face_control(rules, &attributes, &materials, &merged.soup(), plan, v_axis)?;
+            if let Some(control) = control {
+                add_control(&mut merged.seams, control);
+            }
         }
         if plan.keeps_polygons {
             merged.seams.polygons = polygon_corners(document, group);
@@ -220,13 +232,12 @@ impl Merged {
 }
 
 /// Returns the material of each face of a group as a number, 0 for none.
-fn face_materials(primitives: &[Primitive], group: &Group) -> Vec<u32> {
-    let of_primitive = |&index: &usize| {
-        let primitive = &primitives[index];
-        let material = primitive.material.map_or(0, |material| 1 + material as u32);
-        std::iter::repeat_n(material, primitive.triangles.len())
-    };
-    group.primitives.iter().flat_map(of_primitive).collect()
+fn face_materials(document: &Document, group: &Group) -> Vec<u32> {
+    let of_primitive = |&index: &usize| document.face_materials(index);
+    let materials = group.primitives.iter().flat_map(of_primitive);
+    materials
+        .map(|material| material.map_or(0, |material| 1 + material as u32))
+        .collect()
 }
 
 /// Returns the UVs of a group with v up.
@@ -354,9 +365,8 @@ fn edges_of_group(primitives: &[Primitive], group: &Group, edges: &[[u32; 2]]) -
 }
 
 /// Returns the weight of every face of a group. If a material is named twice, the last weight counts.
-pub fn face_weights(
+fn face_weights(
     document: &Document,
-    primitives: &[Primitive],
     group: &Group,
     weights: &[TexelWeight],
 ) -> Result<Vec<f64>, PipelineError> {
@@ -367,12 +377,11 @@ pub fn face_weights(
             .ok_or_else(|| PipelineError::UnknownMaterial(material.clone()))?;
         of_material.insert(index, *weight);
     }
-    let of_primitive = |primitive: &Primitive| {
-        let weight = primitive.material.and_then(|m| of_material.get(&m));
-        std::iter::repeat_n(weight.copied().unwrap_or(1.0), primitive.triangles.len())
+    let materials = group.primitives.iter();
+    let materials = materials.flat_map(|&index| document.face_materials(index));
+    let weight = |material: Option<usize>| {
+        let weight = material.and_then(|material| of_material.get(&material));
+        weight.copied().unwrap_or(1.0)
     };
-    let group = group.primitives.iter();
-    Ok(group
-        .flat_map(|&index| of_primitive(&primitives[index]))
-        .collect())
+    Ok(materials.map(weight).collect())
 }

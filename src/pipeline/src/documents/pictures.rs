@@ -1,12 +1,12 @@
 //! Pictures of a result, drawn on request from the written bytes: immediately, or later from the stored files.
 
-use super::input::Prepared;
-use super::input::face_weights;
+use super::input::{Merged, Prepared};
 use crate::PipelineError;
 use crate::arrays::plan::Plan;
 use crate::arrays::unwrap::in_pool;
 use crate::judge::group_uvs::GroupUvs;
 use crate::judge::groups::WrittenUvs;
+use crate::judge::rules::intended_weights;
 use crate::options::{CommandOptions, Options, Workers};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -73,11 +73,9 @@ impl Pictures {
         let sets: Vec<u32> = sets.map(|note| note.texcoord).collect();
         let document = Document::read(result)?;
         let mut uvs = WrittenUvs::of_sets(&document, group_by, options.nodes(), &sets)?;
-        if let Some(input) = input.filter(|_| !options.texel_weight.is_empty()) {
-            let weights = weights(input, &options)?;
-            for (group, weights) in uvs.groups.iter_mut().zip(weights) {
-                group.weights = Some(weights);
-            }
+        let has_densities = !options.texel_weight.is_empty() || !options.control.control.is_empty();
+        if let Some(input) = input.filter(|_| has_densities) {
+            add_weights(&mut uvs, input, &options)?;
         }
         Ok(Self {
             uvs,
@@ -114,16 +112,22 @@ fn title(group: &GroupUvs) -> String {
     if is_spelt { &group.label } else { &group.name }.clone()
 }
 
-/// Returns the intended texel density of each face of each group of a document.
-fn weights(input: &Upload, options: &Options) -> Result<Vec<Vec<f64>>, PipelineError> {
-    let prepared = Prepared::read(input, options, &Plan::new(&options.settings())?)?;
+/// Adds the intended texel density of each face of each group of a document.
+fn add_weights(
+    uvs: &mut WrittenUvs,
+    input: &Upload,
+    options: &Options,
+) -> Result<(), PipelineError> {
+    let plan = Plan::new(&options.settings())?;
+    let prepared = Prepared::read(input, options, &plan)?;
     let document = &prepared.document;
     let primitives = options.nodes().primitives(document)?;
     let groups = document.groups(prepared.group_by);
-    groups
-        .iter()
-        .map(|group| face_weights(document, &primitives, group, &options.texel_weight))
-        .collect()
+    for (group, uvs) in groups.iter().zip(&mut uvs.groups) {
+        let merged = Merged::with_seams(document, &primitives, group, &prepared.seams, &plan)?;
+        uvs.weights = intended_weights(&merged.seams, uvs, &plan);
+    }
+    Ok(())
 }
 
 /// Data of a panel: faces that share a page.

@@ -2,16 +2,20 @@
 
 use super::input::{Merged, Prepared};
 use super::pictures::Pictures;
+use super::selection::{check_faces, check_selections};
 use super::uv_arrays::UvArrays;
 use crate::PipelineError;
+use crate::arrays::placed_faces::on_border;
 use crate::arrays::placement::Placement;
 use crate::arrays::plan::Plan;
 use crate::arrays::repeated::GridCorners;
+use crate::arrays::seams::Seams;
 use crate::arrays::soup::Soup;
 use crate::arrays::unwrap::{Unwrapped, in_pool, unwrap_all};
 use crate::island_error::IslandError;
 use crate::judge::groups::WrittenUvs;
 use crate::judge::report::{Report, Seconds};
+use crate::judge::rules::{intended_weights, rule_reports};
 use crate::judge::shortfalls::{add_history, promise_kept, shortfalls};
 use crate::observer::Observer;
 use crate::options::{CommandOptions, Island, Options, RepackOptions};
@@ -93,6 +97,10 @@ fn unwrap_in_pool(
     };
     let meshes: Vec<Merged> =
         (groups.iter().zip(placed).map(merged)).collect::<Result<_, PipelineError>>()?;
+    let n_faces = document.primitives().iter().map(|it| it.triangles.len());
+    check_faces(&options.control.control, &n_faces.collect::<Vec<_>>())?;
+    let all_seams: Vec<&Seams> = meshes.iter().map(|mesh| &mesh.seams).collect();
+    check_selections(&options.control.control, &all_seams)?;
     seconds.read = watch.lap();
 
     // Unwrap.
@@ -126,11 +134,14 @@ fn unwrap_in_pool(
     // Judge what was written, in the bytes written.
     tracker.stage(Stage::Judge);
     let mut uvs = WrittenUvs::read(&written, group_by, nodes)?;
-    for (group, mesh) in uvs.groups.iter_mut().zip(meshes) {
-        group.weights = mesh.seams.weights;
+    for (group, mesh) in uvs.groups.iter_mut().zip(&meshes) {
+        group.weights = intended_weights(&mesh.seams, group, &plan);
     }
     let mut groups = uvs.judge(&options.claims(), options.layout.resolution);
     add_history(&mut groups, &atlases, &uvs, &plan, options);
+    for ((group, uvs), mesh) in groups.iter_mut().zip(&uvs.groups).zip(&meshes) {
+        group.rules = rule_reports(&mesh.seams, uvs, options.layout.resolution);
+    }
     seconds.judge = watch.lap();
 
     // Report.
@@ -242,8 +253,7 @@ pub fn new_uvs(
                 && let Some(given) = document.corner_uvs(index, options.sets.source())?
             {
                 for face in inside.iter().map(|face| (face - first) as usize) {
-                    // A UV less than a step below a page belongs on its border.
-                    uvs[face] = given[face].map(|uv| uv.map(|x| (x as f32).max(0.0)));
+                    uvs[face] = given[face].map(|uv| uv.map(|x| on_border(x) as f32));
                 }
             }
             corners[index] = Some(uvs);

@@ -4,5 +4,6 @@ pub(super) mod group_uvs;
 pub(super) mod groups;
 pub(super) mod proven;
 pub(super) mod report;
+pub(super) mod rules;
 pub(super) mod shortfalls;
 pub(super) mod verify;

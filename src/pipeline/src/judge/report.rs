@@ -3,6 +3,7 @@
 use super::bound_report::BoundReport;
 use super::group_uvs::GroupUvs;
 use super::proven::{Mirrored, Proven};
+use super::rules::RuleReport;
 use crate::arrays::unwrap::{ChartRecord, Unwrapped};
 use crate::options::Options;
 use serde::Serialize;
@@ -69,6 +70,9 @@ pub struct GroupReport {
     pub measures: Measures,
     /// Exact judgment of the written bytes.
     pub certificate: Certificate,
+    /// Rules for islands; absent if there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rules: Vec<RuleReport>,
     /// Charts that share their texels; absent if there are no accepted stacks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stacks: Option<StacksReport>,
@@ -198,6 +202,7 @@ impl GroupReport {
             measures,
             stacks: StacksReport::of(uvs, &certificate, texture),
             certificate,
+            rules: Vec::new(),
             defects: None,
             atlas: None,
         }

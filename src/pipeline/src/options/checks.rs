@@ -22,6 +22,7 @@ impl Options {
         check_mips(self.layout.padding, self.mips(), self.layout.resolution)?;
         self.settings().validate()?;
         check(self)?;
+        self.check_control()?;
         self.texel_weight.iter().try_for_each(TexelWeight::check)?;
         if self.cutting.cut == Cut::Seams && self.seams.is_none() {
             return Err("`cut` seams requires `seams`".to_owned());
@@ -43,6 +44,41 @@ impl Options {
             );
         }
         Ok(())
+    }
+}
+
+impl Options {
+    /// Checks the rules for islands.
+    fn check_control(&self) -> Result<(), String> {
+        let rules = &self.control.control;
+        if rules.is_empty() {
+            return Ok(());
+        }
+        self.control.check(self.layout.pages)?;
+        let is_kept = self.cutting.cut == Cut::Keep;
+        let is_given = is_kept && self.cutting.kept_maps == KeptMaps::AsGiven;
+        for rule in rules {
+            let requires =
+                |what: &str| Err(format!("`control` {:?} requires {what}", rule.to_string()));
+            if rule.needs_given_maps() && !is_given {
+                return requires("`repack`, or `cut` keep with `kept_maps` as-given");
+            }
+            if rule.needs_islands() && !is_kept {
+                return requires("`repack` or `cut` keep");
+            }
+        }
+        refused([
+            (
+                "control",
+                "`preset` material",
+                self.preset == Preset::Lightmap,
+            ),
+            (
+                "quantization_safe",
+                "no `control`",
+                self.mapping.quantization_safe.is_some(),
+            ),
+        ])
     }
 }
 

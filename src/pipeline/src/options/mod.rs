@@ -4,6 +4,7 @@
 //! [`Settings`](crate::Settings), which consists of the groups about geometry.
 mod caller;
 mod checks;
+mod control;
 mod deform;
 mod edit;
 mod measure;
@@ -15,6 +16,7 @@ pub use crate::settings::{
 };
 pub use caller::{Caller, CommandOptions};
 pub(super) use checks::check_grouping;
+pub use control::{Action, IslandControl, IslandRule, NamedRectangle, Selector};
 pub use deform::{BodyFormat, Course, DeformOptions, Pulling, SolveOptions};
 pub(crate) use deform::{SolutionPlan, TRIANGLES};
 pub use edit::{EditOptions, Editing, WarpOptions};

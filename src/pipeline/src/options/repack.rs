@@ -1,6 +1,9 @@
 //! Options of repacking.
 
-use super::{Caller, CommandOptions, Cutting, KeptMaps, Layout, Options, Sets, Stacking, Workers};
+use super::{
+    Caller, CommandOptions, Cutting, IslandControl, KeptMaps, Layout, Options, Sets, Stacking,
+    Workers,
+};
 use crate::PipelineError;
 use crate::arrays::placement::Placement;
 use serde::{Deserialize, Serialize};
@@ -28,6 +31,8 @@ options! {
     groups {
         /// Layout of the islands on a texture.
         pub layout: Layout;
+        /// Rules for islands.
+        pub control: IslandControl;
         /// UV sets to read and write.
         pub sets: Sets;
         /// Number of threads.
@@ -53,6 +58,7 @@ impl RepackOptions {
                 stack: self.layout.stack.or(Some(Stacking::Keep)),
                 ..self.layout
             },
+            control: self.control.clone(),
             sets: self.sets,
             workers: self.workers,
             format: self.format,

@@ -1,6 +1,6 @@
 //! Options of unwrapping.
 
-use super::{Budget, Caller, Cutting, Layout, Mapping, Stacking, Workers};
+use super::{Budget, Caller, Cutting, IslandControl, Layout, Mapping, Stacking, Workers};
 use crate::arrays::settings::Settings;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -51,8 +51,8 @@ options! {
         ///
         /// A lightmap and an OBJ file always have one atlas for the scene.
         pub group_by: Option<GroupBy>;
-        /// Give a material of a glTF, by name or index, W times the linear texel density of the
-        /// others in its atlas.
+        /// Give a material, by name or index, W times the linear texel density of the others in its
+        /// atlas.
         ///
         /// The surface is cut between materials of different weight. `texels_per_unit` refers to
         /// weight 1, and distortion is measured against the intended density. Repeat the option for
@@ -79,6 +79,8 @@ options! {
         pub cutting: Cutting;
         /// Layout of the charts on a texture.
         pub layout: Layout;
+        /// Rules for islands.
+        pub control: IslandControl;
         /// UV sets to read and write.
         pub sets: Sets;
         /// Resampling of textures.

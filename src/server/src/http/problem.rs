@@ -255,7 +255,7 @@ codes! {
 // Codes of invalid inputs. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Codes with their meanings.
-pub(super) const CAUSES: [(&str, &str); 69] = [
+pub(super) const CAUSES: [(&str, &str); 73] = [
     // Handles.
     ("malformed_handles", "The list of handles cannot be parsed"),
     ("no_handle", "There is no handle"),
@@ -356,7 +356,7 @@ pub(super) const CAUSES: [(&str, &str); 69] = [
     ),
     (
         "unknown_material",
-        "A weight names a material that does not exist; only glTF materials have weights",
+        "A weight or a rule names a material that the file does not have",
     ),
     ("invalid_seams", "The seams do not match the mesh"),
     // Islands.
@@ -373,6 +373,22 @@ pub(super) const CAUSES: [(&str, &str); 69] = [
     (
         "no_room",
         "The other islands do not fit around those that stay",
+    ),
+    (
+        "selects_nothing",
+        "A rule for islands selects none; the detail names it",
+    ),
+    (
+        "island_in_two_groups",
+        "Two rules contradict each other: an island is in two groups, or locked and in a group",
+    ),
+    (
+        "divided_group",
+        "Islands of a group have different places, densities or scales",
+    ),
+    (
+        "rectangle_too_small",
+        "A rectangle has no room for its islands, even without others; the detail names it",
     ),
     (
         "too_many_islands",

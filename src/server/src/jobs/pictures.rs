@@ -89,10 +89,11 @@ impl Job {
 
     /// Returns whether a picture shows texel densities, which only the input contains.
     fn needs_input(&self, picture: Picture) -> bool {
-        let weights = self.options.get("texel_weight");
-        let is_weighed = weights
-            .and_then(|list| list.as_array())
-            .is_some_and(|list| !list.is_empty());
+        let is_given = |name: &&str| {
+            let list = self.options.get(*name).and_then(|list| list.as_array());
+            list.is_some_and(|list| !list.is_empty())
+        };
+        let is_weighed = ["texel_weight", "control"].iter().any(is_given);
         picture == Picture::Heatmap && is_weighed
     }
 }
