@@ -5,7 +5,7 @@ use unwrapd_maps::certificate::chart_ids;
 use unwrapd_maps::mesh::{CornerUvs, Resolution};
 use unwrapd_pipeline::{
     Island, IslandError, Layout, Options, Outcome, PipelineError, RepackOptions, Unobserved,
-    repack_document, unwrap_document,
+    VerifyOptions, repack_document, unwrap_document, verify_document,
 };
 
 use crate::places;
@@ -104,12 +104,50 @@ fn assert_near(uv: [f64; 2], expected: [f64; 2]) {
 }
 
 #[test]
-fn a_part_without_uvs_is_refused_with_the_number_of_its_triangles() {
+fn a_part_without_uvs_stays_without() {
     let mut text = String::from_utf8(squares(&FOUR).bytes).expect("text");
-    text += "\no bare\nf 1 2 3\n";
-    let error = refused(&Upload::single("partly.obj", text.into_bytes()), Vec::new());
+    // In the object of the squares and of one material with them, and in one of its own.
+    text += "\nf 1 2 3\no bare\nf 5 6 7\n";
+    let upload = Upload::single("partly.obj", text.into_bytes());
+    let outcome = repacked(&upload, &options(Vec::new()));
+    assert!(outcome.report.certified, "{:?}", outcome.report.warnings);
+    let warnings = outcome.report.warnings.iter();
+    let missing = warnings
+        .clone()
+        .find(|warning| warning.code == "uvs_missing");
+    let missing = &missing.expect("a warning").message;
+    assert!(missing.starts_with("2 of 10 triangles"), "{missing}");
+    assert_eq!(outcome.report.groups[0].certificate.faces, 8);
+    // All triangles are in the file, and the record says which have UVs.
+    let document = Document::read(&written(&outcome)).expect("a file");
+    let counts = document
+        .primitives()
+        .iter()
+        .enumerate()
+        .map(|(index, primitive)| {
+            let uvs = document.corner_uvs(index, 0).expect("a set");
+            (primitive.triangles.len(), uvs.map(|uvs| uvs.len()))
+        });
+    let counts: Vec<_> = counts.collect();
+    assert_eq!(counts, [(8, Some(8)), (1, None), (1, None)]);
+    let verified = verify_document(&written(&outcome), &VerifyOptions::default());
+    let verified = verified.expect("a judgment");
+    assert_eq!(verified.judged.skipped_primitives, 2);
+    assert!(
+        verified
+            .judged
+            .to_string()
+            .contains("left out: 2 primitives")
+    );
+    // An OBJ has one mesh, of which a part cannot be left out.
+    let mut obj = options(Vec::new());
+    obj.format = OutputFormat::Obj;
+    let error = repack_document(&upload, &obj, &Unobserved).expect_err("it is refused");
     assert_eq!(error.code(), "no_uvs");
-    assert!(error.to_string().starts_with("1 of 9 triangles"), "{error}");
+    assert!(
+        error.to_string().starts_with("2 of 10 triangles"),
+        "{error}"
+    );
 }
 
 #[test]

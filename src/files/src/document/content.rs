@@ -124,6 +124,14 @@ impl Document {
         }
     }
 
+    /// Returns the number of faces that lack UVs in a primitive for which [`corner_uvs`](Self::corner_uvs) has none.
+    pub fn faces_without_uvs(&self, primitive: usize) -> usize {
+        match self {
+            Self::Obj(document) => document.face_uvs().filter(Option::is_none).count(),
+            Self::Gltf(_) | Self::Soup(_) => self.primitives()[primitive].triangles.len(),
+        }
+    }
+
     /// Returns for each corner of a primitive's faces the index of its corner of a polygon, and the number of those;
     /// `None` for a file that is not written back with polygons.
     pub fn polygon_corners(&self, primitive: usize) -> Option<(&[[u32; 3]], u32)> {

@@ -50,7 +50,13 @@ fn convert(document: &ObjDocument, old_uvs: OldUvs) -> Result<Conversion, Docume
         dropped: Dropped::new(),
         unknown: BTreeSet::new(),
     };
-    let mut meshes = meshes(&parts, &parts_of_faces, |material| {
+    let uvs: Vec<_> = document
+        .face_uvs()
+        .map(|uvs| uvs.and_then(downward))
+        .collect();
+    // Faces without UVs get primitives of their own, so that the others keep theirs.
+    let has_uvs = |face: u32| old_uvs == OldUvs::Kept && uvs[face as usize].is_some();
+    let mut meshes = meshes(&parts, &parts_of_faces, has_uvs, |material| {
         materials.index(&parts, material, files)
     });
     // Old UVs are kept only if wanted or if a texture of the mesh samples them.
@@ -68,10 +74,7 @@ fn convert(document: &ObjDocument, old_uvs: OldUvs) -> Result<Conversion, Docume
     let shape = NewShape {
         positions: &primitive.positions,
         triangles: &primitive.triangles,
-        uvs: document
-            .face_uvs()
-            .map(|uvs| uvs.and_then(downward))
-            .collect(),
+        uvs,
         normals: document
             .face_normals()
             .map(|n| n.and_then(unit_normals))
@@ -98,6 +101,7 @@ fn parts_of_faces(document: &ObjDocument, parts: &ObjParts) -> Vec<Part> {
 fn meshes(
     parts: &ObjParts,
     parts_of_faces: &[Part],
+    has_uvs: impl Fn(u32) -> bool,
     mut material: impl FnMut(Option<u32>) -> Option<usize>,
 ) -> Vec<NewMesh> {
     let mut meshes: Vec<NewMesh> = Vec::new();
@@ -115,7 +119,7 @@ fn meshes(
             meshes.len() - 1
         });
         let primitives = &mut meshes[mesh].primitives;
-        let primitive = *of_parts.entry(*part).or_insert_with(|| {
+        let primitive = *of_parts.entry((*part, has_uvs(face))).or_insert_with(|| {
             primitives.push(NewPrimitive {
                 material: material(part.material),
                 faces: Vec::new(),

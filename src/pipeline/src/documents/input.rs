@@ -11,7 +11,7 @@ use crate::{PipelineError, limits};
 use std::collections::BTreeMap;
 use std::collections::{HashMap, HashSet};
 use unwrapd_files::document::{
-    Document, DocumentError, Group, GroupBy, OldUvs, OutputFormat, Primitive, Upload,
+    Document, DocumentError, Group, GroupBy, OldUvs, OutputFormat, Primitive, Upload, Warning,
 };
 use unwrapd_maps::mesh::{CornerUvs, Resolution, VAxis};
 
@@ -117,6 +117,61 @@ fn renumbered(edges: &[[u32; 2]], vertices: &[u32], primitives: &[Primitive]) ->
         inside.extend(both);
     }
     inside
+}
+
+// The primitives that are mapped.
+
+/// Primitives that get UVs.
+pub struct Mapped {
+    /// Groups of those that share an atlas.
+    pub groups: Vec<Group>,
+    /// Warning about primitives that are left as they are, as they have no UVs.
+    pub warning: Option<Warning>,
+}
+
+impl Mapped {
+    /// Returns all primitives of a document, or those with UVs where the plan begins with these.
+    ///
+    /// # Errors
+    /// Fails if there are none, or if others cannot be left as they are: textures are resampled for all of a material,
+    /// and an OBJ has one mesh.
+    pub fn of(
+        document: &Document,
+        options: &Options,
+        plan: &Plan,
+        group_by: GroupBy,
+    ) -> Result<Self, PipelineError> {
+        let mut groups = document.groups(group_by);
+        let set = options.sets.source();
+        let can_leave = options.format != OutputFormat::Obj && !options.baking.rebake;
+        if !plan.reads_uvs() || !can_leave {
+            let warning = None;
+            return Ok(Self { groups, warning });
+        }
+        let primitives = document.primitives();
+        let has_uvs = (0..primitives.len())
+            .map(|index| Ok(document.corner_uvs(index, set)?.is_some()))
+            .collect::<Result<Vec<bool>, DocumentError>>()?;
+        let count = |is_counted: &dyn Fn(usize) -> bool| -> usize {
+            let counted = (0..primitives.len()).filter(|&index| is_counted(index));
+            counted.map(|index| primitives[index].triangles.len()).sum()
+        };
+        let missing = count(&|index| !has_uvs[index]);
+        if missing == 0 || !has_uvs.contains(&true) {
+            let warning = None;
+            return Ok(Self { groups, warning });
+        }
+        for group in &mut groups {
+            group.primitives.retain(|&index| has_uvs[index]);
+        }
+        groups.retain(|group| !group.primitives.is_empty());
+        let all = count(&|_| true);
+        let text = format!("{missing} of {all} triangles have no UV set {set} and stay without");
+        Ok(Self {
+            groups,
+            warning: Some(Warning::new("uvs_missing", text)),
+        })
+    }
 }
 
 // The primitives of a group as one mesh.
@@ -246,17 +301,17 @@ pub fn corner_uvs(
     group: &Group,
     texcoord: u32,
 ) -> Result<Vec<CornerUvs>, PipelineError> {
-    let (mut all, mut missing) = (Vec::new(), 0);
+    let (mut all, mut missing, mut triangles) = (Vec::new(), 0, 0);
     for &index in &group.primitives {
+        triangles += document.primitives()[index].triangles.len();
         match document.corner_uvs(index, texcoord)? {
             Some(uvs) => all.extend(uvs),
-            None => missing += document.primitives()[index].triangles.len(),
+            None => missing += document.faces_without_uvs(index),
         }
     }
     if missing > 0 {
         let group = group.label.clone();
-        let triangles = all.len() + missing;
-        return Err(if all.is_empty() {
+        return Err(if missing == triangles {
             PipelineError::NoUvs { group, texcoord }
         } else {
             PipelineError::PartlyNoUvs {

@@ -1,6 +1,6 @@
 //! Pictures of a result, drawn on request from the written bytes: immediately, or later from the stored files.
 
-use super::input::{Merged, Prepared};
+use super::input::{Mapped, Merged, Prepared};
 use crate::PipelineError;
 use crate::arrays::plan::Plan;
 use crate::arrays::unwrap::in_pool;
@@ -51,6 +51,8 @@ struct DrawnNotes {
 
 #[derive(Deserialize)]
 struct DrawnNote {
+    mesh: usize,
+    primitive: usize,
     texcoord: u32,
 }
 
@@ -70,9 +72,9 @@ impl Pictures {
         options.caller_mut().limits.threads = Some(threads);
         let group_by = options.group_by.unwrap_or(GroupBy::Scene);
         let sets = report.written.primitives.iter();
-        let sets: Vec<u32> = sets.map(|note| note.texcoord).collect();
+        let sets = sets.map(|note| ([note.mesh, note.primitive], note.texcoord));
         let document = Document::read(result)?;
-        let mut uvs = WrittenUvs::of_sets(&document, group_by, options.nodes(), &sets)?;
+        let mut uvs = WrittenUvs::of_sets(&document, group_by, options.nodes(), &sets.collect())?;
         let has_densities = !options.texel_weight.is_empty() || !options.control.control.is_empty();
         if let Some(input) = input.filter(|_| has_densities) {
             add_weights(&mut uvs, input, &options)?;
@@ -122,7 +124,7 @@ fn add_weights(
     let prepared = Prepared::read(input, options, &plan)?;
     let document = &prepared.document;
     let primitives = options.nodes().primitives(document)?;
-    let groups = document.groups(prepared.group_by);
+    let Mapped { groups, .. } = Mapped::of(document, &prepared.seams, &plan, prepared.group_by)?;
     for (group, uvs) in groups.iter().zip(&mut uvs.groups) {
         let merged = Merged::with_seams(document, &primitives, group, &prepared.seams, &plan)?;
         uvs.weights = intended_weights(&merged.seams, uvs, &plan);

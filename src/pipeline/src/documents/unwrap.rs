@@ -1,6 +1,6 @@
 //! Unwrapping of documents, from bytes to bytes: read, unwrap, write, read again, judge.
 
-use super::input::{Merged, Prepared};
+use super::input::{Mapped, Merged, Prepared};
 use super::pictures::Pictures;
 use super::selection::{check_faces, check_selections};
 use super::uv_arrays::UvArrays;
@@ -86,7 +86,7 @@ fn unwrap_in_pool(
         origins,
         texture,
     } = Prepared::read(upload, options, &plan)?;
-    let groups = document.groups(group_by);
+    let Mapped { groups, warning } = Mapped::of(&document, options, &plan, group_by)?;
     let primitives = nodes.primitives(&document)?;
     let placed = placements(&document, &groups, islands)?;
     let merged = |(group, placed)| {
@@ -148,7 +148,8 @@ fn unwrap_in_pool(
     let judged: Vec<_> = uvs.groups.iter().zip(&groups).collect();
     let missing = shortfalls(&judged);
     promise_kept(&plan, &groups, &missing)?;
-    let warnings = [noticed, written.notes.warnings.clone(), missing];
+    let unmapped = warning.into_iter().collect();
+    let warnings = [noticed, written.notes.warnings.clone(), unmapped, missing];
     let ended_early = tracker.warning();
     let is_ended_early = ended_early.is_some();
     let warnings = warnings.into_iter().flatten().chain(ended_early);

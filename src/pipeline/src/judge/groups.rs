@@ -29,22 +29,24 @@ pub struct WrittenUvs {
 }
 
 impl WrittenUvs {
-    /// Reads what was just written. The notes name the UV set of each primitive.
+    /// Reads what was just written. The notes name the UV set of each primitive that got UVs.
     pub fn read(written: &Written, group_by: GroupBy, nodes: Nodes) -> Result<Self, PipelineError> {
         let notes = written.notes.primitives.iter();
-        let sets: Vec<u32> = notes.map(|note| note.texcoord).collect();
-        Self::of_sets(&written.read_again()?, group_by, nodes, &sets)
+        let sets = notes.map(|note| ([note.mesh, note.primitive], note.texcoord));
+        Self::of_sets(&written.read_again()?, group_by, nodes, &sets.collect())
     }
 
-    /// Gathers the UVs of a document; `sets` names the UV set of each primitive.
+    /// Gathers the UVs of a document; `sets` has the UV set of each primitive with UVs, by its mesh and its number there.
     pub fn of_sets(
         document: &Document,
         group_by: GroupBy,
         nodes: Nodes,
-        sets: &[u32],
+        sets: &HashMap<[usize; 2], u32>,
     ) -> Result<Self, PipelineError> {
-        Self::gather(document, group_by, nodes, |primitive| {
-            Some(sets.get(primitive).copied().unwrap_or(0))
+        let primitives = document.primitives();
+        Self::gather(document, group_by, nodes, |index| {
+            let primitive = &primitives[index];
+            sets.get(&[primitive.mesh, primitive.primitive]).copied()
         })
     }
 
@@ -225,14 +227,16 @@ impl Question {
     /// Returns the UV set of every primitive; `None` for one that lacks the set and is left out at the caller's
     /// request.
     ///
-    /// A primitive for which the record names no set is judged, too: in the lowest set that the record names.
+    /// A primitive for which the record names no set is judged, too, in the lowest set that the record names; one without
+    /// that set had no UVs when the record was made, and is left out.
     pub fn set_of_each(&self, document: &Document) -> Result<Vec<Option<u32>>, DocumentError> {
         let sets = self.sets();
         let lowest = sets.lowest().unwrap_or(0);
         let set = |primitive: usize| {
             let set = sets.of(primitive).unwrap_or(lowest);
-            let is_left_out =
-                self.options.skip_missing && document.corner_uvs(primitive, set)?.is_none();
+            let is_unknown = self.mark.is_some() && sets.of(primitive).is_none();
+            let is_left_out = (self.options.skip_missing || is_unknown)
+                && document.corner_uvs(primitive, set)?.is_none();
             Ok((!is_left_out).then_some(set))
         };
         (0..document.primitives().len()).map(set).collect()

@@ -43,7 +43,7 @@ pub struct Judged {
     pub group_by: GroupBy,
     /// Faces that name a position twice, which need no UV area.
     pub exempt_faces: usize,
-    /// Primitives without the UV set, left out on request.
+    /// Primitives without the UV set, left out on request or because they had none when the file was recorded.
     pub skipped_primitives: usize,
     /// Stacks of charts that coincide, accepted on request.
     pub stacks: Option<ProvenStacks>,
