@@ -15,6 +15,8 @@ export interface Report {
 export interface Proven {
   locally_injective: boolean;
   bijective: boolean;
+  /** Accepted stacks of charts that coincide; absent in reports of older versions. */
+  stacks?: { stacks: number; charts: number; kept: boolean; unmirrored: boolean } | null;
   unmirrored: boolean;
   padding: { asked_texels: number; resolution: number | string; kept: boolean; reached_texels: number | null } | null;
   aligned: boolean | null;
@@ -42,11 +44,11 @@ export interface Claim {
 }
 
 /** Returns the properties of the written UVs in plain words. */
-export function claims({ locally_injective, bijective, unmirrored, padding, aligned, pages, safe_bits, bits }: Proven): Claim[] {
+export function claims({ locally_injective, bijective, stacks, unmirrored, padding, aligned, pages, safe_bits, bits }: Proven): Claim[] {
   const made: Claim[] = [
     { holds: locally_injective, text: "No face is flipped or without area", detail: "Judged in exact arithmetic on the bytes of the file." },
-    { holds: bijective, text: "No two faces overlap", detail: "Each point of the texture belongs to one place of the surface." },
-    { holds: unmirrored, text: "No chart is mirrored", detail: "Text in a texture reads the right way around." },
+    apart(bijective, stacks ?? null),
+    facing(unmirrored, stacks ?? null),
   ];
   if (padding) {
     const reached = padding.reached_texels === null ? "" : ` The nearest two are ${padding.reached_texels.toFixed(2)} texels apart.`;
@@ -57,6 +59,19 @@ export function claims({ locally_injective, bijective, unmirrored, padding, alig
   if (bits) made.push({ holds: bits.hold, text: `Safe when rounded to ${bits.asked} bits`, detail: "Nothing flips or overlaps when an engine stores fewer digits." });
   else if (safe_bits) made.push({ holds: true, text: `Safe when rounded to ${safe_bits} bits`, detail: "Nothing flips or overlaps when an engine stores that many digits or more." });
   return made;
+}
+
+/** Returns whether faces overlap; accepted stacks of charts may. */
+function apart(bijective: boolean, stacks: Proven["stacks"]): Claim {
+  if (bijective || !stacks?.stacks) return { holds: bijective, text: "No two faces overlap", detail: "Each point of the texture belongs to one place of the surface." };
+  const count = stacks.stacks === 1 ? "1 stack" : `${stacks.stacks} stacks`;
+  return { holds: stacks.kept, text: `No two faces overlap except in ${count}`, detail: `${stacks.charts} charts share texels on purpose: those of a stack coincide exactly.` };
+}
+
+/** Returns whether charts are mirrored; those in accepted stacks may be. */
+function facing(unmirrored: boolean, stacks: Proven["stacks"]): Claim {
+  if (unmirrored || !stacks?.stacks) return { holds: unmirrored, text: "No chart is mirrored", detail: "Text in a texture reads the right way around." };
+  return { holds: stacks.unmirrored, text: "No chart is mirrored except in stacks", detail: "Text in a texture reads the right way around elsewhere." };
 }
 
 /** Returns a true sentence about a claim. */
