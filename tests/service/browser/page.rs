@@ -281,6 +281,16 @@ async fn overlaps_and_near_islands_are_red() {
 }
 
 #[tokio::test]
+async fn certified_stacks_are_no_overlaps() {
+    let server = Server::start();
+    let stacked = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nvt .1 .1\nvt .6 .1\nvt .1 .6\n\
+                   f 1/1 2/2 3/3\nf 4/1 5/2 6/3\n";
+    let input = ("stacked.obj", stacked.into());
+    let job = ended(&server, form("repack", "{}", input)).await;
+    scenario("stacks", with_job(&server, &job), &[]).await;
+}
+
+#[tokio::test]
 async fn jobs_of_every_kind_are_shown() {
     let server = Server::start();
     let handles = r#"{"handles": [{"center": [0, 0], "radius": 0, "to": [0, 0]}, {"vertex": 2, "to": [2, 1]}]}"#;
