@@ -10,6 +10,8 @@ interface Layout {
   packing?: 'fast' | 'tight';
   /** Islands that share their texels, stacked on each other. */
   stack?: 'off' | 'keep' | 'identical' | 'mirrored';
+  /** Moves all islands of a stack but the first by one tile. */
+  stackOffset?: boolean;
   /** Permitted rotations of charts in the layout. */
   rotate?: 'any' | 'quarter' | 'none';
   /** Rules for islands, `SELECTOR: ACTION`, as `material=Glass: lock`. */

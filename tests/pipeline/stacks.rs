@@ -197,6 +197,53 @@ fn stacks_are_refused_where_they_cannot_be_kept() {
     assert!(outcome.report.certified && !outcome.report.proven.bijective);
 }
 
+#[test]
+fn stacked_islands_are_a_tile_apart_if_that_is_asked_for() {
+    let options = |stack| RepackOptions {
+        layout: Layout {
+            stack,
+            stack_offset: true,
+            ..Layout::default()
+        },
+        format: OutputFormat::Obj,
+        ..RepackOptions::default()
+    };
+    let outcome = repack_document(&stack(), &options(None), &Unobserved).expect("it fits");
+    assert!(outcome.report.certified, "{:?}", outcome.report.warnings);
+    let faces = uvs(&written(&outcome));
+    for square in 1..6 {
+        for (first, other) in [(0, 2 * square), (1, 2 * square + 1)] {
+            assert_eq!(faces[first].map(|[u, v]| [u + 1.0, v]), faces[other]);
+        }
+    }
+    for face in [0, 1, 12, 13, 14, 15] {
+        assert!(faces[face].iter().all(|[u, _]| *u < 1.0), "{face}");
+    }
+    // The report is that of stacks without an offset.
+    let together = repacked(&stack(), None);
+    let [offset, together] = [&outcome, &together].map(|outcome| &outcome.report.groups[0]);
+    let stacks = offset.stacks.expect("stacks");
+    assert_eq!((stacks.stacks, stacks.charts), (1, 6));
+    assert_eq!(
+        stacks.texels_gained,
+        together.stacks.expect("stacks").texels_gained
+    );
+    assert_eq!(
+        offset.measures.packing.covered_texels,
+        together.measures.packing.covered_texels
+    );
+    // The others lie on each other, but on none of the first tile.
+    assert!(!verified(&outcome, false).certified);
+    assert!(verified(&outcome, true).certified);
+    // Without a stack there is nothing to move.
+    let none = repack_document(&stack(), &options(Some(Stacking::Off)), &Unobserved);
+    assert_eq!(none.expect_err("no stack").code(), "invalid_options");
+    let mut pages = options(None);
+    pages.layout.pages = 2;
+    let pages = repack_document(&stack(), &pages, &Unobserved).expect_err("two pages");
+    assert_eq!(pages.code(), "invalid_options");
+}
+
 // Parts of one shape.
 
 /// A bracket that is no mirror image of itself, `length` times as long.
@@ -347,4 +394,67 @@ fn a_part_that_is_there_twice_is_not_stacked_on_itself() {
     let certificate = &outcome.report.groups[0].certificate;
     assert!(certificate.is_valid());
     assert_eq!(certificate.overlapping_pairs_same_chart, Some(0));
+}
+
+/// Maps the parts of a scene, stacked by shape.
+fn stacked(upload: &Upload, stack: Stacking, stack_offset: bool) -> Outcome {
+    let options = Options {
+        layout: Layout {
+            stack: Some(stack),
+            stack_offset,
+            ..Layout::default()
+        },
+        format: OutputFormat::Obj,
+        ..Options::default()
+    };
+    unwrap_document(upload, &options, &Unobserved).expect("it fits")
+}
+
+#[test]
+fn copies_of_parts_are_a_tile_apart_if_that_is_asked_for() {
+    for (mirrored, stack) in [(false, Stacking::Identical), (true, Stacking::Mirrored)] {
+        let upload = scene(&[(1.0, false), (1.0, mirrored), (2.0, false)]);
+        let outcome = stacked(&upload, stack, true);
+        assert!(outcome.report.certified, "{:?}", outcome.report.warnings);
+        assert!(outcome.report.groups[0].stacks.is_some());
+        let faces = uvs(&written(&outcome));
+        let n = faces.len() / 3;
+        let is_beyond = |face: &[[f64; 2]; 3]| face.iter().all(|[u, _]| *u > 1.0);
+        let beyond: Vec<bool> = faces.iter().map(is_beyond).collect();
+        let expected = [vec![false; n], vec![true; n], vec![false; n]].concat();
+        assert_eq!(beyond, expected, "{stack:?}");
+    }
+}
+
+#[test]
+fn parts_of_two_materials_are_not_stacked_and_the_report_says_so() {
+    let text = String::from_utf8(scene(&[(1.0, false), (1.0, false)]).bytes).expect("text");
+    let lines: Vec<&str> = text.lines().collect();
+    let first_face = lines
+        .iter()
+        .position(|line| line.starts_with("f "))
+        .expect("a face");
+    let n_faces = lines.iter().filter(|line| line.starts_with("f ")).count();
+    let is_told = |outcome: &Outcome| {
+        let mut warnings = outcome.report.warnings.iter();
+        warnings.any(|warning| warning.code == "nothing_stacked")
+    };
+    for (second, is_stacked) in [("usemtl a", true), ("usemtl b", false)] {
+        let mut lines = lines.clone();
+        let faces: Vec<usize> = (0..lines.len())
+            .filter(|&k| lines[k].starts_with("f "))
+            .collect();
+        lines.insert(faces[n_faces / 2], second);
+        lines.insert(first_face, "usemtl a");
+        let upload = Upload::single("scene.obj", lines.join("\n").into_bytes());
+        let outcome = stacked(&upload, Stacking::Identical, false);
+        assert!(outcome.report.certified, "{:?}", outcome.report.warnings);
+        assert_eq!(
+            outcome.report.groups[0].stacks.is_some(),
+            is_stacked,
+            "{second}"
+        );
+        assert_eq!(is_told(&outcome), !is_stacked, "{second}");
+    }
+    assert!(!is_told(&repacked(&stack(), None)));
 }

@@ -18,7 +18,7 @@ use crate::judge::group_uvs::GroupUvs;
 use crate::judge::groups::{Question, WrittenUvs};
 use crate::judge::report::{Report, Seconds};
 use crate::judge::rules::{intended_weights, rule_reports};
-use crate::judge::shortfalls::{add_history, promise_kept, shortfalls};
+use crate::judge::shortfalls::{add_history, nothing_stacked, promise_kept, shortfalls};
 use crate::judge::verify::{Promise, Verified};
 use crate::observer::Observer;
 use crate::options::{
@@ -262,14 +262,20 @@ fn unwrap_in_pool(
 
     // Judge the UVs as returned.
     tracker.stage(Stage::Judge);
-    let mut group = judged(meshes.len(), mesh.positions, mesh.triangles, uvs);
-    group.weights = intended_weights(&mesh.seams, &group, &plan);
+    let returned = divided(meshes, &uvs);
+    let group = judged(meshes.len(), mesh.positions, mesh.triangles, uvs);
     let charts = chart_ids(&group.positions, &group.triangles, &group.uvs);
-    let uvs = WrittenUvs {
+    let mut uvs = WrittenUvs {
         groups: vec![group],
         n_skipped: 0,
         v_axis: VAxis::Up,
     };
+    if options.layout.stack_offset {
+        uvs.fold();
+    }
+    for group in &mut uvs.groups {
+        group.weights = intended_weights(&mesh.seams, group, &plan);
+    }
     let mut groups = uvs.judge(&options.claims(), options.layout.resolution);
     add_history(&mut groups, &atlases, &uvs, &plan, options);
     for (group, uvs) in groups.iter_mut().zip(&uvs.groups) {
@@ -281,13 +287,15 @@ fn unwrap_in_pool(
     let pairs: Vec<_> = uvs.groups.iter().zip(&groups).collect();
     let missing = shortfalls(&pairs);
     promise_kept(&plan, &groups, &missing)?;
-    let warnings = missing.into_iter().chain(tracker.warning());
+    let unstacked = nothing_stacked(&groups, options);
+    let warnings = missing.into_iter().chain(unstacked);
+    let warnings = warnings.chain(tracker.warning());
     let mut report = Report::new(groups, warnings.collect());
     report.options = Some(options.clone());
     report.limits = Some(options.caller.limits);
     report.seconds = Some(seconds);
     Ok(UnwrappedMeshes {
-        uvs: divided(meshes, &uvs.groups[0].uvs),
+        uvs: returned,
         charts: divided(meshes, &charts),
         report,
     })

@@ -75,6 +75,12 @@ options! {
         /// shapes may differ by a rigid motion and by a ten-thousandth of their radius. mirrored:
         /// mirror images, too. The default is keep for `repack`, otherwise off.
         pub stack: Option<Stacking>;
+        /// Move all islands of a stack but the first by one tile along u, so that baking tools draw
+        /// the first one alone. Textures repeat, so they still share its texels, and the report is
+        /// about the UVs with that tile taken off again.
+        ///
+        /// Requires `pages` 1, and `stack` keep, identical or mirrored.
+        pub stack_offset: bool;
         /// Permitted rotations of charts in the layout. Without rotation, new charts have the top of
         /// the mesh up, and islands keep their angles.
         pub rotate: Rotation = Rotation::Any;
@@ -86,7 +92,18 @@ const _: () = assert!(Texture::MOST_PAGES == 10);
 impl Layout {
     /// Checks dependencies between options. The error names the option.
     pub(crate) fn check(&self) -> Result<(), String> {
-        check_texels(self.resolution, self.padding)
+        check_texels(self.resolution, self.padding)?;
+        let is_stacked = self.stack.is_some_and(|stack| stack != Stacking::Off);
+        if self.stack_offset && !(is_stacked && self.pages == 1) {
+            let text = "`stack_offset` requires `pages` 1, and `stack` keep, identical or mirrored";
+            return Err(text.to_owned());
+        }
+        Ok(())
+    }
+
+    /// Returns the number of tiles that charts may lie on.
+    pub(crate) fn tiles(&self) -> u32 {
+        self.pages + u32::from(self.stack_offset)
     }
 }
 

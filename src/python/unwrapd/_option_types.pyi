@@ -17,6 +17,7 @@ class Layout(TypedDict, total=False):
     texels_per_unit: float | None
     packing: Literal["fast", "tight"] | None
     stack: Literal["off", "keep", "identical", "mirrored"] | None
+    stack_offset: bool | None
     rotate: Literal["any", "quarter", "none"] | None
     control: Sequence[str] | None
     rectangle: Sequence[str] | None

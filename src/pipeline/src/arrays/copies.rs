@@ -106,15 +106,18 @@ impl<'a> WithoutCopies<'a> {
         }
     }
 
-    /// Returns the corners of all faces of the mesh, from those of the faces that are not copied.
-    pub fn with_copies(&self, grid: &[GridCorners]) -> Vec<GridCorners> {
+    /// Returns the corners of all faces of the mesh, from those of the faces that are not copied; copies are shifted by this
+    /// number of grid units along u, unless the part that they are copies of is shifted already.
+    pub fn with_copies(&self, grid: &[GridCorners], shift: i32) -> Vec<GridCorners> {
         let mut all = vec![[[0; 2]; 3]; self.mesh.triangles.len()];
         for (&face, corners) in self.kept.iter().zip(grid) {
             all[face as usize] = *corners;
         }
         for CopiedFace { face, corners } in &self.copied {
-            all[*face as usize] =
-                corners.map(|corner| all[corner as usize / 3][corner as usize % 3]);
+            let places = corners.map(|corner| all[corner as usize / 3][corner as usize % 3]);
+            let is_shifted = shift > 0 && places.iter().any(|[u, _]| *u > shift);
+            let shift = if is_shifted { 0 } else { shift };
+            all[*face as usize] = places.map(|[u, v]| [u + shift, v]);
         }
         all
     }

@@ -4,7 +4,7 @@ use super::compact::CutTerms;
 use super::settings::Settings;
 use crate::PipelineError;
 use crate::options::{KeptMaps, Mapping, Stacking};
-use unwrapd_layout::atlas::Rotation;
+use unwrapd_layout::atlas::{GRID_BITS, Rotation};
 use unwrapd_layout::charts::{Bound, Cut, Folds, Symmetry};
 use unwrapd_maps::embed::{self, Pins};
 use unwrapd_method::barrier::BarrierKind;
@@ -42,6 +42,8 @@ pub struct Plan {
     pub search: Search,
     /// Charts that share their texels.
     pub stacking: Stacking,
+    /// Distance along u between the first chart of a stack and the others, in units of the grid.
+    pub stack_shift: i32,
     /// Permitted rotations of charts.
     pub rotation: Rotation,
     /// `true` if charts are first turned so that the top of the mesh points up.
@@ -130,6 +132,7 @@ impl Plan {
                 _ => Search::Full,
             },
             stacking: layout.stack.unwrap_or_default(),
+            stack_shift: i32::from(layout.stack_offset) << GRID_BITS,
             rotation: layout.rotate,
             is_turned_up: match start {
                 Start::New => true,

@@ -70,15 +70,21 @@ impl Stacks {
         (tops, stacks)
     }
 
-    /// Returns all charts in their first order, each where its stack was placed.
-    pub fn restored(self, tops: Vec<MappedChart>, atlas: Atlas) -> (Vec<MappedChart>, Atlas) {
+    /// Returns all charts in their first order, each where its stack was placed; those that lie on others are shifted by
+    /// this number of grid units along u.
+    pub fn restored(
+        self,
+        tops: Vec<MappedChart>,
+        atlas: Atlas,
+        shift: i32,
+    ) -> (Vec<MappedChart>, Atlas) {
         let of_tops = atlas.placed;
         let mut placed = Vec::with_capacity(self.members.len());
         let mut charts = Vec::with_capacity(self.members.len());
         let mut number = vec![0; tops.len()];
         let mut tops: Vec<Option<MappedChart>> = tops.into_iter().map(Some).collect();
         for member in self.members {
-            let (top, places, chart) = match member {
+            let (top, places, chart, shift) = match member {
                 Member::Top(top) => {
                     number[top] = charts.len();
                     let Some(mut chart) = tops[top].take() else {
@@ -86,13 +92,15 @@ impl Stacks {
                     };
                     let n_vertices = chart.chart.disk.n_vertices;
                     chart.embedding.uv.truncate(n_vertices);
-                    (top, (0..n_vertices as u32).collect(), chart)
+                    (top, (0..n_vertices as u32).collect(), chart, 0)
                 }
-                Member::On(top, chart, places) => (top, places, *chart),
+                Member::On(top, chart, places) => (top, places, *chart, shift),
             };
             let grid = &of_tops[top].grid;
             placed.push(Placed {
-                grid: places.iter().map(|&v| grid[v as usize]).collect(),
+                grid: (places.iter().map(|&v| grid[v as usize]))
+                    .map(|[u, v]| [u + shift, v])
+                    .collect(),
             });
             charts.push(chart);
         }

@@ -138,9 +138,10 @@ pub fn unwrap_all(
         .collect();
     let soups: Vec<Soup> = parts.iter().map(WithoutCopies::soup).collect();
     let unwrapped = unwrap_each(&soups, settings, tracker)?;
+    let shift = Plan::new(settings)?.stack_shift;
     let whole = parts.iter().zip(unwrapped).zip(defects);
     let whole = whole.map(|((parts, unwrapped), defects)| Unwrapped {
-        grid: parts.with_copies(&unwrapped.grid),
+        grid: parts.with_copies(&unwrapped.grid, shift),
         defects,
         ..unwrapped
     });
@@ -217,7 +218,7 @@ fn unwrap_each(
             let obstacles = atlas.placed.split_off(charts.len());
             let (charts, mut atlas) = match stacks {
                 None => (charts, atlas),
-                Some(stacks) => stacks.restored(charts, atlas),
+                Some(stacks) => stacks.restored(charts, atlas, plan.stack_shift),
             };
             atlas.placed.extend(obstacles);
             Ok(Some(ruled.with_staying(charts, atlas)))

@@ -75,6 +75,9 @@ impl Pictures {
         let sets = sets.map(|note| ([note.mesh, note.primitive], note.texcoord));
         let document = Document::read(result)?;
         let mut uvs = WrittenUvs::of_sets(&document, group_by, options.nodes(), &sets.collect())?;
+        if options.layout.stack_offset {
+            uvs.fold();
+        }
         let has_densities = !options.texel_weight.is_empty() || !options.control.control.is_empty();
         if let Some(input) = input.filter(|_| has_densities) {
             add_weights(&mut uvs, input, &options)?;

@@ -16,7 +16,7 @@ use crate::island_error::IslandError;
 use crate::judge::groups::WrittenUvs;
 use crate::judge::report::{Report, Seconds};
 use crate::judge::rules::{intended_weights, rule_reports};
-use crate::judge::shortfalls::{add_history, promise_kept, shortfalls};
+use crate::judge::shortfalls::{add_history, nothing_stacked, promise_kept, shortfalls};
 use crate::observer::Observer;
 use crate::options::{CommandOptions, Island, Options, RepackOptions};
 use crate::rebake::{self, rebaked};
@@ -134,6 +134,9 @@ fn unwrap_in_pool(
     // Judge what was written, in the bytes written.
     tracker.stage(Stage::Judge);
     let mut uvs = WrittenUvs::read(&written, group_by, nodes)?;
+    if options.layout.stack_offset {
+        uvs.fold();
+    }
     for (group, mesh) in uvs.groups.iter_mut().zip(&meshes) {
         group.weights = intended_weights(&mesh.seams, group, &plan);
     }
@@ -148,7 +151,8 @@ fn unwrap_in_pool(
     let judged: Vec<_> = uvs.groups.iter().zip(&groups).collect();
     let missing = shortfalls(&judged);
     promise_kept(&plan, &groups, &missing)?;
-    let unmapped = warning.into_iter().collect();
+    let unstacked = nothing_stacked(&groups, options);
+    let unmapped = warning.into_iter().chain(unstacked).collect();
     let warnings = [noticed, written.notes.warnings.clone(), unmapped, missing];
     let ended_early = tracker.warning();
     let is_ended_early = ended_early.is_some();

@@ -50,6 +50,16 @@ impl WrittenUvs {
         })
     }
 
+    /// Moves charts beyond the first tile back by one, exactly. Textures repeat, so charts of stacks share their texels where
+    /// they were a tile apart; a chart across the border of both is then outside of the pages.
+    pub fn fold(&mut self) {
+        for face in self.groups.iter_mut().flat_map(|group| &mut group.uvs) {
+            if face.iter().any(|[u, _]| *u > 1.0) {
+                *face = face.map(|[u, v]| [u - 1.0, v]);
+            }
+        }
+    }
+
     /// Gathers the UVs of a document that a question is about.
     pub fn asked(document: &Document, question: &Question) -> Result<Self, PipelineError> {
         let sets = question.set_of_each(document)?;

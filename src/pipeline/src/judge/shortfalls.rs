@@ -8,7 +8,7 @@ use super::report::{AtlasReport, GroupReport};
 use crate::PipelineError;
 use crate::arrays::plan::Plan;
 use crate::arrays::unwrap::Unwrapped;
-use crate::options::Options;
+use crate::options::{Options, Stacking};
 use unwrapd_files::document::Warning;
 use unwrapd_maps::certificate::{Certificate, Overlap, PaddingVerdict, chart_ids};
 
@@ -282,6 +282,17 @@ pub fn add_history(
             ..AtlasReport::new(atlas)
         });
     }
+}
+
+/// Returns a warning if parts of one shape were to be stacked, and there are none.
+pub fn nothing_stacked(groups: &[GroupReport], options: &Options) -> Option<Warning> {
+    let by_shape = [Some(Stacking::Identical), Some(Stacking::Mirrored)];
+    let is_asked = by_shape.contains(&options.layout.stack);
+    let is_any = groups.iter().any(|group| group.stacks.is_some());
+    (is_asked && !is_any).then(|| {
+        let text = "nothing is stacked: no two parts have one shape and one material";
+        Warning::new("nothing_stacked", text.to_owned())
+    })
 }
 
 /// Rejects UVs with flips if none are allowed; `missing` describes them.

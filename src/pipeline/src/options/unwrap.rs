@@ -173,7 +173,7 @@ impl Options {
             separate_nodes: self.nodes() == Nodes::Separate,
             padding: Some(self.layout.padding),
             resolution: self.layout.resolution,
-            pages: Some(self.layout.pages),
+            pages: Some(self.layout.tiles()),
             mips: self.mips(),
             aligned: self.preset == Preset::Lightmap,
             bits: self.mapping.quantization_safe,
