@@ -41,13 +41,9 @@ impl GroupUvs {
             let Some(texcoord) = set(index) else {
                 continue;
             };
-            let uvs =
-                document
-                    .corner_uvs(index, texcoord)?
-                    .ok_or_else(|| PipelineError::NoUvs {
-                        group: group.label.clone(),
-                        texcoord,
-                    })?;
+            let uvs = document
+                .corner_uvs(index, texcoord)?
+                .ok_or_else(|| no_uvs(document, index, &group.label, texcoord))?;
             // Append the primitive, with its vertices renumbered.
             let first = gathered.positions.len() as u32;
             gathered
@@ -114,5 +110,20 @@ impl GroupUvs {
             && self.positions == other.positions
             && self.uvs == other.uvs
             && self.weights == other.weights
+    }
+}
+
+/// Returns the error of a primitive of which some or all faces lack UVs.
+fn no_uvs(document: &Document, index: usize, label: &str, texcoord: u32) -> PipelineError {
+    let group = label.to_owned();
+    let missing = document.faces_without_uvs(index);
+    match document.primitives()[index].triangles.len() {
+        triangles if missing < triangles => PipelineError::PartlyNoUvs {
+            group,
+            texcoord,
+            missing,
+            triangles,
+        },
+        _ => PipelineError::NoUvs { group, texcoord },
     }
 }
