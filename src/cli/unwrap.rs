@@ -12,10 +12,9 @@ use super::files::{
 use super::progress::Display;
 use unwrapd_api::options::help_of;
 use unwrapd_files::document::OutputFormat;
-use unwrapd_maps::certificate::Overlap;
 use unwrapd_pipeline::{
-    self as pipeline, AtlasPicture, CommandOptions, GivenSeams, GroupReport, Island, Mirrored,
-    NamedSeams, Options, Outcome, RepackOptions, Report, repack_document,
+    self as pipeline, AtlasPicture, CommandOptions, GivenSeams, GroupReport, Island, NamedSeams,
+    Options, Outcome, RepackOptions, Report, repack_document,
 };
 use unwrapd_server::jobs::{Gate, Gates};
 use unwrapd_worker::quality_of;
@@ -206,7 +205,7 @@ impl Acceptance {
             return Ok(());
         }
         if missed.contains(&&Gate::Certified) {
-            let missing = report.proven.lacks(Overlap::Test, Mirrored::InStacks);
+            let missing = report.lacking();
             return Err(CommandFailure::uncertified(format!(
                 "not certified, but written: {} (not_certified)",
                 missing.join(", ")

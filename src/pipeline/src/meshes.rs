@@ -16,6 +16,7 @@ use crate::documents::selection::{
 use crate::island_error::IslandError;
 use crate::judge::group_uvs::GroupUvs;
 use crate::judge::groups::{Question, WrittenUvs};
+use crate::judge::proven::Mirrored;
 use crate::judge::report::{Report, Seconds};
 use crate::judge::rules::{intended_weights, rule_reports};
 use crate::judge::shortfalls::{add_history, nothing_stacked, promise_kept, shortfalls};
@@ -285,12 +286,12 @@ fn unwrap_in_pool(
 
     // Report.
     let pairs: Vec<_> = uvs.groups.iter().zip(&groups).collect();
-    let missing = shortfalls(&pairs);
+    let missing = shortfalls(&pairs, Mirrored::of(&plan));
     promise_kept(&plan, &groups, &missing)?;
     let unstacked = nothing_stacked(&groups, options);
     let warnings = missing.into_iter().chain(unstacked);
     let warnings = warnings.chain(tracker.warning());
-    let mut report = Report::new(groups, warnings.collect());
+    let mut report = Report::new(groups, warnings.collect(), Mirrored::of(&plan));
     report.options = Some(options.clone());
     report.limits = Some(options.caller.limits);
     report.seconds = Some(seconds);
@@ -369,7 +370,7 @@ pub fn measure_meshes(
     with_question(meshes, options, |uvs, question| {
         let options = &question.options;
         let groups = uvs.judge(&options.claims(Overlap::Test), options.resolution());
-        Report::new(groups, Vec::new())
+        Report::new(groups, Vec::new(), Mirrored::InStacks)
     })
 }
 

@@ -14,6 +14,7 @@ use crate::arrays::soup::Soup;
 use crate::arrays::unwrap::{Unwrapped, in_pool, unwrap_all};
 use crate::island_error::IslandError;
 use crate::judge::groups::WrittenUvs;
+use crate::judge::proven::Mirrored;
 use crate::judge::report::{Report, Seconds};
 use crate::judge::rules::{intended_weights, rule_reports};
 use crate::judge::shortfalls::{add_history, nothing_stacked, promise_kept, shortfalls};
@@ -149,7 +150,7 @@ fn unwrap_in_pool(
 
     // Report.
     let judged: Vec<_> = uvs.groups.iter().zip(&groups).collect();
-    let missing = shortfalls(&judged);
+    let missing = shortfalls(&judged, Mirrored::of(&plan));
     promise_kept(&plan, &groups, &missing)?;
     let unstacked = nothing_stacked(&groups, options);
     let unmapped = warning.into_iter().chain(unstacked).collect();
@@ -157,7 +158,7 @@ fn unwrap_in_pool(
     let ended_early = tracker.warning();
     let is_ended_early = ended_early.is_some();
     let warnings = warnings.into_iter().flatten().chain(ended_early);
-    let mut report = Report::new(groups, warnings.collect());
+    let mut report = Report::new(groups, warnings.collect(), Mirrored::of(&plan));
     report.ended_early = is_ended_early;
     report.partly_done = baked.is_some_and(|baked| baked.is_partial());
     report.options = Some(Options {

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::arrays::plan::{Plan, Start};
 use serde::Serialize;
 
 use unwrapd_maps::certificate::{Certificate, Overlap};
@@ -220,6 +221,17 @@ pub enum Mirrored {
     InStacks,
     /// Mirrored charts are rejected.
     Refused,
+}
+
+impl Mirrored {
+    /// Returns what a plan permits: islands that keep their shapes may be mirrored on purpose, so that both sides share
+    /// a texture.
+    pub(crate) fn of(plan: &Plan) -> Self {
+        match plan.start {
+            Start::New | Start::Present => Self::InStacks,
+            Start::Final => Self::Allowed,
+        }
+    }
 }
 
 /// Describes the stacks in words.

@@ -34,13 +34,17 @@ pub struct Report {
     pub limits: Option<Limits>,
     /// `true` if everything requested is proven on the written bytes: no face is flipped or degenerate, no chart is
     /// mirrored and no two faces overlap except in accepted stacks, and padding, pages, alignment and bits are as
-    /// requested. The warnings name what is missing. A missed distortion bound is only a warning.
+    /// requested. The warnings name what is missing. A missed distortion bound is only a warning. Islands that keep
+    /// their shapes may be mirrored, as they are in the input.
     pub certified: bool,
     /// `true` if the work ended before it was done, at its time limit or on request. The result is no less certified.
     pub ended_early: bool,
     /// `true` if only a part of the request was done: textures or colors that `rebake` should resample were not. The
     /// warnings name them.
     pub partly_done: bool,
+    /// Permission of mirrored charts.
+    #[serde(skip)]
+    pub(crate) mirrored: Mirrored,
     /// Proven properties of the written bytes, next to the requested ones.
     pub proven: Proven,
     /// Warnings about the input file, the work and the written file.
@@ -166,14 +170,19 @@ pub struct Seconds {
 
 impl Report {
     /// Creates the report of existing UVs, without facts that only unwrapping knows.
-    pub(crate) fn new(groups: Vec<GroupReport>, warnings: Vec<Warning>) -> Self {
+    pub(crate) fn new(
+        groups: Vec<GroupReport>,
+        warnings: Vec<Warning>,
+        mirrored: Mirrored,
+    ) -> Self {
         let proven = Proven::of(groups.iter().map(|group| &group.certificate));
         Self {
             schema_version: SCHEMA_VERSION,
             unwrapd_version: env!("CARGO_PKG_VERSION"),
             options: None,
             limits: None,
-            certified: proven.lacks(Overlap::Test, Mirrored::InStacks).is_empty(),
+            certified: proven.lacks(Overlap::Test, mirrored).is_empty(),
+            mirrored,
             ended_early: false,
             partly_done: false,
             proven,
@@ -182,6 +191,13 @@ impl Report {
             written: None,
             seconds: None,
         }
+    }
+}
+
+impl Report {
+    /// Returns the requested properties that do not hold, in words.
+    pub fn lacking(&self) -> Vec<&'static str> {
+        self.proven.lacks(Overlap::Test, self.mirrored)
     }
 }
 
@@ -208,7 +224,7 @@ impl GroupReport {
         }
     }
 
-    /// Returns whether everything requested is proven for this atlas; see [`Report::certified`].
+    /// Returns whether everything requested is proven for this atlas, and no chart is mirrored outside of stacks.
     pub fn is_certified(&self) -> bool {
         let proven = Proven::of(std::iter::once(&self.certificate));
         proven.lacks(Overlap::Test, Mirrored::InStacks).is_empty()

@@ -16,7 +16,7 @@ use unwrapd_maps::certificate::{Certificate, Overlap, PaddingVerdict, chart_ids}
 const MOST_OF_A_CODE: usize = 8;
 
 /// Returns warnings about everything that prevents certification, missed bounds and faces wound against their chart.
-pub fn shortfalls(groups: &[(&GroupUvs, &GroupReport)]) -> Vec<Warning> {
+pub fn shortfalls(groups: &[(&GroupUvs, &GroupReport)], mirrored: Mirrored) -> Vec<Warning> {
     let found = groups.iter().flat_map(|(uvs, report)| {
         let name = &uvs.label;
         let bound = report.atlas.as_ref().and_then(|atlas| atlas.bound.as_ref());
@@ -26,7 +26,7 @@ pub fn shortfalls(groups: &[(&GroupUvs, &GroupReport)]) -> Vec<Warning> {
         let rough = bound
             .and_then(BoundReport::caveat)
             .map(|caveat| Warning::new("rough_surface", format!("{name}: {caveat}")));
-        let unproven = of_certificate(uvs, &report.certificate, Mirrored::InStacks);
+        let unproven = of_certificate(uvs, &report.certificate, mirrored);
         let caveats = distorted.into_iter().chain(rough);
         let caveats = caveats.chain(mixed_winding(name, report));
         unproven.into_iter().chain(caveats)
@@ -40,7 +40,7 @@ fn mixed_winding(name: &str, report: &GroupReport) -> Option<Warning> {
     let edges = report
         .defects
         .as_ref()
-        .filter(|_| mixed)?
+        .filter(|defects| mixed && defects.inconsistent_edges > 0)?
         .inconsistent_edges;
     Some(Warning::new(
         "mixed_winding",

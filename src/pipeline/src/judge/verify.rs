@@ -95,7 +95,11 @@ pub fn measure_document(
         let options = &question.options;
         let uvs = WrittenUvs::asked(document, question)?;
         let groups = uvs.judge(&options.claims(Overlap::Test), options.resolution());
-        Ok(Report::new(groups, warnings(document, question)))
+        Ok(Report::new(
+            groups,
+            warnings(document, question),
+            Mirrored::InStacks,
+        ))
     })
 }
 
