@@ -118,7 +118,10 @@ impl RuledCharts {
 /// Distance beyond a page, in longer sides of it, that rounding brings back: a step of the grid.
 const BEYOND: f64 = 1.0 / (1 << GRID_BITS) as f64;
 
-/// Returns whether a locked chart lies on a page, and not on no page at all.
+/// Returns whether a locked chart lies on a page: `false` if it lies beyond all pages.
+///
+/// # Errors
+/// Fails if it crosses the border of a page.
 fn is_on_page(chart: &MappedChart, texture: Texture) -> Result<bool, IslandError> {
     let [width, height] = texture.resolution.sides();
     let [low, high] = bounds_of(&chart.embedding.uv);
@@ -276,7 +279,7 @@ pub fn are_constrained(charts: &[MappedChart], seams: &Seams) -> bool {
 
 // Packing.
 
-/// What charts are packed by.
+/// Terms on which charts are packed.
 pub struct ArrangementTerms<'a> {
     pub seams: &'a Seams,
     pub charts: ChartTerms<'a>,

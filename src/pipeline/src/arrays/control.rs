@@ -22,12 +22,12 @@ pub struct FaceControl {
     pub selected: Vec<(String, Vec<u32>)>,
 }
 
-/// What holds for the faces of an island.
+/// Rules for the faces of an island.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaceRules {
     /// Number of the rule that makes them stay where they are.
     pub lock: Option<u32>,
-    /// Number of the rule that makes them keep their positions to each other.
+    /// Number of the rule that makes them keep their relative positions.
     pub group: Option<u32>,
     /// Rectangle in which they stay, by its name.
     pub region: Option<(String, Region)>,
@@ -78,7 +78,7 @@ impl FaceRules {
         }
     }
 
-    /// Adds what a rule says.
+    /// Adds the action of a rule.
     fn add(
         &mut self,
         number: u32,

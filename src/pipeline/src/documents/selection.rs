@@ -13,7 +13,7 @@ use unwrapd_files::document::{Document, DocumentError, Group};
 use unwrapd_maps::certificate::chart_ids;
 use unwrapd_maps::mesh::{CornerUvs, VAxis};
 
-/// What selectors ask of the faces of a mesh.
+/// Attributes of faces by which selectors choose.
 pub struct FaceAttributes {
     /// For each face its primitive and its index in that.
     pub faces: Vec<[u32; 2]>,

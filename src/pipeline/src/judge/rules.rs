@@ -1,4 +1,4 @@
-//! What rules for islands did, measured on the written bytes.
+//! Effects of rules for islands, measured on the written bytes.
 
 use super::group_uvs::GroupUvs;
 use crate::Seams;
@@ -15,7 +15,7 @@ use unwrapd_method::numerics::vec3::{area_vector, norm};
 /// kept. Rounding to the grid changes the area of an island of a hundred texels by less.
 const CHANGED: f64 = 1e-3;
 
-/// A rule for islands, and what it did in one atlas.
+/// Effect of a rule for islands in one atlas.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct RuleReport {
@@ -66,7 +66,7 @@ impl FaceAreas {
     }
 }
 
-/// Reports what each rule did to the UVs of a group, whose seams were made from its input.
+/// Measures the effect of each rule on the UVs of a group, whose seams were made from its input.
 pub fn rule_reports(seams: &Seams, uvs: &GroupUvs, texture: Resolution) -> Vec<RuleReport> {
     let Some(control) = &seams.control else {
         return Vec::new();

@@ -17,7 +17,7 @@ options! {
         /// faces=P/F,P/F (the islands of these faces F of primitives P, counted over the result from
         /// 0). An island is selected if one of its faces is; new charts are cut along the borders of
         /// selections. Actions are lock (stay where they are, bit for bit), group (keep their
-        /// positions to each other), in NAME (stay in that `rectangle`), in 1001 (stay in that UDIM
+        /// relative positions), in NAME (stay in that `rectangle`), in 1001 (stay in that UDIM
         /// tile), density T (texels per unit of length), density keep (that of the file), density
         /// equal (the mean of all selected) and scale S (S times the size that they would have beside
         /// the others). lock, group and faces require `repack`, or `cut` keep with `kept_maps`
@@ -39,7 +39,7 @@ options! {
 pub struct IslandRule {
     /// The islands.
     pub selector: Selector,
-    /// What becomes of them.
+    /// The action on them.
     pub action: Action,
 }
 
@@ -56,12 +56,12 @@ pub enum Selector {
     Faces(Vec<[u32; 2]>),
 }
 
-/// What becomes of islands.
+/// An action on islands.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
     /// They stay where they are.
     Lock,
-    /// They keep their positions to each other.
+    /// They keep their relative positions.
     Group,
     /// They stay in the rectangle with this name, or in the UDIM tile with this number.
     In(String),
@@ -81,7 +81,7 @@ pub enum Action {
 pub struct NamedRectangle {
     /// Its name.
     pub name: String,
-    /// Its least and greatest coordinates.
+    /// Its least coordinates.
     pub low: [f64; 2],
     /// Its greatest coordinates.
     pub high: [f64; 2],
