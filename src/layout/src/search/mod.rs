@@ -179,16 +179,21 @@ fn slit_open(
     if terms.effort.share(share_of_panels(metric)).most < metric.corners.len() as f64 {
         return None;
     }
+    let nets = rival.iter().map(|chart| Net::of_chart(metric, chart));
+    let nets = Nets::new(metric, nets.collect());
+    let most = if is_broken(rival, bound) {
+        f64::INFINITY
+    } else if is_symmetric(rival) {
+        nets.cost(terms.fill_weight) - SYMMETRY
+    } else {
+        nets.cost(terms.fill_weight)
+    };
     let nets = Nets::new(metric, Vec::new());
     let mut search = Search::new(nets, bound.budget(), terms, options, observer);
-    search.start_from_components(bound)?;
+    search.start_from_components(bound, most)?;
     let charts = search.nets.list.values();
     let charts: Vec<MappedChart> = charts.filter_map(|net| net.mapped_chart(metric)).collect();
-    let nets = rival.iter().map(|chart| Net::of_chart(metric, chart));
-    let most = Nets::new(metric, nets.collect()).cost(terms.fill_weight);
-    let symmetry = if is_symmetric(rival) { SYMMETRY } else { 0.0 };
-    let is_cheaper = search.nets.cost(terms.fill_weight) < most - symmetry;
-    let is_better = !is_broken(&charts, bound) && (is_cheaper || is_broken(rival, bound));
+    let is_better = search.nets.cost(terms.fill_weight) < most && !is_broken(&charts, bound);
     is_better.then(|| (charts, search.counts.effort.left()))
 }
 

@@ -92,6 +92,11 @@ impl<'a> Nets<'a> {
         self.seam_and_charts().ln() - fill_weight * Self::fill(self.list.values())
     }
 
+    /// Returns the cost where no net is so long that it sets the scale.
+    pub fn least_cost(&self, fill_weight: f64) -> f64 {
+        self.seam_and_charts().ln() - fill_weight * USUAL_FILL
+    }
+
     /// Returns ½ + S + n/10.
     pub fn seam_and_charts(&self) -> f64 {
         FIRST_SEAM + self.seam() + PER_CHART * self.list.len() as f64

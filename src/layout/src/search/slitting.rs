@@ -138,8 +138,8 @@ impl<'a> Slitting<'a> {
 }
 
 impl Search<'_> {
-    /// Starts from the components of the surface; returns `None` if one of them has no map.
-    pub fn start_from_components(&mut self, bound: &Bound) -> Option<()> {
+    /// Starts from the components of the surface; returns `None` if one of them has no map, or the slits alone cost `most`.
+    pub fn start_from_components(&mut self, bound: &Bound, most: f64) -> Option<()> {
         let metric = self.nets.metric;
         let components: Vec<(Vec<u32>, Vec<u32>)> = components(metric)
             .into_iter()
@@ -156,7 +156,13 @@ impl Search<'_> {
             .collect::<Option<_>>()?;
         self.slit_under_bound(&mut slittings)?;
         let maps = slittings.into_iter().filter_map(|slitting| slitting.map);
-        let nets: Vec<Net> = maps.flat_map(|mapped| self.parted(mapped)).collect();
+        let maps: Vec<MappedChart> = maps.map(|mapped| mapped.map).collect();
+        let nets = maps.iter().map(|map| Net::of_chart(metric, map));
+        self.nets = Nets::new(metric, nets.collect());
+        if self.nets.least_cost(self.fill_weight) >= most {
+            return None;
+        }
+        let nets: Vec<Net> = maps.into_iter().flat_map(|map| self.parted(map)).collect();
         self.nets = Nets::new(metric, nets);
         if self.nets.list.len() > components.len() {
             self.give_back(bound);
@@ -289,9 +295,8 @@ impl Search<'_> {
     }
 
     /// Parts a map where it overlaps itself.
-    fn parted(&self, mapped: Mapped) -> Vec<Net> {
+    fn parted(&self, mut map: MappedChart) -> Vec<Net> {
         let (metric, observer) = (self.nets.metric, self.observer);
-        let mut map = mapped.map;
         let faces: Vec<u32> = (map.chart.corners.iter())
             .map(|corners| corners[0] / 3)
             .collect();

@@ -21,7 +21,7 @@ pub struct Search<'a> {
     /// Excess that the nets may have together.
     pub budget: f64,
     /// Weight of the fill of a square page beside the cost of the seams.
-    fill_weight: f64,
+    pub fill_weight: f64,
     /// The most effort at the present price.
     most: f64,
     /// Effort that may be spent without a move.
