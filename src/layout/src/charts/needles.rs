@@ -1,7 +1,8 @@
 //! Needles put back into charts.
 //!
 //! Surfaces are cut [without their needles](Surface::without_needles), so that these decide nothing. Then each step is undone in the
-//! chart that holds its faces. Maps stay as they are, but for the vertex of the needle, which is placed so that the needle has an area.
+//! chart that holds its faces. Maps stay as they are, but for the vertex of the needle, which is placed so that the needle has an area and
+//! is not sheared.
 //! Where a seam runs along a flipped edge, the smaller of its faces is laid beside the larger one.
 
 use super::opened::connected_faces;
@@ -11,7 +12,11 @@ use super::{Chart, Folds, MappedChart, Observer, map_chart};
 use std::collections::BTreeMap;
 use unwrapd_maps::cut::Sheet;
 use unwrapd_maps::embed::{self, Embedding};
-use unwrapd_maps::mesh::{CUT, Edges, NEEDLE, NeedleStep, Surface, same_direction};
+use unwrapd_maps::mesh::{
+    CUT, Edges, NEEDLE, NeedleStep, Surface, VertexFaces, longest_side, looks_like_edge,
+    same_direction,
+};
+use unwrapd_method::numerics::predicates::orient2d_sign;
 use unwrapd_method::numerics::vec2::{doubled_area, sub};
 use unwrapd_method::numerics::{vec2, vec3};
 
@@ -71,12 +76,52 @@ pub fn with_needles(
 }
 
 /// Returns the chart as it is if its map is valid, and mapped anew if not.
-fn valid(map: MappedChart, options: &embed::Options, observer: &dyn Observer) -> Vec<MappedChart> {
+fn valid(
+    mut map: MappedChart,
+    options: &embed::Options,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
+    unshear(&mut map);
     let (disk, uv) = (&map.chart.disk, &map.embedding.uv);
     if embed::is_positive(&disk.triangles, uv) && overlaps(disk, uv).is_empty() {
         vec![map]
     } else {
         map_chart(map.chart, options, Folds::Cut, observer)
+    }
+}
+
+/// Moves the vertex of each needle along its longest side to where it lies at rest, unless that flips a face: a little off, it shears the
+/// needle a thousandfold. Vertices on the boundary stay, so nothing overlaps anew.
+fn unshear(map: &mut MappedChart) {
+    let (chart, uv) = (&map.chart, &mut map.embedding.uv);
+    let triangles = &chart.disk.triangles;
+    let around = VertexFaces::new(chart.disk.n_vertices, triangles);
+    let mut on_boundary = vec![false; chart.disk.n_vertices];
+    for &v in chart.disk.loops.iter().flatten() {
+        on_boundary[v as usize] = true;
+    }
+    for triangle in triangles {
+        let rest = triangle.map(|v| chart.positions[v as usize]);
+        let (first, _) = longest_side(rest);
+        let [a, b, c] = [0, 1, 2].map(|k| triangle[(first + k) % 3] as usize);
+        if on_boundary[c] || !looks_like_edge(rest) {
+            continue;
+        }
+        let [p, q, r] = [a, b, c].map(|v| chart.positions[v]);
+        let side = vec3::sub(q, p);
+        let at_rest = vec3::dot(vec3::sub(r, p), side) / vec3::dot(side, side);
+        let side = sub(uv[b], uv[a]);
+        let squared = vec2::dot(side, side);
+        let missing = at_rest - vec2::dot(sub(uv[c], uv[a]), side) / squared;
+        let before = uv[c];
+        uv[c] = [0, 1].map(|k| before[k] + missing * side[k]);
+        let is_valid = |&f: &u32| {
+            let [a, b, c] = triangles[f as usize].map(|v| uv[v as usize]);
+            orient2d_sign(a, b, c) > 0
+        };
+        if !around.of(c as u32).iter().all(is_valid) {
+            uv[c] = before;
+        }
     }
 }
 

@@ -24,6 +24,6 @@ pub use edges::{
 pub use elements::{
     ElementError, PlanarMesh, TetMesh, boundary_edges, boundary_triangles, validate,
 };
-pub use needles::{NEEDLE, NeedleStep, looks_like_edge};
+pub use needles::{NEEDLE, NeedleStep, longest_side, looks_like_edge};
 pub use surface::{Defects, MeshError, Surface, canonical_order, has_zero_area, weld};
 pub use uvs::{CornerUvs, Resolution, VAxis};

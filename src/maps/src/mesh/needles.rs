@@ -58,7 +58,7 @@ pub fn looks_like_edge(p: [[f64; 3]; 3]) -> bool {
 }
 
 /// Returns the corner at which the longest side begins, and its length.
-fn longest_side(p: [[f64; 3]; 3]) -> (usize, f64) {
+pub fn longest_side(p: [[f64; 3]; 3]) -> (usize, f64) {
     let sides = [0, 1, 2].map(|k| (k, distance(p[k], p[(k + 1) % 3])));
     (sides.into_iter()).fold(
         (0, 0.0),
