@@ -159,8 +159,9 @@ pub struct PictureWarp {
 
 /// Warps a picture: deforms a grid over it without inverting a triangle while the handles go to their targets.
 ///
-/// A point pulls itself, a region the vertices of the grid inside it, but not those of a fixed border. Only next to a fixed border, where most of a point's weight is fixed, it pulls the
-/// nearest free vertex instead, whose target is the handle's shifted by the same offset. Handles at one place must
+/// A point pulls itself, a region the vertices of the grid inside it, but not those of a fixed border. Only next to a fixed
+/// border, where most of a point's weight is fixed, it pulls the nearest free vertex instead, whose target is the handle's
+/// shifted by the same offset. Handles at one place must
 /// agree. Targets that cannot be reached end in
 /// [`Status::TargetsUnreachable`](unwrapd_method::solver::Status::TargetsUnreachable) with a valid map, and
 /// [`PullSummary::unreached`] names their handles.

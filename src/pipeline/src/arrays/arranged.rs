@@ -171,7 +171,7 @@ fn rules_of<'a>(chart: &MappedChart, seams: &'a Seams) -> Option<&'a FaceRules> 
     Some(seams.control.as_ref()?.of(corner / 3))
 }
 
-/// ChartAreas of charts that are scaled by one factor: of their maps, of the surface, and of their given UVs in texels.
+/// Areas of charts that are scaled by one factor: of their maps, of the surface, and of their given UVs in texels.
 #[derive(Clone, Copy, Default)]
 struct ChartAreas {
     map: f64,
