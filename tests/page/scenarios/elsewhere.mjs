@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 
 export async function run(page, url) {
-  // The mesh is large so that the job lasts, not to be looked at.
+  // The mesh is large so that the job is mapped for a while, not to be looked at.
   await page.route(/\/inputs\//, (route) => route.abort());
   await page.goto(url);
   await page.waitForFunction(() => /Another machine/.test(document.getElementById("plane-note").textContent));

@@ -5,6 +5,8 @@ mod pulling;
 use std::path::Path;
 use std::process::Command;
 
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
 use serde_json::Value;
 
 use crate::cli::{assert_status, unwrapd};
@@ -87,9 +89,18 @@ async fn charts_relax_in_the_uv_view() {
 async fn a_job_that_a_worker_runs_says_so() {
     let cluster = Cluster::with_lease("60");
     let service = cluster.api();
-    let _worker = cluster.worker();
+    let worker = cluster.worker();
     let job = service.submit(meshes::hills(800), "cut=disk").await;
+    service.mapping(&job).await;
+    // The job lasts until the page has looked, however long that takes.
+    let signal = |signal| {
+        for child in worker.children() {
+            kill(Pid::from_raw(child), signal).expect("a child");
+        }
+    };
+    signal(Signal::SIGSTOP);
     scenario("elsewhere", with_job(&service, &job), &[]).await;
+    signal(Signal::SIGCONT);
 }
 
 #[tokio::test]
