@@ -95,12 +95,16 @@ export class JobView {
     const panel = new ProgressPanel(job, this.#actions(job));
     note(awaited(job, job));
     void this.#showInput(job);
-    let isElsewhere = false;
-    const stopCharts = watchCharts(job, viewer, () => (isElsewhere = true));
+    let [now, isElsewhere]: [Progress, boolean] = [job, false];
+    const stopCharts = watchCharts(job, viewer, () => {
+      isElsewhere = true;
+      // The next event may be long in coming.
+      if (this.#shown(job) && !isFinal(now.state)) note(awaited(job, now, isElsewhere));
+    });
     let last = job.seq - 1;
     this.#heard = (event) => {
       if (!this.#shown(job) || event.seq <= last) return;
-      last = event.seq;
+      [last, now] = [event.seq, event];
       panel.show(event);
       this.#parts.list.heard(id, event);
       if (!viewer.isRelaxing) note(awaited(job, event, isElsewhere));
