@@ -139,7 +139,7 @@ fn a_part_without_uvs_stays_without() {
             .to_string()
             .contains("left out: 2 primitives")
     );
-    // An OBJ has one mesh, of which a part cannot be left out.
+    // An OBJ has one mesh: no part of it can be left out.
     let mut obj = options(Vec::new());
     obj.format = OutputFormat::Obj;
     let error = repack_document(&upload, &obj, &Unobserved).expect_err("it is refused");

@@ -231,7 +231,7 @@ fn stacked_islands_are_a_tile_apart_if_that_is_asked_for() {
         offset.measures.packing.covered_texels,
         together.measures.packing.covered_texels
     );
-    // The others lie on each other, but on none of the first tile.
+    // The others coincide, but overlap nothing in the first tile.
     assert!(!verified(&outcome, false).certified);
     assert!(verified(&outcome, true).certified);
     // Without a stack there is nothing to move.

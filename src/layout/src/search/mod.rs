@@ -121,7 +121,7 @@ pub fn from_pieces(
 /// It takes the share of the effort that the charts leave of the bound, or that panels have of the area: bent parts without much of the
 /// bound left have little to gain. It takes all of the effort if the charts break the bound.
 ///
-/// Returns the charts, and the work that the search took. If the given charts kept the bound, their seams cost at most as much as before.
+/// Returns the charts, and the work that the search took. If the given charts kept the bound, those returned cost at most as much.
 /// Charts that no move changed stay as they are; so do all if the stretch is bounded, which the search does not measure.
 pub fn from_charts(
     surface: &Surface,

@@ -8,8 +8,8 @@
 //!
 //! where K are the angle defects at inner vertices. Each other boundary loop is one node, whose charge is the turn by
 //! which a walk around the hole fails to close. A conformal map with these scales has the excess ∫ 4 (cosh 2(u − ū) − 1)
-//! over an isometry, and the best map about half of it (measured: real over predicted is 1.1 to 1.7 at the median of 2,800
-//! maps). One sparse solve sees cones, spheres, tubes and plates with holes alike.
+//! over an isometry, and the best map about half of it (measured to second order: real over predicted is 1.1 to 1.7 at the
+//! median of 2,800 maps). One sparse solve sees cones, spheres, tubes and plates with holes alike.
 //!
 //! From: Ben-Chen, Gotsman, Bunin 2008, Conformal Flattening by Curvature Prescription and Metric Scaling; Springborn,
 //! Schröder, Pinkall 2008, Conformal Equivalence of Triangle Meshes.
@@ -22,7 +22,7 @@ use unwrapd_method::numerics::vec3::distance;
 
 /// Largest charge, in radians, that is treated as none: rounding of coordinates in `f32`.
 const UNCHARGED: f64 = 1e-4;
-/// Largest logarithm of a scale that counts: beyond e⁴ a few vertices would outweigh all others. Half of it changes nothing.
+/// Largest logarithm of a scale that counts: beyond e⁴ a few vertices would outweigh all others. Not tuned.
 const LARGEST: f64 = 4.0;
 /// Excess of the best map over that of the conformal one.
 const BEST: f64 = 0.5;

@@ -1,6 +1,6 @@
 //! Rules for the islands of a mesh, face by face.
 //!
-//! A rule selects faces. Where islands are given, it selects all faces of an island of which it selects one; new charts
+//! A rule selects faces. Where islands are given, one selected face selects its whole island; new charts
 //! are cut along the borders of selections. So all faces of a chart have the same rules ([`FaceRules`]).
 
 use std::collections::hash_map::Entry;

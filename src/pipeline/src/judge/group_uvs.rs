@@ -113,7 +113,7 @@ impl GroupUvs {
     }
 }
 
-/// Returns the error of a primitive of which some or all faces lack UVs.
+/// Returns the error of a primitive if some or all of its faces lack UVs.
 fn no_uvs(document: &Document, index: usize, label: &str, texcoord: u32) -> PipelineError {
     let group = label.to_owned();
     let missing = document.faces_without_uvs(index);
