@@ -190,7 +190,7 @@ fn slit_open(
     };
     let nets = Nets::new(metric, Vec::new());
     let mut search = Search::new(nets, bound.budget(), terms, options, observer);
-    search.start_from_components(bound, most)?;
+    search.start_from_components(most)?;
     let charts = search.nets.list.values();
     let charts: Vec<MappedChart> = charts.filter_map(|net| net.mapped_chart(metric)).collect();
     let is_better = search.nets.cost(terms.fill_weight) < most && !is_broken(&charts, bound);

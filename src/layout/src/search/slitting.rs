@@ -3,7 +3,7 @@
 //! A component that is opened to a disk is slit further, each time along the path where one sparse solve predicts the most relief
 //! for its length (`prediction`). The slits are planned one by one, and the bound says how many of them are made: the excess of the
 //! last map over its prediction tells what to expect of the next. All components share one budget. Where a map overlaps itself, the
-//! component is parted, and parts are given back to their neighbors if that is cheaper.
+//! component is parted; the search glues the parts again where that pays.
 
 use super::cut_mesh::CutMesh;
 use super::effort::Effort;
@@ -14,7 +14,7 @@ use super::opening::{first_slit, paths};
 use super::prediction::{Grounded, Prediction};
 use super::sets::union;
 use super::state::Search;
-use crate::charts::{Bound, MappedChart, Watching, given_back, overlaps, pushed_apart};
+use crate::charts::{MappedChart, Watching, overlaps, pushed_apart};
 use unwrapd_maps::cut::{Branches, Neighbors, open_to_disk};
 use unwrapd_maps::embed;
 use unwrapd_maps::mesh::{CUT, UnionFind};
@@ -139,7 +139,7 @@ impl<'a> Slitting<'a> {
 
 impl Search<'_> {
     /// Starts from the components of the surface; returns `None` if one of them has no map, or the slits alone cost `most`.
-    pub fn start_from_components(&mut self, bound: &Bound, most: f64) -> Option<()> {
+    pub fn start_from_components(&mut self, most: f64) -> Option<()> {
         let metric = self.nets.metric;
         let components: Vec<(Vec<u32>, Vec<u32>)> = components(metric)
             .into_iter()
@@ -162,11 +162,8 @@ impl Search<'_> {
         if self.nets.least_cost(self.fill_weight) >= most {
             return None;
         }
-        let nets: Vec<Net> = maps.into_iter().flat_map(|map| self.parted(map)).collect();
-        self.nets = Nets::new(metric, nets);
-        if self.nets.list.len() > components.len() {
-            self.give_back(bound);
-        }
+        let nets = maps.into_iter().flat_map(|map| self.parted(map));
+        self.nets = Nets::new(metric, nets.collect());
         Some(())
     }
 
@@ -294,7 +291,7 @@ impl Search<'_> {
         Some(())
     }
 
-    /// Parts a map where it overlaps itself.
+    /// Parts a map where it overlaps itself and cannot be pushed apart.
     fn parted(&self, mut map: MappedChart) -> Vec<Net> {
         let (metric, observer) = (self.nets.metric, self.observer);
         let faces: Vec<u32> = (map.chart.corners.iter())
@@ -313,21 +310,6 @@ impl Search<'_> {
             .iter()
             .map(|part| Net::of_chart(metric, part))
             .collect()
-    }
-
-    /// Lays small nets back on their neighbors if that is cheaper.
-    fn give_back(&mut self, bound: &Bound) {
-        let metric = self.nets.metric;
-        let charts = self.nets.list.values();
-        let charts = charts.filter_map(|net| net.mapped_chart(metric)).collect();
-        let given = given_back(metric.surface, charts, bound, self.options, self.observer);
-        let given = given.iter().map(|map| Net::of_chart(metric, map));
-        let given = Nets::new(metric, given.collect());
-        let before = self.cost();
-        let nets = std::mem::replace(&mut self.nets, given);
-        if self.cost() >= before {
-            self.nets = nets;
-        }
     }
 }
 
