@@ -315,6 +315,29 @@ fn given_charts_get_shorter_seams() {
     assert!(energy(&found) <= 4.1, "{}", energy(&found));
 }
 
+/// Both parts of a ramp that winds around its axis one and a half times are known to collide without mapping them as one.
+#[test]
+fn parts_that_collide_are_not_mapped() {
+    let mesh = ramp(36);
+    let surface = surface(&mesh);
+    let parts: Vec<MappedChart> = (charts(&surface, Cut::Disk).into_iter())
+        .flat_map(|chart| map_chart(chart, &options(), Folds::Cut, &Unobserved))
+        .collect();
+    assert_eq!(parts.len(), 2);
+    let (found, counts) = from_charts(
+        &surface,
+        parts,
+        &bound(4.1),
+        &Terms::default(),
+        &options(),
+        &Unobserved,
+    );
+    check(&surface, &found);
+    assert_eq!(found.len(), 2);
+    assert!(counts.collided > 0);
+    assert_eq!(counts.maps, 0);
+}
+
 /// A search that may do nothing, or whose bound is spent, returns what it was given.
 #[test]
 fn charts_stay_without_effort_and_at_the_bound() {
@@ -414,6 +437,24 @@ fn walls_stay_straight() {
     for n in [8, 24] {
         let energy = energy(&divided(&ring(n), 4.1));
         assert!(energy < 4.01, "{energy}");
+    }
+}
+
+/// A flat ring from radius 2 to 3 that rises slightly and goes on around its axis: `n` squares, 24 a turn.
+fn ramp(n: u32) -> Mesh {
+    let point = |i: u32, radius: f32| {
+        let (sin, cos) = (i as f32 * TAU / 24.0).sin_cos();
+        [radius * cos, radius * sin, 0.002 * i as f32]
+    };
+    Mesh {
+        name: format!("ramp {n}"),
+        positions: (0..=n)
+            .flat_map(|i| [point(i, 2.0), point(i, 3.0)])
+            .collect(),
+        triangles: (0..n)
+            .map(|i| 2 * i)
+            .flat_map(|a| [[a, a + 1, a + 3], [a, a + 3, a + 2]])
+            .collect(),
     }
 }
 

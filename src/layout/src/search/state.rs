@@ -2,6 +2,7 @@
 
 use super::Terms;
 use super::effort::Effort;
+use super::laid_together::Start;
 use super::net::Net;
 use super::nets::Nets;
 use super::opening::Opening;
@@ -44,6 +45,8 @@ pub struct Counts {
     pub maps: usize,
     /// Maps that flipped or overlapped.
     pub failed: usize,
+    /// Unions that were not mapped, since their parts collide.
+    pub collided: usize,
     /// Unions made.
     pub glued: usize,
     /// Nets opened in a cheaper way.
@@ -60,6 +63,7 @@ impl Counts {
             predicted: 0,
             maps: 0,
             failed: 0,
+            collided: 0,
             glued: 0,
             reopened: 0,
             refused: 0,
@@ -151,11 +155,22 @@ impl<'a> Search<'a> {
 
     /// Maps an opening of the union of two nets, or returns what is known of it.
     pub fn map_union(&mut self, nets: [u32; 2], opening: &Opening) -> Option<Net> {
-        let [a, b] = nets.map(|net| self.nets.list[&net].clone());
+        let [a, b] = nets.map(|net| &self.nets.list[&net]);
         let (metric, options, observer) = (self.nets.metric, self.options, self.observer);
-        let contact = self.nets.contact(nets[0], nets[1]);
-        let map = || Net::of_union(metric, [&a, &b], &contact, opening, options, observer);
-        self.known_or(&union(&a.faces, &b.faces), opening, map)
+        let faces = union(&a.faces, &b.faces);
+        let start = Start::new(
+            metric,
+            [a, b],
+            &self.nets.contact(nets[0], nets[1]),
+            opening,
+        );
+        if matches!(start, Start::Colliding) {
+            self.counts.collided += 1;
+            self.counts.effort.predicted_faces += faces.len();
+            return None;
+        }
+        let map = || Net::of_union(metric, &faces, start, opening, options, observer);
+        self.known_or(&faces, opening, map)
     }
 
     fn known_or(
