@@ -223,9 +223,8 @@ impl Raster {
                     continue;
                 }
                 let known = neighbor.seen_from([x, y]);
-                let by = known.by(is_free);
-                if by < least {
-                    (best, least) = (known, by);
+                if known.is_nearer(least, is_free) {
+                    (best, least) = (known, known.by(is_free));
                 }
             }
         }
@@ -270,7 +269,16 @@ impl Nearest {
     /// Estimates the distance of this node to the border of the region: adds the distance of the known node to the border if this node
     /// is free, too, and subtracts it if it lies in the region. Infinite if no node is known.
     fn by(self, is_free: bool) -> f64 {
-        let rest = if is_free { self.rest } else { -self.rest };
-        dot(self.way, self.way).sqrt() + rest
+        dot(self.way, self.way).sqrt() + self.signed_rest(is_free)
+    }
+
+    /// Returns whether that distance is below a bound, without its root.
+    fn is_nearer(self, bound: f64, is_free: bool) -> bool {
+        let most = bound - self.signed_rest(is_free);
+        most > 0.0 && dot(self.way, self.way) < most * most
+    }
+
+    fn signed_rest(self, is_free: bool) -> f64 {
+        if is_free { self.rest } else { -self.rest }
     }
 }
