@@ -609,9 +609,9 @@ impl<'a> Packing<'a> {
         fits.then(|| {
             let mask = Mask::new(outline, scale * stretch, distances);
             let turned = match self.plan().turns[chart] {
-                QuarterTurns::Only(turns) => vec![Turned::new(mask, turns)],
+                QuarterTurns::Only(turns) => vec![Turned::new(&mask, turns)],
                 QuarterTurns::Any if self.is_alike && outline.has_copies => {
-                    vec![Turned::new(mask, 0)]
+                    vec![Turned::new(&mask, 0)]
                 }
                 QuarterTurns::Any => Turned::all(mask),
             };

@@ -329,8 +329,12 @@ pub(super) struct Turned {
 
 impl Turned {
     /// Turns a mask counter-clockwise by `turns` quarters.
-    pub(super) fn new(mask: Mask, turns: u32) -> Self {
-        let turned = (0..turns).fold(mask, |mask, _| mask.quarter_turn());
+    pub(super) fn new(mask: &Mask, turns: u32) -> Self {
+        if turns == 0 {
+            return Self::of(mask, 0);
+        }
+        let once = mask.quarter_turn();
+        let turned = (1..turns).fold(once, |mask, _| mask.quarter_turn());
         Self::of(&turned, turns)
     }
 

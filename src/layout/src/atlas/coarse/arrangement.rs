@@ -212,7 +212,10 @@ const ROOM: f64 = 0.1;
 pub(super) struct Poses {
     /// Outline at each angle within a quarter turn.
     outlines: Vec<Outline>,
-    masks: Vec<OnceLock<Turned>>,
+    /// Mask at each of these angles.
+    masks: Vec<OnceLock<Mask>>,
+    /// Mask of each pose.
+    turned: Vec<OnceLock<Turned>>,
     /// Poses that differ on the raster.
     distinct: OnceLock<Vec<usize>>,
     body: OnceLock<Arc<Body>>,
@@ -231,7 +234,8 @@ impl Poses {
         let angle = |a: usize| FRAC_PI_2 * a as f64 / ANGLES as f64;
         Self {
             outlines: (0..angles).map(|a| outline.rotated(angle(a))).collect(),
-            masks: (0..quarters * angles).map(|_| OnceLock::new()).collect(),
+            masks: (0..angles).map(|_| OnceLock::new()).collect(),
+            turned: (0..quarters * angles).map(|_| OnceLock::new()).collect(),
             distinct: OnceLock::new(),
             body: OnceLock::new(),
             least_page: OnceLock::new(),
@@ -245,7 +249,7 @@ impl Poses {
     pub(super) fn distinct(&self) -> &[usize] {
         self.distinct.get_or_init(|| {
             let mut distinct: Vec<usize> = Vec::new();
-            for pose in 0..self.masks.len() {
+            for pose in 0..self.turned.len() {
                 let is_new = |&known: &usize| !self.mask(known).is_like(self.mask(pose));
                 if self.outlines.len() > 1 || distinct.iter().all(is_new) {
                     distinct.push(pose);
@@ -264,7 +268,7 @@ impl Poses {
             let place = distinct.iter().position(|&known| known == pose);
             return distinct[next(place.unwrap_or(0), distinct.len())];
         }
-        let place = next(angles * (pose % 4) + pose / 4, self.masks.len());
+        let place = next(angles * (pose % 4) + pose / 4, self.turned.len());
         4 * (place % angles) + place / angles
     }
 
@@ -297,9 +301,8 @@ impl Poses {
     }
 
     pub(super) fn mask(&self, pose: usize) -> &Turned {
-        self.masks[pose].get_or_init(|| {
-            let mask = Mask::new(self.outline(pose), self.scale, self.distances);
-            Turned::new(mask, Self::turns(pose))
-        })
+        let new = || Mask::new(self.outline(pose), self.scale, self.distances);
+        let mask = || self.masks[pose / 4].get_or_init(new);
+        self.turned[pose].get_or_init(|| Turned::new(mask(), Self::turns(pose)))
     }
 }
