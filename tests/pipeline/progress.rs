@@ -51,9 +51,9 @@ fn steps(reports: &[Progress]) -> Vec<(Stage, f64)> {
 #[test]
 fn progress_has_many_small_steps() {
     for (name, mesh, cut, least, most) in [
-        ("sphere", zoo::sphere(48, 31), Cut::Auto, 50, 0.15),
-        ("torus", zoo::torus(48, 32), Cut::Auto, 50, 0.15),
-        ("sphere", zoo::sphere(48, 31), Cut::Fast, 50, 0.15),
+        ("sphere", zoo::sphere(48, 31), Cut::Auto, 40, 0.15),
+        ("torus", zoo::torus(48, 32), Cut::Auto, 40, 0.15),
+        ("sphere", zoo::sphere(48, 31), Cut::Fast, 40, 0.15),
         // One chart: its map takes a few steps, and there are few layouts to search.
         ("torus", zoo::torus(48, 32), Cut::Disk, 5, 0.6),
     ] {

@@ -139,9 +139,13 @@ impl<'a> Search<'a> {
         let words = self.share * effort.words(candidate.layout.n_charts()) as f64;
         for _ in 0..self.options.patience {
             candidate.layout.improve(effort, words as u64, self.on_read);
-            // Of other pages only the fill is of interest, which the first effort shows.
+            // Of other pages only the fill is of interest, which the first effort shows, and only that of the fullest.
+            let mut fullest = candidate.layout.fill();
             for layout in (candidate.elsewhere.iter_mut()).filter(|_| effort == Effort::Low) {
-                layout.improve(effort, words as u64, self.on_read);
+                if layout.most_fill() > fullest {
+                    layout.improve(effort, words as u64, self.on_read);
+                    fullest = fullest.max(layout.fill());
+                }
             }
         }
     }

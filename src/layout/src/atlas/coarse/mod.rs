@@ -219,7 +219,7 @@ impl CoarseLayout {
     }
 
     /// Returns an upper bound of the [fill](Self::fill) of any layout of these charts.
-    pub(super) fn most_fill(&self) -> f64 {
+    pub fn most_fill(&self) -> f64 {
         let ratio = self.raster.cells() / (self.least_side() + self.raster.padding);
         HOPE * ratio * ratio
     }
