@@ -441,6 +441,33 @@ fn a_search_ends_when_all_has_been_tried() {
     assert!(*told.last().unwrap() > 900_000_000, "{told:?}");
 }
 
+/// Pages whose bound is below the fill reached elsewhere are not searched.
+#[test]
+fn a_search_stays_below_the_bound_of_the_longest_chart() {
+    let longer = Texture {
+        resolution: Resolution {
+            width: 1024,
+            height: 256,
+        },
+        pages: 1,
+    };
+    for texture in [Texture::square(1024), longer] {
+        let options = AtlasOptions {
+            texture,
+            ..AtlasOptions::default()
+        };
+        for charts in [vec![bar(4)], vec![bar(9), bar(1)], vec![bar(2), bar(3)]] {
+            let mut layout = CoarseLayout::new(&maps(&charts), &options)
+                .unwrap()
+                .unwrap();
+            let most = layout.most_fill();
+            layout.improve(Effort::High, 20_000_000, &|_| Control::Continue);
+            // Coarse layouts are accurate to a fraction of a cell of 96.
+            assert!(layout.fill() <= 1.02 * most, "{} of {most}", layout.fill());
+        }
+    }
+}
+
 #[test]
 fn crowds_and_needles_have_no_coarse_layout() {
     let crowd: Vec<Chart> = (0..600).map(|_| bar(1)).collect();
