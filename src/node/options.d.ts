@@ -82,5 +82,5 @@ export interface UnwrapFileOptions extends CalledOptions {
   format?: 'glb' | 'gltf' | 'obj';
   rebake?: boolean;
   bakeSize?: number;
-  imageFormat?: 'source' | 'png' | 'jpeg';
+  imageFormat?: 'source' | 'png' | 'jpeg' | 'webp';
 }

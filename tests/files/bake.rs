@@ -4,7 +4,7 @@ use unwrapd_files::bake::{
     Corners, Coverage, Frames, Plane, Sampled, Texture, baked, baked_attribute, side_for,
 };
 use unwrapd_files::document::{Encoding, Wrap};
-use unwrapd_files::picture::Image;
+use unwrapd_files::picture::{Image, Picture};
 
 /// A rectangle as two triangles that share the edge between its first and third corner.
 fn rectangle([a, b, c, d]: [[f64; 2]; 4]) -> Vec<Corners> {
@@ -20,9 +20,9 @@ fn unit_square() -> Vec<Corners> {
     rectangle(corners([0.0; 2], [1.0; 2]))
 }
 
-fn texture(image: &Image, encoding: Encoding, wrap: Wrap) -> Texture<'_> {
+fn texture(picture: &Picture, encoding: Encoding, wrap: Wrap) -> Texture<'_> {
     Texture {
-        image,
+        picture,
         encoding,
         wrap: [wrap; 2],
         is_nearest: false,
@@ -52,16 +52,24 @@ fn plane<'a>(texture: Texture<'a>, from: &[Corners]) -> Plane<'a> {
 }
 
 /// A picture by its texels.
-fn image(width: usize, height: usize, texel: impl Fn(usize, usize) -> [u8; 4]) -> Image {
+fn image(width: usize, height: usize, texel: impl Fn(usize, usize) -> [u8; 4]) -> Picture {
     let mut image = Image::transparent(width, height);
     for (k, pixel) in image.pixels.iter_mut().enumerate() {
         *pixel = texel(k % width, k / width);
     }
-    image
+    Picture::Eight(image)
+}
+
+/// The texel of a picture of 8 bits.
+fn texel_of(picture: &Picture, [x, y]: [usize; 2]) -> [u8; 4] {
+    match picture {
+        Picture::Eight(image) => image.pixels[y * image.width + x],
+        Picture::Sixteen(_) => unreachable!("the picture has 8 bits"),
+    }
 }
 
 /// Each texel another color.
-fn colorful(side: usize) -> Image {
+fn colorful(side: usize) -> Picture {
     image(side, side, |x, y| {
         [
             (17 * x + 40 * y) as u8,
@@ -78,7 +86,7 @@ fn the_same_map_and_size_give_the_same_texels() {
     for encoding in [Encoding::Color, Encoding::Data] {
         let texture = texture(&source, encoding, Wrap::Clamp);
         let result = resampled(texture, &unit_square(), &unit_square(), 32);
-        assert_eq!(result, source);
+        assert_eq!(Picture::Eight(result), source);
     }
 }
 
@@ -93,9 +101,92 @@ fn a_quarter_turn_turns_the_texels() {
     for y in 0..16 {
         for x in 0..16 {
             let at = x * 16 + (15 - y);
-            assert_eq!(result.pixels[at], source.pixels[y * 16 + x], "{x} {y}");
+            assert_eq!(result.pixels[at], texel_of(&source, [x, y]), "{x} {y}");
         }
     }
+}
+
+/// Copies keep what filtering reads beside an island, whatever the old texture has there.
+#[test]
+fn islands_moved_by_whole_texels_are_copied_with_their_borders() {
+    let source = colorful(64);
+    // An island with corners between texels, and its place after a flip, a quarter turn and a shift.
+    let island = [[5.3, 6.1], [20.7, 7.4], [22.2, 19.9], [4.8, 17.6]];
+    let unit = |[x, y]: [f64; 2]| [x / 64.0, y / 64.0];
+    let moved = |[x, y]: [f64; 2]| [y + 30.0, x + 9.0];
+    let from = rectangle(island.map(unit));
+    let to = rectangle(island.map(|place| unit(moved(place))));
+    let coverage = Coverage::new(&to, 64);
+    for encoding in [Encoding::Color, Encoding::Data, Encoding::Normal] {
+        let plane = plane(texture(&source, encoding, Wrap::Clamp), &from);
+        let result: Image = baked(&plane, &coverage);
+        let mut n_copied = [0, 0];
+        for (k, texel) in result.pixels.iter().enumerate() {
+            let [x, y] = [k % 64, k / 64];
+            if coverage.at(x, y).is_some() {
+                assert_eq!(*texel, texel_of(&source, [y - 9, x - 30]), "{x} {y}");
+                n_copied[usize::from(coverage.is_inside(x, y))] += 1;
+            }
+        }
+        assert!(n_copied[0] > 50 && n_copied[1] > 150, "{n_copied:?}");
+    }
+}
+
+/// One face that has moved otherwise makes all of its island new: its texels fit together.
+#[test]
+fn islands_that_change_shape_are_resampled_as_a_whole() {
+    let source = image(64, 64, |x, _| if x < 32 { [0; 4] } else { [255; 4] });
+    let unit = |[x, y]: [f64; 2]| [x / 64.0, y / 64.0];
+    // The right border of the island lies where the source changes; copies would read beyond it.
+    let from = rectangle([[8.0, 8.0], [32.0, 8.0], [32.0, 32.0], [8.0, 32.0]].map(unit));
+    let to =
+        |last: f64| rectangle([[18.0, 8.0], [42.0, 8.0], [42.0, 32.0], [last, 32.0]].map(unit));
+    let beside = |last: f64| {
+        let texture = texture(&source, Encoding::Data, Wrap::Clamp);
+        resampled(texture, &from, &to(last), 64).pixels[20 * 64 + 42]
+    };
+    assert_eq!(beside(18.0), [255; 4]);
+    assert_ne!(beside(18.5), [255; 4]);
+}
+
+/// Every code of 16 bits in every encoding.
+#[test]
+fn copies_of_16_bits_are_exact() {
+    let mut pixels: Vec<[u16; 4]> = (0..=u16::MAX)
+        .map(|code| [code, !code, code, !code])
+        .collect();
+    pixels.rotate_left(1);
+    let source = Image {
+        width: 256,
+        height: 256,
+        pixels,
+    };
+    let picture = Picture::Sixteen(source.clone());
+    for encoding in [Encoding::Color, Encoding::Data, Encoding::Normal] {
+        let plane = plane(texture(&picture, encoding, Wrap::Clamp), &unit_square());
+        let result: Image<u16> = baked(&plane, &Coverage::new(&unit_square(), 256));
+        assert!(result == source, "{encoding:?}");
+    }
+}
+
+/// A slope that 8 bits would show as steps.
+#[test]
+fn resampling_keeps_16_bits() {
+    let source = Image {
+        width: 64,
+        height: 1,
+        pixels: (0..64).map(|x| [1000 + 40 * x; 4]).collect(),
+    };
+    let picture = Picture::Sixteen(source);
+    let plane = plane(
+        texture(&picture, Encoding::Data, Wrap::Clamp),
+        &unit_square(),
+    );
+    assert!(plane.is_deep());
+    let result: Image<u16> = baked(&plane, &Coverage::new(&unit_square(), 32));
+    let row: Vec<u16> = result.pixels[..32].iter().map(|texel| texel[0]).collect();
+    let expected: Vec<u16> = (0..32).map(|x| 1020 + 80 * x).collect();
+    assert_eq!(row, expected);
 }
 
 #[test]
@@ -200,7 +291,7 @@ fn a_face_without_a_source_takes_the_colors_around() {
     let mut plane = plane(texture(&source, Encoding::Data, Wrap::Clamp), &from);
     plane.faces[2] = None;
     plane.faces[3] = None;
-    let result = baked(&plane, &Coverage::new(&to, 32));
+    let result: Image = baked(&plane, &Coverage::new(&to, 32));
     assert!(result.pixels.iter().all(|texel| *texel == [7, 8, 9, 255]));
 }
 
@@ -250,7 +341,7 @@ fn directions_turn_with_the_tangents() {
             from: same([1.0, 0.0, 0.0, 1.0]),
             to: same(tangent),
         });
-        let result = baked(&plane, &Coverage::new(&unit_square(), 8));
+        let result: Image = baked(&plane, &Coverage::new(&unit_square(), 8));
         for texel in &result.pixels {
             let apart = (0..3).map(|c| texel[c].abs_diff(wanted[c])).max();
             assert!(apart <= Some(1), "{tangent:?}: {texel:?} {wanted:?}");

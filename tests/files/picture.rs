@@ -1,6 +1,6 @@
 //! Pictures of layouts and distortion, probed pixel by pixel.
 use image::RgbImage;
-use unwrapd_files::picture::{HeatmapMeasure, Panel, heatmap_png, layout_png};
+use unwrapd_files::picture::{HeatmapMeasure, Image, Panel, Picture, heatmap_png, layout_png};
 use unwrapd_maps::measure::FaceDistortion;
 use unwrapd_maps::mesh::VAxis;
 
@@ -257,4 +257,27 @@ fn strange_numbers_are_drawn_or_left_out() {
         }
         decode(&layout_png(&[panel], 100, VAxis::Down));
     }
+}
+
+/// Files without loss bring back every pixel, with its bits.
+#[test]
+fn pictures_without_loss_are_read_as_written() {
+    let mut image = Image::transparent(20, 10);
+    for (k, pixel) in image.pixels.iter_mut().enumerate() {
+        *pixel = [k as u8, (3 * k) as u8, (7 * k) as u8, (255 - k) as u8];
+    }
+    assert_eq!(Image::decode(&image.webp().unwrap()).unwrap(), image);
+    assert_eq!(
+        Picture::decode(&image.png()).unwrap(),
+        Picture::Eight(image)
+    );
+    let deep = Image {
+        width: 2,
+        height: 1,
+        pixels: vec![[1, 256, u16::MAX, 1000], [40_000, 3, 2, 1]],
+    };
+    assert_eq!(
+        Picture::decode(&deep.png()).unwrap(),
+        Picture::Sixteen(deep)
+    );
 }

@@ -14,7 +14,7 @@ use unwrapd_files::document::{
     BakePlan, BakePlane, BakedTextures, CornerTangents, Document, DocumentError, Encoding, Group,
     NewUvs, TextureSource, Warning,
 };
-use unwrapd_files::picture::Image;
+use unwrapd_files::picture::Picture;
 use unwrapd_maps::mesh::VAxis;
 
 /// Minimum distance of charts in texels at which bilinear filtering does not mix them.
@@ -87,11 +87,13 @@ fn files(
         let (_, coverage) = last.insert(
             known.unwrap_or_else(|| (key, Coverage::new(&bake.faces(members), side as usize))),
         );
-        let image = baked(&plane, coverage);
-        let file = options
-            .baking
-            .image_format
-            .file(bake.document, wanted, &image)?;
+        let picture = if options.baking.image_format.keeps_16_bits() && plane.is_deep() {
+            Picture::Sixteen(baked(&plane, coverage))
+        } else {
+            Picture::Eight(baked(&plane, coverage))
+        };
+        let format = options.baking.image_format;
+        let file = format.file(bake.document, wanted, &picture)?;
         files.push((side, file));
     }
     Ok(files)
@@ -210,7 +212,7 @@ impl<'a> Bake<'a> {
                 continue;
             };
             let texture = Texture {
-                image: &self.images[&source.image],
+                picture: &self.images[&source.image],
                 encoding: wanted.encoding,
                 wrap: source.wrap,
                 is_nearest: wanted.is_nearest(),
@@ -365,11 +367,11 @@ fn flat_normal([a, b, c]: [[f32; 3]; 3]) -> [f32; 3] {
 
 // Source images of textures.
 
-/// Maximum number of pixels of all images together: a gigabyte at four bytes each.
-const MOST_PIXELS: usize = 1 << 28;
+/// Maximum number of bytes of all images together, decoded: 268 million pixels of 8 bits per channel.
+const MOST_BYTES: usize = 1 << 30;
 
 /// Images by index.
-type Images = BTreeMap<usize, Image>;
+type Images = BTreeMap<usize, Picture>;
 
 /// Decodes the images that are sampled. Returns them, and the reasons why others cannot be read.
 fn read_images(
@@ -382,24 +384,24 @@ fn read_images(
     indices.sort_unstable();
     indices.dedup();
     let (mut images, mut unreadable) = (Images::new(), BTreeMap::new());
-    let mut pixels = 0;
-    // Decode them; stop once they have too many pixels together.
+    let mut n_bytes = 0;
+    // Decode them; stop once they have too many bytes together.
     for index in indices {
         let decoded = match document.image(index) {
-            Ok(bytes) => Image::decode(&bytes).map_err(|error| error.to_string()),
+            Ok(bytes) => Picture::decode(&bytes).map_err(|error| error.to_string()),
             Err(error) => Err(error.to_string()),
         };
         match decoded {
-            Ok(image) => {
-                pixels += image.pixels.len();
-                images.insert(index, image);
+            Ok(picture) => {
+                n_bytes += picture.n_bytes();
+                images.insert(index, picture);
             }
-            Err(reason) => drop(unreadable.insert(index, reason)),
+            Err(reason) => drop(unreadable.insert(index, format!("image {index}: {reason}"))),
         }
-        if pixels > MOST_PIXELS {
-            let most = MOST_PIXELS >> 20;
+        if n_bytes > MOST_BYTES {
+            let most = MOST_BYTES >> 20;
             return Err(DocumentError::LimitExceeded(format!(
-                "the images have more than {most} Mi pixels"
+                "the images have more than {most} MiB of pixels"
             )));
         }
     }

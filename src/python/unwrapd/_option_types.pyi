@@ -62,7 +62,7 @@ class UnwrapFileOptions(UnwrapOptions, Sets, total=False):
     heatmap_measure: Literal["conformal", "area", "symmetric-dirichlet"] | None
     rebake: bool | None
     bake_size: int | None
-    image_format: Literal["source", "png", "jpeg"] | None
+    image_format: Literal["source", "png", "jpeg", "webp"] | None
 
 class UnwrapBytesOptions(UnwrapFileOptions, total=False):
     """The same and the format of the result."""

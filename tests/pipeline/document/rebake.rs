@@ -3,8 +3,11 @@
 use base64::Engine as _;
 use serde_json::{Value, json};
 use unwrapd_files::document::{GroupBy, OutputFormat, Upload};
-use unwrapd_files::picture::Image;
-use unwrapd_pipeline::{Baking, Options, Outcome, PipelineError, Unobserved, unwrap_document};
+use unwrapd_files::picture::{Image, Picture};
+use unwrapd_layout::charts::Cut;
+use unwrapd_pipeline::{
+    Baking, ImageFormat, KeptMaps, Options, Outcome, PipelineError, Unobserved, unwrap_document,
+};
 
 use crate::build::{Builder, parts};
 
@@ -16,8 +19,12 @@ const FLAT: [u8; 4] = [128, 128, 255, 255];
 fn uri(color: [u8; 4]) -> String {
     let mut image = Image::transparent(4, 4);
     image.pixels.fill(color);
-    let text = base64::engine::general_purpose::STANDARD.encode(image.png());
-    format!("data:image/png;base64,{text}")
+    data_uri("image/png", &image.png())
+}
+
+fn data_uri(media_type: &str, file: &[u8]) -> String {
+    let text = base64::engine::general_purpose::STANDARD.encode(file);
+    format!("data:{media_type};base64,{text}")
 }
 
 /// A square with UVs and normals, its material with a red texture.
@@ -274,6 +281,120 @@ fn what_cannot_be_resampled_stays_right() {
     assert_eq!(clearcoat["clearcoatNormalTexture"], json!({"index": 2}));
 }
 
+/// A square with one texture, whose image is at this URI.
+fn square_with(image: &str) -> Builder {
+    let mut builder = square();
+    builder.json["textures"] = json!([{"source": 0}]);
+    builder.json["images"] = json!([{"uri": image}]);
+    builder
+}
+
+/// A square whose texture names its image by an extension.
+fn square_of(extension: &str, image: &str) -> Builder {
+    let mut builder = square_with(image);
+    builder.json["textures"][0] = json!({"extensions": {extension: {"source": 0}}});
+    builder.json["extensionsUsed"] = json!([extension]);
+    builder.json["extensionsRequired"] = json!([extension]);
+    builder
+}
+
+/// The file of a result's only image.
+fn only_image(outcome: &Outcome) -> (Value, Vec<u8>) {
+    let (json, bin) = parts(&outcome.files[0].1);
+    let images = json["images"].as_array().unwrap();
+    assert_eq!(images.len(), 1);
+    let view = &json["bufferViews"][images[0]["bufferView"].as_u64().unwrap() as usize];
+    let number = |key: &str| view[key].as_u64().unwrap_or(0) as usize;
+    let file = bin[number("byteOffset")..][..number("byteLength")].to_vec();
+    (json, file)
+}
+
+fn in_format(builder: &Builder, image_format: ImageFormat) -> (Value, Vec<u8>) {
+    let baking = Baking {
+        image_format,
+        ..options().baking
+    };
+    let options = Options {
+        baking,
+        ..options()
+    };
+    only_image(&unwrap_document(&builder.upload(), &options, &Unobserved).unwrap())
+}
+
+/// WebP is read and written by its extension, which goes with the last such image.
+#[test]
+fn webp_is_read_and_written() {
+    let mut red = Image::transparent(4, 4);
+    red.pixels.fill(RED);
+    let webp = square_of(
+        "EXT_texture_webp",
+        &data_uri("image/webp", &red.webp().unwrap()),
+    );
+    let png = square_with(&uri(RED));
+    for (builder, format) in [(&webp, ImageFormat::Source), (&png, ImageFormat::Webp)] {
+        let (json, file) = in_format(builder, format);
+        assert_eq!(&file[8..12], b"WEBP");
+        assert_eq!(json["images"][0]["mimeType"], "image/webp");
+        let texture = &json["textures"][0];
+        assert_eq!(texture["extensions"]["EXT_texture_webp"]["source"], 0);
+        for list in ["extensionsUsed", "extensionsRequired"] {
+            assert_eq!(json[list], json!(["EXT_texture_webp"]), "{list}");
+        }
+        let picture = Image::decode(&file).unwrap();
+        assert!(picture.width == 32 && picture.pixels.iter().all(|texel| *texel == RED));
+    }
+    let (json, file) = in_format(&webp, ImageFormat::Png);
+    assert!(file.starts_with(b"\x89PNG") && json["textures"][0]["source"] == 0);
+    assert_eq!(
+        [&json["extensionsUsed"], &json["extensionsRequired"]],
+        [&Value::Null; 2]
+    );
+}
+
+#[test]
+fn textures_of_16_bits_keep_them_in_png_alone() {
+    let color = [1000, 30_001, 65_534, u16::MAX];
+    let deep = Image {
+        width: 4,
+        height: 4,
+        pixels: vec![color; 16],
+    };
+    let builder = square_with(&data_uri("image/png", &deep.png()));
+    let (_, file) = in_format(&builder, ImageFormat::Source);
+    match Picture::decode(&file).unwrap() {
+        Picture::Sixteen(image) => assert!(image.pixels.iter().all(|texel| *texel == color)),
+        Picture::Eight(_) => panic!("the texture has 8 bits"),
+    }
+    let (_, file) = in_format(&builder, ImageFormat::Webp);
+    assert_eq!(Image::decode(&file).unwrap().pixels[0], [4, 117, 255, 255]);
+}
+
+#[test]
+fn an_image_that_is_not_read_is_named() {
+    let ktx2 = data_uri("image/ktx2", b"\xABKTX 20\xBB\r\n\x1A\n");
+    let outcome = rebaked(&square_of("KHR_texture_basisu", &ktx2));
+    let notes = outcome.report.written.unwrap();
+    let reason = &notes.textures_kept[0].reason;
+    assert!(reason.contains("image 0 of KHR_texture_basisu"), "{reason}");
+}
+
+/// Islands that are locked have not moved, so every texel of their texture stays.
+#[test]
+fn textures_of_locked_islands_are_copied() {
+    let mut picture = Image::transparent(32, 32);
+    for (k, pixel) in picture.pixels.iter_mut().enumerate() {
+        *pixel = [(7 * k) as u8, (13 * k / 5) as u8, (k / 3) as u8, 255];
+    }
+    let builder = square_with(&data_uri("image/png", &picture.png()));
+    let mut options = options();
+    options.cutting.cut = Cut::Keep;
+    options.cutting.kept_maps = KeptMaps::AsGiven;
+    options.control.control = vec!["all: lock".parse().unwrap()];
+    let outcome = unwrap_document(&builder.upload(), &options, &Unobserved).unwrap();
+    let (_, file) = only_image(&outcome);
+    assert_eq!(Image::decode(&file).unwrap(), picture);
+}
+
 #[test]
 fn new_pictures_lie_beside_a_gltf() {
     let options = Options {
@@ -331,9 +452,9 @@ fn what_cannot_be_done_is_refused() {
 fn what_is_not_resampled_is_not_done() {
     assert!(!rebaked(&square()).report.partly_done);
     // A format that is not read, and a picture that is cut off.
-    let webp = "data:image/webp;base64,UklGRhoAAABXRUJQVlA4TA0AAAAvAAAAEAcQERGIiP4HAA==";
+    let avif = "data:image/avif;base64,AAAAHGZ0eXBhdmlmAAAAAGF2aWZtaWYxbWlhZg==";
     let cut = uri(RED);
-    for image in [webp, &cut[..cut.len() / 2 / 4 * 4]] {
+    for image in [avif, &cut[..cut.len() / 2 / 4 * 4]] {
         let mut builder = square();
         builder.json["images"][0]["uri"] = json!(image);
         let report = rebaked(&builder).report;

@@ -301,6 +301,6 @@ impl Areas {
     }
 }
 
-fn doubled_area([a, b, c]: &Corners) -> f64 {
+pub(super) fn doubled_area([a, b, c]: &Corners) -> f64 {
     ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
 }

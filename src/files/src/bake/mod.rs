@@ -7,6 +7,9 @@
 //! color of the chart's nearest point, so that nothing is read from across the borders of the source's charts. All
 //! others are filled from their neighbors, ring by ring, so that every mip level has a chart's own colors around it.
 //!
+//! An island that has moved by whole texels, quarter turns and flips is not resampled: its texels, and those beside it
+//! within reach, are copied.
+//!
 //! Vertex attributes, such as colors, need no source texture: [`baked_attribute`] interpolates them.
 //!
 //! Normal maps hold directions relative to tangents, which turn with the UVs: [`Frames`] converts each direction from
@@ -15,12 +18,15 @@
 //! Texel (x, y) of a texture of n × n is centered at ((x + ½)/n, (y + ½)/n) in UVs with v down, as in glTF. Equal input
 //! gives equal pictures, for any number of threads.
 mod coverage;
+mod moves;
+mod plane;
 mod resample;
 mod texture;
 
 pub use coverage::Coverage;
-pub use resample::{Frames, MOST_TEXELS, Plane, Sampled, baked, baked_attribute, side_for};
-pub use texture::Texture;
+pub use plane::{Frames, MOST_TEXELS, Plane, Sampled, side_for};
+pub use resample::{baked, baked_attribute};
+pub use texture::{Channel, Texture};
 
 /// Corners of a face in the plane.
 pub type Corners = [[f64; 2]; 3];

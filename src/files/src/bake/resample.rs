@@ -1,12 +1,12 @@
 //! A texture for a new UV map from textures on the old one.
 
-use super::coverage::{Areas, Barycentric, Coverage, Triangle, blended};
-use super::texture::{decoded, encoded};
-use super::{Corners, Texture};
+use super::coverage::{Areas, Coverage, Triangle, blended};
+use super::moves::{WholeMove, whole_moves};
+use super::plane::Plane;
+use super::texture::{Channel, Texture, decoded, encoded, pixel};
 use crate::document::Encoding;
-use crate::picture::Image;
+use crate::picture::{Image, Picture};
 use rayon::prelude::*;
-use std::borrow::Cow;
 
 /// Most samples per texel along a side: if the source is finer still, it repeats more often than the new texture can
 /// show.
@@ -16,20 +16,18 @@ const STEP_SAMPLES: f64 = 4.0;
 /// Relative tolerance by which a source texel may be smaller than a target texel before more samples are taken.
 const SLACK: f64 = 0.01;
 
-/// Color of a texture without any covered texel.
-const BLACK: [u8; 4] = [0, 0, 0, 255];
-
-/// Bakes the new texture.
-pub fn baked(plane: &Plane, coverage: &Coverage) -> Image {
+/// Bakes the new texture: copies the texels of islands that have moved by whole texels, and resamples the others.
+pub fn baked<T: Channel>(plane: &Plane, coverage: &Coverage) -> Image<T> {
     let side = coverage.side();
     let numbers = 0..plane.textures.len();
     let reduced: Vec<Reduced> = numbers.map(|n| Reduced::new(plane, n, coverage)).collect();
     let bake = Resampling {
         plane,
         textures: &reduced,
+        moves: &whole_moves(plane, coverage),
         coverage,
     };
-    let mut texels: Vec<Option<[u8; 4]>> = vec![None; side * side];
+    let mut texels: Vec<Option<[T; 4]>> = vec![None; side * side];
     texels
         .par_chunks_mut(side)
         .enumerate()
@@ -38,10 +36,12 @@ pub fn baked(plane: &Plane, coverage: &Coverage) -> Image {
                 *texel = bake.texel([x, y]);
             }
         });
+    let [zero, most] = [0, T::MOST].map(T::of_code);
+    let black = [zero, zero, zero, most];
     Image {
         width: side,
         height: side,
-        pixels: filled(texels, side, BLACK),
+        pixels: filled(texels, side, black),
     }
 }
 
@@ -49,15 +49,23 @@ pub fn baked(plane: &Plane, coverage: &Coverage) -> Image {
 struct Resampling<'a> {
     plane: &'a Plane<'a>,
     textures: &'a [Reduced<'a>],
+    /// Move of each face that has moved with its island by whole texels.
+    moves: &'a [Option<WholeMove>],
     coverage: &'a Coverage,
 }
 
 impl Resampling<'_> {
     /// Computes the value of a texel: the mean over its square, which is cut off at the face if it lies at a border.
-    fn texel(&self, [x, y]: [usize; 2]) -> Option<[u8; 4]> {
+    fn texel<T: Channel>(&self, [x, y]: [usize; 2]) -> Option<[T; 4]> {
         // Find the face of the texel and its place in the source.
         let face = self.coverage.at(x, y)?;
         let sampled = self.plane.faces[face as usize].as_ref()?;
+        let moved = self.moves[face as usize].filter(|moved| moved.keeps_directions);
+        if let Some(moved) = moved {
+            let texture = &self.plane.textures[sampled.texture as usize];
+            let value = texture.texel_at(moved.source([x, y]));
+            return Some(encoded(value, self.plane.encoding));
+        }
         let reduced = &self.textures[sampled.texture as usize];
         let texture = reduced.texture();
         let source = sampled
@@ -112,7 +120,8 @@ const REPEATS: f64 = 2.0;
 
 /// A texture at a size that suits the target.
 struct Reduced<'a> {
-    image: Cow<'a, Image>,
+    /// The reduced texels; `None` if the texture is not reduced.
+    halved: Option<Picture>,
     texture: Texture<'a>,
     /// Length of an original texel as a share of one of the reduced texture.
     pub scale: f64,
@@ -131,41 +140,42 @@ impl<'a> Reduced<'a> {
         let areas = Areas::of(faces);
         let [width, height] = texture.size();
         let repeats = 0.5 * areas.sources >= REPEATS * width * height;
-        let mut image = Cow::Borrowed(texture.image);
-        let mut scale = 1.0;
-        while repeats
-            && areas.length() * scale >= FINE
-            && image.width.is_multiple_of(2)
-            && image.height.is_multiple_of(2)
-        {
-            image = Cow::Owned(halved(&image, texture));
-            scale *= 0.5;
-        }
-        Self {
-            image,
+        let mut reduced = Self {
+            halved: None,
             texture,
-            scale,
+            scale: 1.0,
+        };
+        while repeats && areas.length() * reduced.scale >= FINE {
+            let picture = reduced.texture().picture;
+            if !picture.size().iter().all(|n| n.is_multiple_of(2)) {
+                break;
+            }
+            let halved = match picture {
+                Picture::Eight(image) => Picture::Eight(halved(image, texture.encoding)),
+                Picture::Sixteen(image) => Picture::Sixteen(halved(image, texture.encoding)),
+            };
+            reduced.halved = Some(halved);
+            reduced.scale *= 0.5;
         }
+        reduced
     }
 
     pub fn texture(&self) -> Texture<'_> {
         Texture {
-            image: &self.image,
+            picture: self.halved.as_ref().unwrap_or(self.texture.picture),
             ..self.texture
         }
     }
 }
 
 /// Returns the means of two by two texels.
-fn halved(image: &Image, texture: Texture) -> Image {
+fn halved<T: Channel>(image: &Image<T>, encoding: Encoding) -> Image<T> {
     let (width, height) = (image.width / 2, image.height / 2);
     let mean = |x: usize, y: usize| {
-        let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(dx, dy)| {
-            let pixel = image.pixels[(2 * y + dy) * image.width + 2 * x + dx];
-            decoded(pixel, texture.encoding)
-        });
+        let four = [(0, 0), (1, 0), (0, 1), (1, 1)]
+            .map(|(dx, dy)| decoded(pixel(image, 2 * x + dx, 2 * y + dy), encoding));
         let mean = [0, 1, 2, 3].map(|c| 0.25 * four.iter().map(|value| value[c]).sum::<f32>());
-        encoded(mean, texture.encoding)
+        encoded(mean, encoding)
     };
     Image {
         width,
@@ -210,16 +220,16 @@ pub(super) trait Mean: Copy {
     fn mean(values: impl Iterator<Item = Self>) -> Option<Self>;
 }
 
-impl Mean for [u8; 4] {
+impl<T: Channel> Mean for [T; 4] {
     fn mean(values: impl Iterator<Item = Self>) -> Option<Self> {
         let (mut sum, mut n) = ([0_u32; 4], 0);
         for value in values {
             for (sum, channel) in sum.iter_mut().zip(value) {
-                *sum += u32::from(channel);
+                *sum += channel.code();
             }
             n += 1;
         }
-        (n > 0).then(|| sum.map(|s| ((s + n / 2) / n) as u8))
+        (n > 0).then(|| sum.map(|s| T::of_code((s + n / 2) / n)))
     }
 }
 
@@ -266,121 +276,4 @@ fn around(side: usize, texel: usize) -> impl Iterator<Item = usize> {
     near(y)
         .flat_map(move |y| near(x).map(move |x| y * side + x))
         .filter(move |&neighbor| neighbor != texel)
-}
-
-// Directions converted from one tangent frame to another.
-
-/// Normals, and tangents with the sign of the bitangent, at the corners of faces.
-pub struct Frames {
-    /// Normals of the surface.
-    pub normals: Vec<[[f32; 3]; 3]>,
-    /// Tangents of the old map, to which directions are relative.
-    pub from: Vec<[[f32; 4]; 3]>,
-    /// Tangents of the new map.
-    pub to: Vec<[[f32; 4]; 3]>,
-}
-
-impl Frames {
-    /// Appends faces without directions.
-    pub fn skip(&mut self, n_faces: usize) {
-        let n = self.normals.len() + n_faces;
-        self.normals.resize(n, [[0.0; 3]; 3]);
-        self.from.resize(n, [[0.0; 4]; 3]);
-        self.to.resize(n, [[0.0; 4]; 3]);
-    }
-
-    /// Converts a direction at a place of a face from the old frame to the new one, with unit length; returns it
-    /// unchanged if a frame is degenerate.
-    pub(super) fn carried(
-        &self,
-        face: usize,
-        weights: Barycentric,
-        direction: [f32; 3],
-    ) -> [f32; 3] {
-        let normal = unit(interpolated(weights, &self.normals[face]));
-        let from = basis(normal, interpolated(weights, &self.from[face]));
-        let to = basis(normal, interpolated(weights, &self.to[face]));
-        let [x, y, z] = direction;
-        let world = [0, 1, 2].map(|k| x * from[0][k] + y * from[1][k] + z * from[2][k]);
-        // Cramer's rule, the columns of the matrix being the axes of the new frame.
-        let volume = dot(to[0], cross(to[1], to[2]));
-        let carried =
-            [(1, 2), (2, 0), (0, 1)].map(|(a, b)| dot(world, cross(to[a], to[b])) / volume);
-        let carried = unit(carried);
-        if carried.iter().all(|x| x.is_finite()) {
-            carried
-        } else {
-            direction
-        }
-    }
-}
-
-/// Returns tangent, bitangent and normal as glTF defines them.
-fn basis(normal: [f32; 3], [x, y, z, sign]: [f32; 4]) -> [[f32; 3]; 3] {
-    let tangent = unit([x, y, z]);
-    let bitangent = unit(cross(normal, tangent)).map(|x| x * sign.signum());
-    [tangent, bitangent, normal]
-}
-
-fn interpolated<const N: usize>(weights: Barycentric, corners: &[[f32; N]; 3]) -> [f32; N] {
-    std::array::from_fn(|k| (0..3).map(|c| weights[c] as f32 * corners[c][k]).sum())
-}
-
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn unit(a: [f32; 3]) -> [f32; 3] {
-    let length = dot(a, a).sqrt();
-    a.map(|x| x / length)
-}
-
-// Sources of a texture for a new UV map.
-
-/// Texture of a face and, for each of its corners, the place in it, in texels.
-#[derive(Clone, Copy)]
-pub struct Sampled {
-    /// Index of the texture.
-    pub texture: u32,
-    /// Places of the corners.
-    pub corners: Corners,
-}
-
-/// Textures on the old map that are merged into one on the new map.
-pub struct Plane<'a> {
-    /// Encoding of the texels.
-    pub encoding: Encoding,
-    /// Old textures.
-    pub textures: Vec<Texture<'a>>,
-    /// Source of each face; `None` for faces without a texture.
-    pub faces: Vec<Option<Sampled>>,
-    /// Frames to which directions are relative; only for normal maps.
-    pub frames: Option<Frames>,
-}
-
-// Choice of the texture size.
-
-/// Most texels of all new textures of a document: eight of 8192 × 8192, 2 GiB.
-pub const MOST_TEXELS: u64 = 1 << 29;
-/// Smallest and largest side that are chosen automatically.
-const SIDES: [f64; 2] = [16.0, 4096.0];
-/// Texels by which a side may be too small without a visible loss.
-const SIDE_SLACK: f64 = 1.0;
-
-/// Returns the side, a power of two from 16 to 4096, of a texture on which the faces have the same number of texels as
-/// in the old ones. `faces` are corners in the unit square.
-pub fn side_for(plane: &Plane, faces: &[Corners]) -> u32 {
-    let all = plane.faces.iter().zip(faces);
-    let areas =
-        Areas::of(all.filter_map(|(sampled, face)| Some((&sampled.as_ref()?.corners, face))));
-    let [least, most] = SIDES;
-    ((areas.length() - SIDE_SLACK).ceil().clamp(least, most) as u32).next_power_of_two()
 }

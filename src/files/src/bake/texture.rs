@@ -1,14 +1,14 @@
 //! A picture with the settings of its sampler.
 
 use crate::document::{Encoding, Wrap};
-use crate::picture::Image;
+use crate::picture::{Image, Picture};
 use std::sync::LazyLock;
 
 /// A picture with the settings of its sampler.
 #[derive(Clone, Copy)]
 pub struct Texture<'a> {
     /// The texels.
-    pub image: &'a Image,
+    pub picture: &'a Picture,
     /// Encoding of the texels.
     pub encoding: Encoding,
     /// Wrapping beyond the picture's left and right, and beyond its top and bottom.
@@ -20,16 +20,15 @@ pub struct Texture<'a> {
 impl Texture<'_> {
     /// Returns columns and rows.
     pub fn size(&self) -> [f64; 2] {
-        [self.image.width as f64, self.image.height as f64]
+        self.picture.size().map(|n| n as f64)
     }
 
     /// Returns the value at a place in texels, linear between their centers.
     pub(super) fn sample(&self, [x, y]: [f64; 2]) -> [f32; 4] {
-        let (width, height) = (self.image.width, self.image.height);
         if self.is_nearest {
-            let x = wrapped(split(x).0, width, self.wrap[0]);
-            return self.texel(x, wrapped(split(y).0, height, self.wrap[1]));
+            return self.texel_at([split(x).0, split(y).0]);
         }
+        let [width, height] = self.picture.size();
         let ((x, s), (y, t)) = (split(x - 0.5), split(y - 0.5));
         let columns = [x, x + 1].map(|x| wrapped(x, width, self.wrap[0]));
         let rows = [y, y + 1].map(|y| wrapped(y, height, self.wrap[1]));
@@ -40,9 +39,24 @@ impl Texture<'_> {
         between(row(rows[0]), row(rows[1]), t)
     }
 
-    fn texel(&self, x: usize, y: usize) -> [f32; 4] {
-        decoded(self.image.pixels[y * self.image.width + x], self.encoding)
+    /// Returns the value of a texel by its column and row, which are wrapped.
+    pub(super) fn texel_at(&self, [x, y]: [i64; 2]) -> [f32; 4] {
+        let [width, height] = self.picture.size();
+        let x = wrapped(x, width, self.wrap[0]);
+        self.texel(x, wrapped(y, height, self.wrap[1]))
     }
+
+    fn texel(&self, x: usize, y: usize) -> [f32; 4] {
+        match self.picture {
+            Picture::Eight(image) => decoded(pixel(image, x, y), self.encoding),
+            Picture::Sixteen(image) => decoded(pixel(image, x, y), self.encoding),
+        }
+    }
+}
+
+/// Returns the pixel in a column and a row.
+pub(super) fn pixel<T: Copy>(image: &Image<T>, x: usize, y: usize) -> [T; 4] {
+    image.pixels[y * image.width + x]
 }
 
 /// Limit of coordinates: they fit an `i64`, and beyond it the fractions of an `f64` are no finer than eighths.
@@ -80,33 +94,77 @@ fn between(a: [f32; 4], b: [f32; 4], t: f32) -> [f32; 4] {
 
 // Texels as numbers that can be averaged.
 
-/// Conversion of sRGB codes, as defined in IEC 61966-2-1, to linear light.
-static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
-    std::array::from_fn(|code| {
-        let c = code as f64 / 255.0;
+/// A channel of 8 or 16 bits.
+pub trait Channel: Copy + Send + Sync + 'static {
+    /// Largest code.
+    const MOST: u32;
+    /// Returns the code as a number.
+    fn code(self) -> u32;
+    /// Returns the channel with a code up to [`MOST`](Self::MOST).
+    fn of_code(code: u32) -> Self;
+    /// Converts sRGB to linear light.
+    fn linear(self) -> f32;
+}
+
+/// Conversion of sRGB codes of 8 bits to linear light.
+static LINEAR_8: LazyLock<Vec<f32>> = LazyLock::new(|| linear_codes(u8::MOST));
+/// Conversion of sRGB codes of 16 bits to linear light.
+static LINEAR_16: LazyLock<Vec<f32>> = LazyLock::new(|| linear_codes(u16::MOST));
+
+impl Channel for u8 {
+    const MOST: u32 = u8::MAX as u32;
+    fn code(self) -> u32 {
+        u32::from(self)
+    }
+    fn of_code(code: u32) -> Self {
+        code as Self
+    }
+    fn linear(self) -> f32 {
+        LINEAR_8[self as usize]
+    }
+}
+
+impl Channel for u16 {
+    const MOST: u32 = u16::MAX as u32;
+    fn code(self) -> u32 {
+        u32::from(self)
+    }
+    fn of_code(code: u32) -> Self {
+        code as Self
+    }
+    fn linear(self) -> f32 {
+        LINEAR_16[self as usize]
+    }
+}
+
+/// Returns the linear light of all sRGB codes up to `most`, as defined in IEC 61966-2-1.
+fn linear_codes(most: u32) -> Vec<f32> {
+    let linear = |code: u32| {
+        let c = f64::from(code) / f64::from(most);
         let linear = if c <= 0.04045 {
             c / 12.92
         } else {
             ((c + 0.055) / 1.055).powf(2.4)
         };
         linear as f32
-    })
-});
-
-/// Decodes a texel: colors in linear light, data unchanged, directions in [−1, 1]. The fourth channel is always data.
-pub(super) fn decoded([r, g, b, a]: [u8; 4], encoding: Encoding) -> [f32; 4] {
-    let part = |code: u8| f32::from(code) / 255.0;
-    let channel = |code: u8| match encoding {
-        Encoding::Color => LINEAR[code as usize],
-        Encoding::Data => part(code),
-        Encoding::Normal => 2.0 * part(code) - 1.0,
     };
-    [channel(r), channel(g), channel(b), part(a)]
+    (0..=most).map(linear).collect()
 }
 
-/// Encodes values as the nearest texel.
-pub(super) fn encoded([r, g, b, a]: [f32; 4], encoding: Encoding) -> [u8; 4] {
-    let code = |part: f32| (part.clamp(0.0, 1.0) * 255.0).round() as u8;
+/// Decodes a texel: colors in linear light, data unchanged, directions in [−1, 1]. The fourth channel is always data.
+pub(super) fn decoded<T: Channel>([r, g, b, a]: [T; 4], encoding: Encoding) -> [f32; 4] {
+    let part = |channel: T| channel.code() as f32 / T::MOST as f32;
+    let value = |channel: T| match encoding {
+        Encoding::Color => channel.linear(),
+        Encoding::Data => part(channel),
+        Encoding::Normal => 2.0 * part(channel) - 1.0,
+    };
+    [value(r), value(g), value(b), part(a)]
+}
+
+/// Encodes values as the nearest texel. Returns every decoded texel of the same bits unchanged.
+pub(super) fn encoded<T: Channel>([r, g, b, a]: [f32; 4], encoding: Encoding) -> [T; 4] {
+    let code = |part: f32| T::of_code((part.clamp(0.0, 1.0) * T::MOST as f32).round() as u32);
     let channel = |value: f32| match encoding {
         Encoding::Color => code(srgb(value)),
         Encoding::Data => code(value),

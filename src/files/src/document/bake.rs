@@ -108,7 +108,7 @@ impl BakePlan {
 pub struct BakedTextures {
     /// The plan that was carried out.
     pub plan: BakePlan,
-    /// Side in texels and file, PNG or JPEG, of each plane.
+    /// Side in texels and file, PNG, JPEG or `WebP`, of each plane.
     pub files: Vec<(u32, Vec<u8>)>,
     /// For each primitive the tangents of its new UVs, if it has normals and a normal map.
     pub tangents: Vec<Option<Vec<CornerTangents>>>,

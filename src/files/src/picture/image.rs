@@ -2,6 +2,7 @@
 
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::PngEncoder;
+use image::codecs::webp::WebPEncoder;
 use image::{
     DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageReader, Limits, RgbaImage,
     imageops,
@@ -19,8 +20,8 @@ const MOST_BYTES: u64 = 16 * MOST_PIXELS;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ImageError {
-    /// The file is neither PNG nor JPEG.
-    #[error("the picture is not PNG or JPEG")]
+    /// The file is neither PNG, JPEG nor `WebP`.
+    #[error("the picture is not PNG, JPEG or WebP")]
     UnknownFormat,
     /// The file has too many bytes.
     #[error("the picture has {0} bytes; the limit is 64 MiB")]
@@ -49,15 +50,15 @@ impl ImageError {
     }
 }
 
-/// Pixels of red, green, blue and alpha (not premultiplied), row 0 at the top.
+/// Pixels of red, green, blue and alpha (not premultiplied), row 0 at the top; `T` is `u8` or `u16`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Image {
+pub struct Image<T = u8> {
     /// Columns.
     pub width: usize,
     /// Rows.
     pub height: usize,
     /// `width` × `height` pixels, row by row.
-    pub pixels: Vec<[u8; 4]>,
+    pub pixels: Vec<[T; 4]>,
 }
 
 impl Image {
@@ -70,40 +71,127 @@ impl Image {
         }
     }
 
-    /// Decodes a PNG or JPEG file, turned upright according to its metadata; more than 8 bits per channel are rounded.
+    /// Decodes a PNG, JPEG or `WebP` file, turned upright according to its metadata; more than 8 bits per channel are
+    /// rounded.
     pub fn decode(bytes: &[u8]) -> Result<Self, ImageError> {
-        if bytes.len() > MOST_FILE_BYTES {
-            return Err(ImageError::TooManyBytes(bytes.len()));
-        }
-        let mut reader = ImageReader::new(Cursor::new(bytes))
-            .with_guessed_format()
-            .map_err(|error| unreadable(error.into()))?;
-        if reader.format().is_none() {
-            return Err(ImageError::UnknownFormat);
-        }
-        let mut limits = Limits::no_limits();
-        limits.max_alloc = Some(MOST_BYTES);
-        reader.limits(limits);
-        let mut decoder = reader.into_decoder().map_err(unreadable)?;
-        let (width, height) = decoder.dimensions();
-        if u64::from(width) * u64::from(height) > MOST_PIXELS {
-            return Err(ImageError::TooLarge { width, height });
-        }
-        let orientation = decoder.orientation().map_err(unreadable)?;
-        let mut decoded = DynamicImage::from_decoder(decoder).map_err(unreadable)?;
-        decoded.apply_orientation(orientation);
+        Ok(Self::of(decoded(bytes)?))
+    }
+
+    fn of(decoded: DynamicImage) -> Self {
         let rgba = decoded.into_rgba8();
-        Ok(Self {
+        Self {
             width: rgba.width() as usize,
             height: rgba.height() as usize,
-            pixels: rgba.as_raw().as_chunks::<4>().0.to_vec(),
-        })
+            pixels: rgba.as_raw().as_chunks().0.to_vec(),
+        }
     }
 
     /// Returns the PNG file.
     pub fn png(&self) -> Vec<u8> {
         let bytes = self.pixels.as_flattened();
         png(bytes, self.width, self.height, ExtendedColorType::Rgba8)
+    }
+
+    /// Returns the lossless `WebP` file; `None` if a side has more than 16,384 pixels.
+    pub fn webp(&self) -> Option<Vec<u8>> {
+        let mut file = Vec::new();
+        let (width, height) = (self.width as u32, self.height as u32);
+        let bytes = self.pixels.as_flattened();
+        let encoder = WebPEncoder::new_lossless(&mut file);
+        let written = encoder.write_image(bytes, width, height, ExtendedColorType::Rgba8);
+        written.is_ok().then_some(file)
+    }
+}
+
+impl Image<u16> {
+    /// Returns the PNG file of 16 bits per channel.
+    pub fn png(&self) -> Vec<u8> {
+        let channels = self.pixels.as_flattened().iter();
+        let bytes: Vec<u8> = channels.flat_map(|channel| channel.to_ne_bytes()).collect();
+        png(&bytes, self.width, self.height, ExtendedColorType::Rgba16)
+    }
+}
+
+/// Decodes a PNG, JPEG or `WebP` file, turned upright according to its metadata.
+fn decoded(bytes: &[u8]) -> Result<DynamicImage, ImageError> {
+    if bytes.len() > MOST_FILE_BYTES {
+        return Err(ImageError::TooManyBytes(bytes.len()));
+    }
+    let mut reader = ImageReader::new(Cursor::new(bytes))
+        .with_guessed_format()
+        .map_err(|error| unreadable(error.into()))?;
+    if reader.format().is_none() {
+        return Err(ImageError::UnknownFormat);
+    }
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(MOST_BYTES);
+    reader.limits(limits);
+    let mut decoder = reader.into_decoder().map_err(unreadable)?;
+    let (width, height) = decoder.dimensions();
+    if u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return Err(ImageError::TooLarge { width, height });
+    }
+    let orientation = decoder.orientation().map_err(unreadable)?;
+    let mut decoded = DynamicImage::from_decoder(decoder).map_err(unreadable)?;
+    decoded.apply_orientation(orientation);
+    Ok(decoded)
+}
+
+// Pictures with the bits of their files.
+
+/// A picture with 8 or 16 bits per channel, as its file has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Picture {
+    /// 8 bits per channel.
+    Eight(Image),
+    /// 16 bits per channel.
+    Sixteen(Image<u16>),
+}
+
+impl Picture {
+    /// Decodes a PNG, JPEG or `WebP` file, turned upright according to its metadata; pixels of 16 bits stay so.
+    pub fn decode(bytes: &[u8]) -> Result<Self, ImageError> {
+        let decoded = decoded(bytes)?;
+        let is_deep = matches!(
+            decoded,
+            DynamicImage::ImageLuma16(_)
+                | DynamicImage::ImageLumaA16(_)
+                | DynamicImage::ImageRgb16(_)
+                | DynamicImage::ImageRgba16(_)
+        );
+        if !is_deep {
+            return Ok(Self::Eight(Image::of(decoded)));
+        }
+        let rgba = decoded.into_rgba16();
+        Ok(Self::Sixteen(Image {
+            width: rgba.width() as usize,
+            height: rgba.height() as usize,
+            pixels: rgba.as_raw().as_chunks().0.to_vec(),
+        }))
+    }
+
+    /// Returns columns and rows.
+    pub fn size(&self) -> [usize; 2] {
+        match self {
+            Self::Eight(image) => [image.width, image.height],
+            Self::Sixteen(image) => [image.width, image.height],
+        }
+    }
+
+    /// Returns the number of bytes of the pixels.
+    pub fn n_bytes(&self) -> usize {
+        match self {
+            Self::Eight(image) => size_of_val(image.pixels.as_slice()),
+            Self::Sixteen(image) => size_of_val(image.pixels.as_slice()),
+        }
+    }
+
+    /// Returns the PNG file, with the bits of the picture.
+    pub fn png(&self) -> Vec<u8> {
+        match self {
+            Self::Eight(image) => image.png(),
+            Self::Sixteen(image) => image.png(),
+        }
     }
 }
 

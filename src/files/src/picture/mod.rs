@@ -13,7 +13,7 @@ mod raster;
 mod warp;
 
 pub use heat::{HeatmapMeasure, heatmap_png};
-pub use image::{Image, ImageError, thumbnail_png};
+pub use image::{Image, ImageError, Picture, thumbnail_png};
 pub use panel::{Panel, layout_png};
 pub(crate) use raster::{spans, steps};
 pub use warp::{Deformation, Extent, Warped, warped};

@@ -11,7 +11,7 @@ use unwrapd_files::document::gltf::GltfDocument;
 use unwrapd_files::document::{
     BakePlane, Document, DocumentError, GroupBy, OutputFormat, Primitive, Terms,
 };
-use unwrapd_files::picture::{HeatmapMeasure, Image};
+use unwrapd_files::picture::{HeatmapMeasure, Picture};
 use unwrapd_layout::atlas::Borders;
 use unwrapd_maps::certificate::{Claims, Overlap, Padding, Stacks};
 
@@ -234,8 +234,10 @@ options! {
         /// Resample the textures for the new UVs, which then replace set 0 unless `texcoord` names
         /// another.
         ///
-        /// Textures that cannot be read, or of an unknown kind, stay as they are and keep their
-        /// UVs. The report lists them.
+        /// PNG, JPEG and `WebP` images are read; PNG images of 16 bits per channel stay so. Texels are
+        /// copied where an island moves by whole texels, quarter turns and flips. Textures that
+        /// cannot be read, or of an unknown kind, stay as they are and keep their UVs. The report
+        /// lists them.
         pub rebake: bool, arg(help_heading = None::<&'static str>);
         /// Side of the resampled textures, in texels. The default is `resolution`, or more if the
         /// surface would lose texels: a power of two up to 4096.
@@ -254,13 +256,15 @@ const _: () = assert!(MOST_SIDE == 8192);
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
 pub enum ImageFormat {
-    /// JPEG if all source images are JPEG, otherwise PNG.
+    /// JPEG or `WebP` if all source images are, otherwise PNG.
     #[default]
     Source,
     /// PNG, lossless.
     Png,
     /// JPEG, or PNG if a texel is transparent.
     Jpeg,
+    /// `WebP`, lossless.
+    Webp,
 }
 
 // The longest side of a JPEG file is 65,535 pixels.
@@ -272,23 +276,46 @@ impl ImageFormat {
         self,
         document: &GltfDocument,
         plane: &BakePlane,
-        image: &Image,
+        picture: &Picture,
     ) -> Result<Vec<u8>, DocumentError> {
-        let is_jpeg = match self {
-            Self::Source => is_all_jpeg(document, plane)?,
-            Self::Png => false,
-            Self::Jpeg => true,
+        let Picture::Eight(image) = picture else {
+            return Ok(picture.png());
         };
-        let jpeg = if is_jpeg { image.jpeg() } else { None };
-        Ok(jpeg.unwrap_or_else(|| image.png()))
+        let format = match self {
+            Self::Source if is_all(document, plane, is_jpeg)? => Self::Jpeg,
+            Self::Source if is_all(document, plane, is_webp)? => Self::Webp,
+            other => other,
+        };
+        let file = match format {
+            Self::Jpeg => image.jpeg(),
+            Self::Webp => image.webp(),
+            Self::Source | Self::Png => None,
+        };
+        Ok(file.unwrap_or_else(|| image.png()))
+    }
+
+    /// Returns whether files of this format can have 16 bits per channel.
+    pub fn keeps_16_bits(self) -> bool {
+        matches!(self, Self::Source | Self::Png)
     }
 }
 
-/// Returns whether all source images of a texture are JPEG files.
-fn is_all_jpeg(document: &GltfDocument, plane: &BakePlane) -> Result<bool, DocumentError> {
-    const MAGIC: [u8; 3] = [0xFF, 0xD8, 0xFF];
+fn is_jpeg(file: &[u8]) -> bool {
+    file.starts_with(&[0xFF, 0xD8, 0xFF])
+}
+
+fn is_webp(file: &[u8]) -> bool {
+    file.starts_with(b"RIFF") && file.get(8..12) == Some(b"WEBP".as_slice())
+}
+
+/// Returns whether all source images of a texture are files of one format.
+fn is_all(
+    document: &GltfDocument,
+    plane: &BakePlane,
+    is_of_format: fn(&[u8]) -> bool,
+) -> Result<bool, DocumentError> {
     for source in plane.sources.values() {
-        if !document.image(source.image)?.starts_with(&MAGIC) {
+        if !is_of_format(&document.image(source.image)?) {
             return Ok(false);
         }
     }

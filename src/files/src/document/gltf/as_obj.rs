@@ -375,7 +375,7 @@ impl<'a> ObjPictures<'a> {
         let json = &self.body.json;
         let texture = unsigned(info, "index").ok().flatten();
         let object = texture.and_then(|texture| item(json, "textures", texture).ok());
-        let image = object.and_then(|object| unsigned(object, "source").ok().flatten());
+        let image = object.and_then(|object| images::source(object).ok().flatten());
         let Some(image) = image else {
             self.n_without_image += 1;
             return None;
@@ -465,7 +465,7 @@ impl<'a> ObjPictures<'a> {
         }
         if self.n_without_image > 0 {
             let n = self.n_without_image;
-            let message = format!("textures without a PNG or JPEG image are left out: {n}");
+            let message = format!("textures without a PNG, JPEG or WebP image are left out: {n}");
             warnings.push(Warning::new("textures_dropped", message));
         }
         warnings

@@ -263,8 +263,8 @@ impl Resampled {
         }
         let invalid = |error: DocumentError| error.to_string();
         let object = item(json, "textures", texture.texture).map_err(invalid)?;
-        let image = unsigned(object, "source").map_err(invalid)?;
-        let image = image.ok_or_else(|| "it has no PNG or JPEG image".to_owned())?;
+        let image = images::source(object).map_err(invalid)?;
+        let image = image.ok_or_else(|| no_image(object))?;
         let sampler = unsigned(object, "sampler").map_err(invalid)?;
         let sampler = sampler.and_then(|sampler| item(json, "samplers", sampler).ok());
         let number = |key: &str| sampler.and_then(|s| unsigned(s, key).ok().flatten());
@@ -280,6 +280,17 @@ impl Resampled {
             },
         })
     }
+}
+
+/// Returns the reason why a texture has no image that can be read, with the extension and the image that it names.
+fn no_image(texture: &Value) -> String {
+    let readable = "its image is not PNG, JPEG or WebP";
+    let extensions = texture.get("extensions").and_then(Value::as_object);
+    let named = extensions.into_iter().flatten().find_map(|(name, object)| {
+        let image = unsigned(object, "source").ok().flatten()?;
+        Some(format!("{readable}: image {image} of {name}"))
+    });
+    named.unwrap_or_else(|| readable.to_owned())
 }
 
 /// Returns the encoding of a texture at this path of a material, by the core specification and ratified extensions.

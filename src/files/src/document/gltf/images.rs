@@ -1,12 +1,44 @@
 //! Images outside the document.
 
 use super::body::{GltfBody, Target};
-use super::json::{item, item_mut, items, remove, required};
+use super::json::{array_mut, extension, item, item_mut, items, remove, required, unsigned};
 use crate::document::{DocumentError, uri};
 use crate::io::{Content, Format, detect, format_of_content};
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// Extension of textures with a `WebP` image.
+pub(super) const WEBP: &str = "EXT_texture_webp";
+
+/// Returns the image of a texture that can be read: its `WebP` image, which renderers prefer, or else its own.
+pub(super) fn source(texture: &Value) -> Result<Option<usize>, DocumentError> {
+    let webp = extension(texture, WEBP);
+    let webp = webp.map(|webp| unsigned(webp, "source")).transpose()?;
+    match webp.flatten() {
+        Some(image) => Ok(Some(image)),
+        None => unsigned(texture, "source"),
+    }
+}
+
+/// Returns a texture that shows an image, given its file. A `WebP` image needs an extension, which is then listed.
+pub(super) fn texture(
+    json: &mut Value,
+    image: usize,
+    sampler: usize,
+    file: &[u8],
+) -> Result<Value, DocumentError> {
+    if format_of_content(file, file.len() as u64, Content::Texture) != Some(Format::Webp) {
+        return Ok(json!({"sampler": sampler, "source": image}));
+    }
+    for list in ["extensionsUsed", "extensionsRequired"] {
+        let listed = array_mut(json, list)?;
+        if !listed.iter().any(|name| name == WEBP) {
+            listed.push(json!(WEBP));
+        }
+    }
+    Ok(json!({"sampler": sampler, "extensions": {WEBP: {"source": image}}}))
+}
 
 /// Returns for each image the first one with the same bytes; itself if it cannot be read.
 pub(super) fn first_of_equals(

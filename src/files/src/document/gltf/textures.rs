@@ -187,7 +187,7 @@ pub(super) fn affected(json: &Value, texture: &TextureUse) -> AffectedTexture {
         material: texture.material,
         slot: texture.slot.clone(),
         texture: texture.texture,
-        image: source.and_then(|object| unsigned(object, "source").ok().flatten()),
+        image: source.and_then(|object| images::source(object).ok().flatten()),
     }
 }
 
@@ -253,7 +253,7 @@ pub(super) fn insert(
         )?;
         resources.insert(name, file.clone());
         let sampler = sampler(&mut body.json, plane.filters)?;
-        let texture = json!({"sampler": sampler, "source": image});
+        let texture = images::texture(&mut body.json, image, sampler, file)?;
         textures.push(push(&mut body.json, "textures", texture)?);
     }
     // Point the texture infos of each material to its planes.

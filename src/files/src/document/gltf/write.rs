@@ -102,6 +102,10 @@ fn write(
     notes.warnings.extend(warnings);
     // Remove objects that have lost their last reference.
     let places = document.origin.clean(&mut body)?;
+    if baked.is_some() {
+        let dropped = extensions::prune(&mut body.json, &[images::WEBP])?;
+        notes.extensions_dropped.extend(dropped);
+    }
     renumber(&mut notes, &places);
     let files = files(body, &document.chunks, &resources, options, &mut notes)?;
     Ok(Written { files, notes })
