@@ -23,13 +23,17 @@ export async function run(page, url) {
 }
 
 async function heat(page, { best, stretched }) {
-  const places = [await project(page, "plane", best), await project(page, "plane", stretched)];
+  // The legend of a heat map may take room from the views.
+  const seen = async () => {
+    await settled(page);
+    return colors(page, [await project(page, "plane", best), await project(page, "plane", stretched)]);
+  };
   await page.click("button[data-switch=seams]");
   await page.click("button[data-shade=plain]");
-  const plain = await colors(page, places);
+  const plain = await seen();
   assertSame(plain[0], plain[1], "plain faces");
   await page.click("button[data-shade=heat]");
-  const [low, high] = await colors(page, places);
+  const [low, high] = await seen();
   const brightness = (color) => color.reduce((sum, x) => sum + x, 0);
   assert.ok(brightness(high) + 120 < brightness(low), `a stretched face is dark: ${low}, ${high}`);
   assert.match(await page.textContent("#legend"), /min .* % · mean .* % · max .* %/);
@@ -37,12 +41,12 @@ async function heat(page, { best, stretched }) {
   assert.equal(await page.textContent(".scale .ends >> nth=1"), "100 %");
   await page.click("text=Fit scale");
   assert.notEqual(await page.textContent(".scale .ends >> nth=1"), "100 %");
-  const [, fitted] = await colors(page, places);
+  const [, fitted] = await seen();
   assert.ok(brightness(fitted) < brightness(high), `a stretched face is darker on a scale of its own: ${fitted}, ${high}`);
   assert.match(page.url(), /scale=fitted/);
   await page.click("text=Fit scale");
   await page.selectOption("#measure", "density");
-  const [, density] = await colors(page, places);
+  const [, density] = await seen();
   assertDiffers(density, high, "texel density");
   assert.match(await page.textContent("#legend"), /px\/unit/);
   await page.click("button[data-switch=seams]");
