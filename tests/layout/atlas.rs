@@ -441,9 +441,9 @@ fn a_search_ends_when_all_has_been_tried() {
     assert!(*told.last().unwrap() > 900_000_000, "{told:?}");
 }
 
-/// Pages whose bound is below the fill reached elsewhere are not searched.
+/// The bound of the fill holds on square and long pages: a page that it rules out needs no search.
 #[test]
-fn a_search_stays_below_the_bound_of_the_longest_chart() {
+fn no_layout_is_fuller_than_its_bound() {
     let longer = Texture {
         resolution: Resolution {
             width: 1024,

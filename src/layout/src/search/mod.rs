@@ -21,8 +21,8 @@
 //!
 //! To each of these ways, slits are added while they pay (`opening`), by a prediction of the distortion that needs no map
 //! (`prediction`). Only ways that promise to pay are mapped (`net`), from the maps of the parts where these can be laid
-//! together (`laid_together`). A map that flips or overlaps, and cannot be pushed apart, rejects the way. Moves wait in one queue, the
-//! one that gains most for its work first, until the effort is spent (`effort`).
+//! together (`laid_together`); parts that collide are not mapped. A map that flips or overlaps, and cannot be pushed apart, rejects
+//! the way. Moves wait in one queue, the one that gains most for its work first, until the effort is spent (`effort`).
 //!
 //! On panels the excess counts 16 times, in the map, the prediction and the bound (`panels`): they stay straight, and what is round
 //! beside them takes the distortion. The bound on this weighted mean is one on the plain mean as well.

@@ -153,22 +153,17 @@ impl<'a> Search<'a> {
         self.known_or(faces, opening, map)
     }
 
-    /// Maps an opening of the union of two nets, or returns what is known of it.
+    /// Maps an opening of the union of two nets, or returns what is known of it. Nets that collide count as a prediction.
     pub fn map_union(&mut self, nets: [u32; 2], opening: &Opening) -> Option<Net> {
         let [a, b] = nets.map(|net| &self.nets.list[&net]);
         let (metric, options, observer) = (self.nets.metric, self.options, self.observer);
         let faces = union(&a.faces, &b.faces);
-        let start = Start::new(
-            metric,
-            [a, b],
-            &self.nets.contact(nets[0], nets[1]),
-            opening,
-        );
-        if matches!(start, Start::Colliding) {
+        let contact = self.nets.contact(nets[0], nets[1]);
+        let Some(start) = Start::new(metric, [a, b], &contact, opening) else {
             self.counts.collided += 1;
             self.counts.effort.predicted_faces += faces.len();
             return None;
-        }
+        };
         let map = || Net::of_union(metric, &faces, start, opening, options, observer);
         self.known_or(&faces, opening, map)
     }
