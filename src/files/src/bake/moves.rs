@@ -4,6 +4,7 @@ use super::Corners;
 use super::coverage::{Coverage, Triangle, doubled_area};
 use super::plane::{Frames, Plane, Sampled};
 use std::collections::HashMap;
+use unwrapd_maps::mesh::UnionFind;
 
 /// Greatest distance of a corner from a move by whole texels, in texels. Layouts round UVs to a grid of 2⁻²³, which is off
 /// by up to 1/2048 of a texel at 8192 texels; this admits four times as much, since the old UVs are rounded, too.
@@ -82,7 +83,7 @@ pub(super) fn whole_moves(plane: &Plane, coverage: &Coverage) -> Vec<Option<Whol
         return of_faces;
     }
     let islands = islands(plane, coverage);
-    let mut largest: HashMap<usize, (f64, usize)> = HashMap::new();
+    let mut largest: HashMap<u32, (f64, usize)> = HashMap::new();
     for face in (0..n_faces).filter(|&face| sampled(face).is_some()) {
         let entry = largest.entry(islands[face]).or_insert((-1.0, face));
         let area = doubled_area(corners(face));
@@ -91,7 +92,7 @@ pub(super) fn whole_moves(plane: &Plane, coverage: &Coverage) -> Vec<Option<Whol
         }
     }
     // Keep the moves that all faces of an island follow.
-    let mut moves: HashMap<usize, Option<WholeMove>> = largest
+    let mut moves: HashMap<u32, Option<WholeMove>> = largest
         .into_iter()
         .map(|(island, (_, face))| (island, of_faces[face]))
         .collect();
@@ -110,34 +111,20 @@ pub(super) fn whole_moves(plane: &Plane, coverage: &Coverage) -> Vec<Option<Whol
         .collect()
 }
 
-/// Returns for each face a face that stands for its island.
-fn islands(plane: &Plane, coverage: &Coverage) -> Vec<usize> {
-    let mut parents: Vec<usize> = (0..plane.faces.len()).collect();
-    let mut first: HashMap<(u32, [u64; 4]), usize> = HashMap::new();
-    for (face, sampled) in plane.faces.iter().enumerate() {
+/// Returns the number of each face's island.
+fn islands(plane: &Plane, coverage: &Coverage) -> Vec<u32> {
+    let mut sets = UnionFind::new(plane.faces.len());
+    let mut first: HashMap<(u32, [u64; 4]), u32> = HashMap::new();
+    for (face, sampled) in (0u32..).zip(&plane.faces) {
         let Some(Sampled { texture, corners }) = sampled else {
             continue;
         };
-        for (source, target) in corners.iter().zip(coverage.corners(face as u32)) {
+        for (source, target) in corners.iter().zip(coverage.corners(face)) {
             let place = [source[0], source[1], target[0], target[1]].map(f64::to_bits);
-            let other = *first.entry((*texture, place)).or_insert(face);
-            let (own, other) = (root(&mut parents, face), root(&mut parents, other));
-            parents[own.max(other)] = own.min(other);
+            sets.unite(face, *first.entry((*texture, place)).or_insert(face));
         }
     }
-    (0..parents.len())
-        .map(|face| root(&mut parents, face))
-        .collect()
-}
-
-/// Returns the root of a face, and shortens the path to it.
-fn root(parents: &mut [usize], face: usize) -> usize {
-    let mut face = face;
-    while parents[face] != face {
-        parents[face] = parents[parents[face]];
-        face = parents[face];
-    }
-    face
+    sets.labels().0
 }
 
 /// Returns whether the tangents of a face are those of the old map.

@@ -11,6 +11,7 @@ use unwrapd_files::document::gltf::GltfDocument;
 use unwrapd_files::document::{
     BakePlane, Document, DocumentError, GroupBy, OutputFormat, Primitive, Terms,
 };
+use unwrapd_files::io::{Content, Format, format_of_content};
 use unwrapd_files::picture::{HeatmapMeasure, Picture};
 use unwrapd_layout::atlas::Borders;
 use unwrapd_maps::certificate::{Claims, Overlap, Padding, Stacks};
@@ -282,8 +283,8 @@ impl ImageFormat {
             return Ok(picture.png());
         };
         let format = match self {
-            Self::Source if is_all(document, plane, is_jpeg)? => Self::Jpeg,
-            Self::Source if is_all(document, plane, is_webp)? => Self::Webp,
+            Self::Source if is_all(document, plane, Format::Jpeg)? => Self::Jpeg,
+            Self::Source if is_all(document, plane, Format::Webp)? => Self::Webp,
             other => other,
         };
         let file = match format {
@@ -300,22 +301,15 @@ impl ImageFormat {
     }
 }
 
-fn is_jpeg(file: &[u8]) -> bool {
-    file.starts_with(&[0xFF, 0xD8, 0xFF])
-}
-
-fn is_webp(file: &[u8]) -> bool {
-    file.starts_with(b"RIFF") && file.get(8..12) == Some(b"WEBP".as_slice())
-}
-
 /// Returns whether all source images of a texture are files of one format.
 fn is_all(
     document: &GltfDocument,
     plane: &BakePlane,
-    is_of_format: fn(&[u8]) -> bool,
+    format: Format,
 ) -> Result<bool, DocumentError> {
     for source in plane.sources.values() {
-        if !is_of_format(&document.image(source.image)?) {
+        let file = document.image(source.image)?;
+        if format_of_content(&file, file.len() as u64, Content::Texture) != Some(format) {
             return Ok(false);
         }
     }
