@@ -120,7 +120,7 @@ pub(super) fn solve(args: &SolveArgs) -> Result<(), CommandFailure> {
 /// Warps a picture by handles without folding it.
 #[derive(clap::Args)]
 pub(super) struct WarpArgs {
-    /// Picture: .png or .jpg; `-` is standard input
+    /// Picture: .png, .jpg or .webp; `-` is standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
     #[arg(long, value_name = "H.json", help = help_of::<WarpOptions>("handles"))]

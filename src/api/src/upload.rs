@@ -239,7 +239,7 @@ const ROWS: [FormatRow; 20] = [
     row(Format::Png, &["png"], &["image/png"], &[Content::Body, Content::Picture, Content::Texture]),
     row(Format::Jpeg, &["jpg", "jpeg"], &["image/jpeg"], &[Content::Picture, Content::Texture]),
     row(Format::Svg, &["svg"], &["image/svg+xml"], &[Content::Body]),
-    row(Format::Webp, &["webp"], &["image/webp"], &[Content::Texture]),
+    row(Format::Webp, &["webp"], &["image/webp"], &[Content::Picture, Content::Texture]),
     row(Format::Ktx2, &["ktx2"], &["image/ktx2"], &[Content::Texture]),
     row(Format::Avif, &["avif"], &["image/avif"], &[Content::Texture]),
     row(Format::Dds, &["dds"], &["image/vnd-ms.dds"], &[Content::Texture]),

@@ -2,6 +2,7 @@
 
 use reqwest::multipart::{Form, Part};
 use serde_json::Value;
+use unwrapd_files::picture::Image;
 
 use crate::meshes::{self, PLATE, bar};
 use crate::places;
@@ -155,17 +156,22 @@ async fn bodies_are_pulled() {
 async fn pictures_are_warped_and_uvs_are_edited() {
     let server = Server::start();
     let pulled = r#"{"handles": [{"at": [300, 300], "to": [500, 400]}, {"at": [900, 400], "to": [800, 200]}], "fix_border": true}"#;
-    let picture = form("warp", pulled, ("spot.png", asset("pictures/spot.png")));
-    let (report, media_type, png) = outcome(&server, picture).await;
-    assert_eq!(
-        (&report["bijective"], &report["certified"]),
-        (&true.into(), &true.into()),
-        "{report}"
-    );
-    assert_eq!(
-        (media_type.as_str(), &png[..4]),
-        ("image/png", &b"\x89PNG"[..])
-    );
+    let png = asset("pictures/spot.png");
+    let webp = Image::decode(&png).expect("a picture").webp();
+    let webp = webp.expect("a WebP file");
+    for input in [("spot.png", png), ("spot.webp", webp)] {
+        let picture = form("warp", pulled, input);
+        let (report, media_type, png) = outcome(&server, picture).await;
+        assert_eq!(
+            (&report["bijective"], &report["certified"]),
+            (&true.into(), &true.into()),
+            "{report}"
+        );
+        assert_eq!(
+            (media_type.as_str(), &png[..4]),
+            ("image/png", &b"\x89PNG"[..])
+        );
+    }
 
     let (_, _, mapped) = outcome(
         &server,

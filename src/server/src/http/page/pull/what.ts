@@ -25,7 +25,7 @@ const PICTURE = way("Picture", "A grid over the picture is pulled", "warp");
 const DRAWING = way("Outline", "The outline is filled with triangles, which are pulled", "deform");
 
 /** Extensions of files that can be pulled. */
-export const ACCEPTED = ".glb,.gltf,.obj,.ply,.stl,.off,.msh,.mesh,.tet,.png,.jpg,.jpeg,.svg";
+export const ACCEPTED = ".glb,.gltf,.obj,.ply,.stl,.off,.msh,.mesh,.tet,.png,.jpg,.jpeg,.webp,.svg";
 
 /** Facts about a surface. */
 export interface Known { isMapped: boolean; isFlat: boolean }
@@ -34,7 +34,7 @@ export interface Known { isMapped: boolean; isFlat: boolean }
 export function waysOf(name: string, known: Known | null): Way[] {
   switch (extension(name)) {
     case "png": return [PICTURE, DRAWING];
-    case "jpg": case "jpeg": return [PICTURE];
+    case "jpg": case "jpeg": case "webp": return [PICTURE];
     case "svg": return [DRAWING];
     case "msh": case "mesh": case "tet": return [SOLID];
     default:
