@@ -187,6 +187,7 @@ fn content_is_told_apart_by_what_it_is_read_for() {
     let png: &[u8] = b"\x89PNG\r\n\x1a\n";
     let jpeg: &[u8] = b"\xFF\xD8\xFF\xE0";
     let webp: &[u8] = b"RIFF\x04\0\0\0WEBP";
+    let ktx2: &[u8] = b"\xABKTX 20\xBB\r\n\x1A\n";
     let drawing: &[u8] = b"\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<svg/>";
     for (bytes, content, expected) in [
         (&b" {}"[..], Surface, Some(Format::Gltf)),
@@ -198,7 +199,9 @@ fn content_is_told_apart_by_what_it_is_read_for() {
         (jpeg, Body, None),
         (jpeg, Picture, Some(Format::Jpeg)),
         (webp, Texture, Some(Format::Webp)),
-        (webp, Picture, None),
+        (webp, Picture, Some(Format::Webp)),
+        (ktx2, Texture, Some(Format::Ktx2)),
+        (ktx2, Picture, None),
         (drawing, Body, Some(Format::Svg)),
         (b"<html>", Body, None),
         (b"12 4\n0 0 0\n", Body, Some(Format::Tet)),
