@@ -3,7 +3,7 @@
 use unwrapd_files::bake::{
     Corners, Coverage, Frames, Plane, Sampled, Texture, baked, baked_attribute, side_for,
 };
-use unwrapd_files::document::{Encoding, Wrap};
+use unwrapd_files::document::{Encoding, Tint, Wrap};
 use unwrapd_files::picture::{Image, Picture};
 
 /// A rectangle as two triangles that share the edge between its first and third corner.
@@ -26,6 +26,7 @@ fn texture(picture: &Picture, encoding: Encoding, wrap: Wrap) -> Texture<'_> {
         encoding,
         wrap: [wrap; 2],
         is_nearest: false,
+        tint: Tint::NONE,
     }
 }
 

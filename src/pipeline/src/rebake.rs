@@ -4,7 +4,8 @@ use crate::PipelineError;
 use crate::options::{MOST_SIDE, Options};
 use crate::tracker::Tracker;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
 use unwrapd_api::Stage;
 use unwrapd_files::bake::{
     Coverage, Frames, MOST_TEXELS, Plane, Sampled, Texture, baked, side_for,
@@ -12,19 +13,91 @@ use unwrapd_files::bake::{
 use unwrapd_files::document::gltf::{GltfDocument, tangents};
 use unwrapd_files::document::{
     BakePlan, BakePlane, BakedTextures, CornerTangents, Document, DocumentError, Encoding, Group,
-    NewUvs, TextureSource, Warning,
+    MaterialMerge, MergePlan, MergedMaterial, NewUvs, TextureSource, Warning, Wrap,
 };
-use unwrapd_files::picture::Picture;
+use unwrapd_files::picture::{Image, Picture};
 use unwrapd_maps::mesh::VAxis;
+
+/// Picture of surfaces without a texture.
+static WHITE: LazyLock<Picture> = LazyLock::new(|| {
+    Picture::Eight(Image {
+        width: 1,
+        height: 1,
+        pixels: vec![[u8::MAX; 4]],
+    })
+});
 
 /// Minimum distance of charts in texels at which bilinear filtering does not mix them.
 const FILTER_TEXELS: f64 = 2.0;
+
+/// Resolves which materials become one. Reads the images, as those that cannot be read keep their materials apart.
+/// `None` if that was not requested.
+pub(super) fn merge_plan(
+    document: &Document,
+    options: &Options,
+) -> Result<Option<MergePlan>, PipelineError> {
+    let Document::Gltf(document) = document else {
+        return Ok(None);
+    };
+    if options.merge_materials.is_empty() {
+        return Ok(None);
+    }
+    let requested = requested(document, &options.merge_materials)?;
+    let whole = Group {
+        name: String::new(),
+        label: String::new(),
+        primitives: (0..document.primitives().len()).collect(),
+    };
+    let hoped = document.bake_plan(&[whole], None, &BTreeMap::new())?;
+    let (_, unreadable) = read_images(document, &hoped.planes)?;
+    Ok(Some(document.merge_plan(&requested, &unreadable)?))
+}
+
+/// Name of the material that replaces all.
+const MERGED: &str = "merged";
+
+/// Resolves the names of materials to merge. Refuses unknown ones, and those with several targets.
+fn requested(
+    document: &GltfDocument,
+    merges: &[MaterialMerge],
+) -> Result<Vec<MergedMaterial>, PipelineError> {
+    let mut requested: Vec<MergedMaterial> = Vec::new();
+    let mut claimed = BTreeSet::new();
+    for merge in merges {
+        let MaterialMerge::Named { name, materials } = merge else {
+            continue;
+        };
+        let mut members = BTreeSet::new();
+        for material in materials {
+            let index = (document.material(material))
+                .ok_or_else(|| PipelineError::UnknownMaterial(material.clone()))?;
+            members.insert(index);
+            if !claimed.insert(index) {
+                let text = format!("`merge_materials` names {material:?} twice");
+                return Err(PipelineError::InvalidOptions(text));
+            }
+        }
+        requested.push(MergedMaterial {
+            name: name.clone(),
+            members: members.into_iter().collect(),
+        });
+    }
+    if merges.contains(&MaterialMerge::All) {
+        let others = (0..document.n_materials()).filter(|index| !claimed.contains(index));
+        requested.push(MergedMaterial {
+            name: MERGED.to_owned(),
+            members: others.collect(),
+        });
+    }
+    Ok(requested)
+}
 
 /// Resamples all textures that can be read and are understood for `uvs`, v up. Enters the stage only if there are
 /// any.
 pub(super) fn rebaked(
     document: &Document,
     groups: &[Group],
+    merge: Option<&MergePlan>,
     uvs: &NewUvs,
     options: &Options,
     tracker: &Tracker,
@@ -34,10 +107,10 @@ pub(super) fn rebaked(
         return Err(DocumentError::UnsupportedOutput(what).into());
     };
     // Plan as if every image were readable; without anything to do, there is no stage.
-    let hoped = document.bake_plan(groups, &BTreeMap::new())?;
+    let hoped = document.bake_plan(groups, merge, &BTreeMap::new())?;
     if hoped.planes.is_empty() && hoped.kept.is_empty() {
         return Ok(BakedTextures {
-            has_colors_only: document.has_vertex_colors(),
+            has_colors_only: hoped.is_empty() && document.has_vertex_colors(),
             plan: hoped,
             files: Vec::new(),
             tangents: vec![None; document.primitives().len()],
@@ -46,7 +119,7 @@ pub(super) fn rebaked(
     // Read the images, and plan again with those that can be read.
     tracker.stage(Stage::Bake);
     let (images, unreadable) = read_images(document, &hoped.planes)?;
-    let plan = document.bake_plan(groups, &unreadable)?;
+    let plan = document.bake_plan(groups, merge, &unreadable)?;
     let surfaces: Vec<RebakedSurface> = (0..document.primitives().len())
         .into_par_iter()
         .map(|index| RebakedSurface::new(document, index, uvs, plan.is_normal_mapped(index)))
@@ -147,8 +220,7 @@ pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning>
         Warning::new("charts_near", message)
     });
     // Say why nothing was resampled.
-    let nothing = baked.plan.planes.is_empty() && baked.plan.kept.is_empty();
-    let nothing = nothing.then(|| {
+    let nothing = baked.plan.is_empty().then(|| {
         if baked.has_colors_only {
             Warning::new(
                 "colors_kept",
@@ -211,14 +283,23 @@ impl<'a> Bake<'a> {
                 frames.skip(n_faces);
                 continue;
             };
+            // Without a texture, all corners are at the same place of a white one.
+            let (picture, wrap) = match &source.texture {
+                Some(source) => (&self.images[&source.image], source.wrap),
+                None => (&*WHITE, [Wrap::Clamp; 2]),
+            };
             let texture = Texture {
-                picture: &self.images[&source.image],
+                picture,
                 encoding: wanted.encoding,
-                wrap: source.wrap,
+                wrap,
                 is_nearest: wanted.is_nearest(),
+                tint: source.tint,
             };
             // Append the places of its faces, with frames for a normal map.
-            let places = self.places(index, source)?;
+            let places = match &source.texture {
+                Some(source) => self.places(index, source)?,
+                None => vec![[[0.5; 2]; 3]; n_faces],
+            };
             if wanted.encoding == Encoding::Normal {
                 self.extend_frames(&mut frames, index, &places)?;
             }
@@ -379,7 +460,7 @@ fn read_images(
     planes: &[BakePlane],
 ) -> Result<(Images, BTreeMap<usize, String>), DocumentError> {
     // List the images that are sampled, each once.
-    let sources = planes.iter().flat_map(|plane| plane.sources.values());
+    let sources = planes.iter().flat_map(BakePlane::textures);
     let mut indices: Vec<usize> = sources.map(|source| source.image).collect();
     indices.sort_unstable();
     indices.dedup();

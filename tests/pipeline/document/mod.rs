@@ -3,5 +3,6 @@ mod again;
 mod grouping;
 mod lightmap;
 mod marks;
+mod merge;
 mod rebake;
 mod weights;

@@ -44,11 +44,15 @@ const SIDES: [f64; 2] = [16.0, 4096.0];
 const SIDE_SLACK: f64 = 1.0;
 
 /// Returns the side, a power of two from 16 to 4096, of a texture on which the faces have the same number of texels as
-/// in the old ones. `faces` are corners in the unit square.
+/// in the old ones. Faces of one color need none. `faces` are corners in the unit square.
 pub fn side_for(plane: &Plane, faces: &[Corners]) -> u32 {
     let all = plane.faces.iter().zip(faces);
-    let areas =
-        Areas::of(all.filter_map(|(sampled, face)| Some((&sampled.as_ref()?.corners, face))));
+    let detailed = all.filter_map(|(sampled, face)| {
+        let sampled = sampled.as_ref()?;
+        let texture = &plane.textures[sampled.texture as usize];
+        (!texture.is_constant()).then_some((&sampled.corners, face))
+    });
+    let areas = Areas::of(detailed);
     let [least, most] = SIDES;
     ((areas.length() - SIDE_SLACK).ceil().clamp(least, most) as u32).next_power_of_two()
 }

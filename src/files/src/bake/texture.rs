@@ -1,10 +1,10 @@
 //! A picture with the settings of its sampler.
 
-use crate::document::{Encoding, Wrap};
+use crate::document::{Encoding, Tint, Wrap};
 use crate::picture::{Image, Picture};
 use std::sync::LazyLock;
 
-/// A picture with the settings of its sampler.
+/// A picture with the settings of its sampler, and a map of its values.
 #[derive(Clone, Copy)]
 pub struct Texture<'a> {
     /// The texels.
@@ -15,9 +15,16 @@ pub struct Texture<'a> {
     pub wrap: [Wrap; 2],
     /// `true` for the nearest texel, `false` for a weighted mean of four.
     pub is_nearest: bool,
+    /// Map of the decoded values.
+    pub tint: Tint,
 }
 
 impl Texture<'_> {
+    /// Returns whether it has one value everywhere, so that no size of a new texture loses any detail.
+    pub(super) fn is_constant(&self) -> bool {
+        self.picture.size() == [1, 1]
+    }
+
     /// Returns columns and rows.
     pub fn size(&self) -> [f64; 2] {
         self.picture.size().map(|n| n as f64)
@@ -47,10 +54,11 @@ impl Texture<'_> {
     }
 
     fn texel(&self, x: usize, y: usize) -> [f32; 4] {
-        match self.picture {
+        let value = match self.picture {
             Picture::Eight(image) => decoded(pixel(image, x, y), self.encoding),
             Picture::Sixteen(image) => decoded(pixel(image, x, y), self.encoding),
-        }
+        };
+        self.tint.applied(value)
     }
 }
 

@@ -1,6 +1,8 @@
 //! Plan and result of resampling a document's textures for new UVs.
 
+use super::MergePlan;
 use serde::Serialize;
+use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Tangents of the three corners of a face, with the sign of the bitangent.
@@ -48,6 +50,42 @@ impl TextureSource {
     }
 }
 
+/// Affine map of the values of a texel, channel by channel: `offset + factor × value`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tint {
+    /// Factor of each channel.
+    pub factor: [f32; 4],
+    /// Summand of each channel.
+    pub offset: [f32; 4],
+}
+
+impl Tint {
+    /// The map that changes nothing.
+    pub const NONE: Self = Self::factor([1.0; 4]);
+
+    /// Creates the map that multiplies channels.
+    pub const fn factor(factor: [f32; 4]) -> Self {
+        Self {
+            factor,
+            offset: [0.0; 4],
+        }
+    }
+
+    /// Maps a value.
+    pub(crate) fn applied(&self, value: [f32; 4]) -> [f32; 4] {
+        [0, 1, 2, 3].map(|k| self.offset[k] + self.factor[k] * value[k])
+    }
+}
+
+/// Source of the texels of a surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaneSource {
+    /// The texture; white if there is none.
+    pub texture: Option<TextureSource>,
+    /// Map of the texture's decoded values: colors in linear light, directions in [−1, 1].
+    pub tint: Tint,
+}
+
 /// A texture to make: parts of one UV space, each with its own source.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BakePlane {
@@ -60,16 +98,28 @@ pub struct BakePlane {
     /// Filters of its sampler, `magFilter` and `minFilter` in the numbers of glTF.
     pub filters: [Option<usize>; 2],
     /// Source of the texels of each primitive.
-    pub sources: BTreeMap<usize, TextureSource>,
+    pub sources: BTreeMap<usize, PlaneSource>,
 }
 
 impl BakePlane {
     /// Returns whether enlarged texels are shown without interpolation.
     pub fn is_nearest(&self) -> bool {
-        // `NEAREST` of WebGL, as glTF numbers filters.
-        const NEAREST: usize = 9728;
-        self.filters[0] == Some(NEAREST)
+        is_nearest(self.filters)
     }
+
+    /// Iterates over the textures that it draws from.
+    pub fn textures(&self) -> impl Iterator<Item = &TextureSource> {
+        self.sources
+            .values()
+            .filter_map(|source| source.texture.as_ref())
+    }
+}
+
+/// Returns whether a sampler with these filters shows enlarged texels without interpolation.
+pub(super) fn is_nearest([mag, _]: [Option<usize>; 2]) -> bool {
+    // `NEAREST` of WebGL, as glTF numbers filters.
+    const NEAREST: usize = 9728;
+    mag == Some(NEAREST)
 }
 
 /// Textures to make for a document, and those that cannot be made.
@@ -79,7 +129,10 @@ pub struct BakePlan {
     pub planes: Vec<BakePlane>,
     /// Textures that stay unchanged, together with the UVs that they sample.
     pub kept: Vec<KeptTexture>,
+    /// Materials to merge, and those that stay apart; `None` if that was not requested.
+    pub merge: Option<MergePlan>,
     pub(super) materials: Vec<MaterialPlanes>,
+    pub(super) merged: Vec<MergedPlanes>,
     /// JSON pointers of the texture infos that will be replaced.
     pub(super) replaced: BTreeSet<String>,
     /// Primitives with directions relative to tangents.
@@ -96,7 +149,25 @@ pub(super) struct MaterialPlanes {
     pub slots: Vec<(String, usize)>,
 }
 
+/// A material that replaces several, and its planes.
+#[derive(Debug, Clone)]
+pub(super) struct MergedPlanes {
+    /// Index into the merged materials of the plan.
+    pub merged: usize,
+    /// Indices of the primitives that get it.
+    pub primitives: BTreeSet<usize>,
+    /// The material; the texture infos of the planes are written when their textures exist.
+    pub material: Value,
+    /// Paths within the material and the planes that go there.
+    pub slots: Vec<(String, usize)>,
+}
+
 impl BakePlan {
+    /// Returns whether there is nothing to make, to keep or to merge.
+    pub fn is_empty(&self) -> bool {
+        self.planes.is_empty() && self.kept.is_empty() && self.merged.is_empty()
+    }
+
     /// Returns whether a primitive needs tangents for its new UVs.
     pub fn is_normal_mapped(&self, primitive: usize) -> bool {
         self.normal_mapped.contains(&primitive)

@@ -16,6 +16,7 @@ pub mod gltf;
 mod group;
 mod mark;
 mod material;
+mod merge;
 mod new_gltf;
 mod new_obj;
 pub mod obj;
@@ -28,12 +29,16 @@ mod write;
 
 pub use bake::{
     BakePlan, BakePlane, BakedTexture, BakedTextures, CornerTangents, Encoding, KeptTexture,
-    TextureSource, Wrap,
+    PlaneSource, TextureSource, Tint, Wrap,
 };
 pub use content::{Document, references, with_references};
 pub use error::DocumentError;
 pub use group::{AddedVertex, Group, GroupBy, Primitive, SpaceMap, Subdivision};
 pub use mark::{Mark, Marked, Sets, Terms};
+pub use merge::{
+    ApartMaterial, JoinedPart, JoinedPrimitive, MaterialMerge, MergeNote, MergePlan,
+    MergedMaterial, MergedNote,
+};
 pub use unwrapd_api::{Upload, Warning};
 pub use uri::format_of;
 pub use uvs::{

@@ -1,6 +1,8 @@
 //! UVs to write, options of writing, and notes on the result.
 
-use super::{BakedTexture, DocumentError, KeptTexture, Primitive, Terms, Warning};
+use super::{
+    BakedTexture, DocumentError, JoinedPrimitive, KeptTexture, MergeNote, Primitive, Terms, Warning,
+};
 use crate::io::Format;
 use serde::{Deserialize, Serialize};
 use unwrapd_maps::mesh::VAxis;
@@ -113,7 +115,7 @@ pub struct Written {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct WriteNotes {
-    /// One entry per primitive that got UVs.
+    /// One entry per primitive that got UVs, before any were joined.
     pub primitives: Vec<PrimitiveNote>,
     /// Textures that sampled a set that was replaced: they show the old layout and need a re-bake.
     pub textures_affected: Vec<AffectedTexture>,
@@ -125,6 +127,12 @@ pub struct WriteNotes {
     pub transforms_removed: Vec<String>,
     /// Extensions that are gone from the file: compression that was undone, data that the new indices made wrong.
     pub extensions_dropped: Vec<String>,
+    /// Materials that were merged; absent unless that was requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub merged: Option<MergeNote>,
+    /// The triangle primitives of the written file; `None` if they are those of the document.
+    #[serde(skip)]
+    pub joined: Option<Vec<JoinedPrimitive>>,
     /// For each triangle over all primitives written its number among those of the document; `None` where none has changed.
     #[serde(skip)]
     pub faces: Option<Vec<u32>>,

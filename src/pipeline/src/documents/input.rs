@@ -7,11 +7,12 @@ use crate::arrays::soup::{Part, Soup};
 use crate::documents::selection::{FaceAttributes, add_control, face_control, rule_materials};
 use crate::options::{GivenSeams, NamedSeams, Options, check_grouping};
 use crate::options::{Stacking, TexelWeight};
-use crate::{PipelineError, limits};
+use crate::{PipelineError, limits, rebake};
 use std::collections::BTreeMap;
 use std::collections::{HashMap, HashSet};
 use unwrapd_files::document::{
-    Document, DocumentError, Group, GroupBy, OldUvs, OutputFormat, Primitive, Upload, Warning,
+    Document, DocumentError, Group, GroupBy, MergePlan, OldUvs, OutputFormat, Primitive, Upload,
+    Warning,
 };
 use unwrapd_maps::mesh::{CornerUvs, Resolution, VAxis};
 
@@ -26,6 +27,8 @@ pub struct Prepared {
     pub origins: Origins,
     /// Texture for which kept UVs were made, if the file states it.
     pub texture: Option<Resolution>,
+    /// Materials to merge; `None` if that was not requested.
+    pub merge: Option<MergePlan>,
 }
 
 /// Original numbers of vertices and faces over all primitives of a document; `None` if they are unchanged.
@@ -71,8 +74,10 @@ impl Prepared {
             let edges = renumbered(edges, vertices, primitives);
             seams.seams = Some(GivenSeams::Edges(edges));
         }
+        let document = options.nodes().prepared(conversion.document)?;
         Ok(Self {
-            document: options.nodes().prepared(conversion.document)?,
+            merge: rebake::merge_plan(&document, options)?,
+            document,
             group_by,
             seams,
             origins: Origins {

@@ -86,8 +86,13 @@ fn unwrap_in_pool(
         seams,
         origins,
         texture,
+        merge,
     } = Prepared::read(upload, options, &plan)?;
     let Mapped { groups, warning } = Mapped::of(&document, options, &plan, group_by)?;
+    let groups = match &merge {
+        Some(merge) if group_by == GroupBy::Material => merge.united(groups, document.primitives()),
+        _ => groups,
+    };
     let primitives = nodes.primitives(&document)?;
     let placed = placements(&document, &groups, islands)?;
     let merged = |(group, placed)| {
@@ -113,7 +118,8 @@ fn unwrap_in_pool(
     let uvs = new_uvs(&document, &groups, &atlases, options)?;
     let mut baked = None;
     if options.baking.rebake {
-        baked = Some(rebaked(&document, &groups, &uvs, options, tracker)?);
+        let merge = merge.as_ref();
+        baked = Some(rebaked(&document, &groups, merge, &uvs, options, tracker)?);
     }
     seconds.bake = watch.lap();
 

@@ -1,9 +1,10 @@
 //! UVs of a group as stored in the bytes.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::ops::Range;
 
 use crate::PipelineError;
-use unwrapd_files::document::{Document, Group, Primitive};
+use unwrapd_files::document::{Document, Group, JoinedPart, Primitive};
 use unwrapd_maps::certificate::{Certificate, Claims, certify};
 use unwrapd_maps::measure::{self, Measures};
 use unwrapd_maps::mesh::{CornerUvs, Resolution, VAxis};
@@ -55,6 +56,22 @@ impl GroupUvs {
             gathered.uvs.extend(uvs);
         }
         Ok(gathered)
+    }
+
+    /// Sorts the faces by the primitives that they were parts of, which now follow one another in another order.
+    pub fn sort_parts<'a>(&mut self, parts: impl Iterator<Item = &'a JoinedPart>) {
+        let mut first = 0;
+        let mut ranges: Vec<(usize, Range<usize>)> = parts
+            .map(|part| {
+                let faces = first..first + part.n_faces;
+                first = faces.end;
+                (part.primitive, faces)
+            })
+            .collect();
+        ranges.sort_unstable_by_key(|(primitive, _)| *primitive);
+        let order = || ranges.iter().flat_map(|(_, faces)| faces.clone());
+        self.triangles = order().map(|face| self.triangles[face]).collect();
+        self.uvs = order().map(|face| self.uvs[face]).collect();
     }
 
     /// Returns the area of the surface scaled by its weights; `None` without weights.

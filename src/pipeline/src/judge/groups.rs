@@ -32,8 +32,25 @@ impl WrittenUvs {
     /// Reads what was just written. The notes name the UV set of each primitive that got UVs.
     pub fn read(written: &Written, group_by: GroupBy, nodes: Nodes) -> Result<Self, PipelineError> {
         let notes = written.notes.primitives.iter();
-        let sets = notes.map(|note| ([note.mesh, note.primitive], note.texcoord));
-        Self::of_sets(&written.read_again()?, group_by, nodes, &sets.collect())
+        let sets: HashMap<[usize; 2], u32> = notes
+            .map(|note| ([note.mesh, note.primitive], note.texcoord))
+            .collect();
+        let document = written.read_again()?;
+        let Some(joined) = &written.notes.joined else {
+            return Self::of_sets(&document, group_by, nodes, &sets);
+        };
+        // All primitives with new textures have one set.
+        let set = sets.values().next().copied();
+        let mut uvs = Self::gather(&document, group_by, nodes, |_| set)?;
+        // Put the faces in the order of the document before its primitives were joined.
+        for (uvs, group) in uvs.groups.iter_mut().zip(document.groups(group_by)) {
+            let parts = group
+                .primitives
+                .iter()
+                .flat_map(|&index| &joined[index].parts);
+            uvs.sort_parts(parts);
+        }
+        Ok(uvs)
     }
 
     /// Gathers the UVs of a document; `sets` has the UV set of each primitive with UVs, by its mesh and its number there.

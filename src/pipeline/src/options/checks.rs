@@ -31,13 +31,13 @@ impl Options {
             .layout
             .stack
             .is_some_and(|stack| stack != Stacking::Off);
-        if self.baking.rebake && is_stacked {
+        if self.rebakes() && is_stacked {
             return Err(
                 "`rebake` requires `stack` off: stacked charts share their texels".to_owned(),
             );
         }
         let is_one_square = self.layout.pages == 1 && self.layout.resolution.aspect() == 1.0;
-        if self.baking.rebake && !is_one_square {
+        if self.rebakes() && !is_one_square {
             return Err(
                 "`rebake` makes one square texture: it requires `pages` 1 and a square `resolution`"
                     .to_owned(),
@@ -166,12 +166,17 @@ fn check(options: &Options) -> Result<(), String> {
         (
             "bake_size",
             "`rebake`",
-            options.baking.bake_size.is_some() && !options.baking.rebake,
+            options.baking.bake_size.is_some() && !options.rebakes(),
         ),
         (
             "image_format",
             "`rebake`",
-            options.baking.image_format != ImageFormat::Source && !options.baking.rebake,
+            options.baking.image_format != ImageFormat::Source && !options.rebakes(),
+        ),
+        (
+            "merge_materials",
+            "a glTF result",
+            !options.merge_materials.is_empty() && is_obj,
         ),
         (
             "texcoord",
@@ -199,7 +204,8 @@ fn check(options: &Options) -> Result<(), String> {
 /// unknown before the file is read.
 pub(crate) fn check_grouping(options: &Options, group_by: Option<GroupBy>) -> Result<(), String> {
     const WITH: &str = "an atlas with several materials: `group_by` mesh or scene";
-    if !matches!(group_by, Some(GroupBy::Material | GroupBy::Primitive)) {
+    let is_merged = group_by == Some(GroupBy::Material) && !options.merge_materials.is_empty();
+    if is_merged || !matches!(group_by, Some(GroupBy::Material | GroupBy::Primitive)) {
         return Ok(());
     }
     let is_density_given = options.layout.texels_per_unit.is_some();

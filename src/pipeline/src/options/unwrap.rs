@@ -9,7 +9,7 @@ use std::str::FromStr;
 use unwrapd_api::options::{options, within};
 use unwrapd_files::document::gltf::GltfDocument;
 use unwrapd_files::document::{
-    BakePlane, Document, DocumentError, GroupBy, OutputFormat, Primitive, Terms,
+    BakePlane, Document, DocumentError, GroupBy, MaterialMerge, OutputFormat, Primitive, Terms,
 };
 use unwrapd_files::io::{Content, Format, format_of_content};
 use unwrapd_files::picture::{HeatmapMeasure, Picture};
@@ -59,6 +59,13 @@ options! {
         /// weight 1, and distortion is measured against the intended density. Repeat the option for
         /// several materials; JSON takes a list.
         pub texel_weight: Vec<TexelWeight>, value "MATERIAL=W", also "texel_weights", schema(value_type = Vec<String>);
+        /// Replace materials by one: `all`, or NAME=MATERIAL,MATERIAL for some, by name or index.
+        ///
+        /// Implies `rebake`. Factors are drawn into the textures, and the merged material has one atlas.
+        /// Primitives of a mesh that then agree in everything but their vertices are joined. Materials stay
+        /// apart, and the report says why, if they differ in alpha mode, culling, filtering or
+        /// extensions, or are animated. Repeat the option for several materials; JSON takes a list.
+        pub merge_materials: Vec<MaterialMerge>, value "all|NAME=MATERIAL,…", arg(help_heading = "UV sets and textures"), schema(value_type = Vec<String>);
         /// Number of mip levels beyond the first in which charts keep the padding, counted in
         /// texels of each level. The default is 0, for a lightmap 2.
         pub mips: Option<u32>, in 0..=12, value "N";
@@ -106,11 +113,17 @@ impl Options {
             mips: Some(self.mips()),
             ..self.clone()
         };
+        options.baking.rebake = self.rebakes();
         if self.preset == Preset::Lightmap {
             options.group_by = Some(GroupBy::Scene);
             options.sets.texcoord = self.sets.texcoord.or(Some(1));
         }
         options
+    }
+
+    /// Returns whether textures are resampled: on request, or to merge materials.
+    pub(crate) fn rebakes(&self) -> bool {
+        self.baking.rebake || !self.merge_materials.is_empty()
     }
 
     /// Returns the number of mip levels beyond the first in which charts keep the padding.
@@ -301,13 +314,17 @@ impl ImageFormat {
     }
 }
 
-/// Returns whether all source images of a texture are files of one format.
+/// Returns whether a texture has source images, and all are files of one format.
 fn is_all(
     document: &GltfDocument,
     plane: &BakePlane,
     format: Format,
 ) -> Result<bool, DocumentError> {
-    for source in plane.sources.values() {
+    let mut textures = plane.textures().peekable();
+    if textures.peek().is_none() {
+        return Ok(false);
+    }
+    for source in textures {
         let file = document.image(source.image)?;
         if format_of_content(&file, file.len() as u64, Content::Texture) != Some(format) {
             return Ok(false);

@@ -3,82 +3,110 @@
 use super::document::GltfDocument;
 use super::images;
 use super::json::{extension, item, unsigned};
+use super::merge::Look;
 use super::textures::{MaterialTextures, TRANSFORM, TextureUse, materials};
-use crate::document::bake::MaterialPlanes;
+use crate::document::bake::{MaterialPlanes, MergedPlanes};
 use crate::document::{
-    BakePlan, BakePlane, DocumentError, Encoding, Group, KeptTexture, TextureSource, Wrap,
+    BakePlan, BakePlane, DocumentError, Encoding, Group, KeptTexture, MergePlan, PlaneSource,
+    TextureSource, Tint, Wrap,
 };
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Extension with directions of anisotropy, which are relative to tangents: they turn with the UVs.
-const ANISOTROPY: &str = "KHR_materials_anisotropy";
+pub(super) const ANISOTROPY: &str = "KHR_materials_anisotropy";
 
 /// A texture of a material, with the way to resample it or the reason why that is impossible.
-struct Slot {
-    texture: TextureUse,
-    resampled: Result<Resampled, String>,
+pub(super) struct Slot {
+    pub texture: TextureUse,
+    pub resampled: Result<Resampled, String>,
 }
 
 /// Indices of primitives by their materials, including those of variants.
-type Users = BTreeMap<usize, BTreeSet<usize>>;
+pub(super) type Users = BTreeMap<usize, BTreeSet<usize>>;
 
 impl GltfDocument {
-    /// Plans the textures to make for new UVs of `groups`; `unreadable` has the reasons why images cannot be read.
+    /// Plans the textures to make for new UVs of `groups`, and the materials to merge; `unreadable` has the reasons why
+    /// images cannot be read.
     pub fn bake_plan(
         &self,
         groups: &[Group],
+        merge: Option<&MergePlan>,
         unreadable: &BTreeMap<usize, String>,
     ) -> Result<BakePlan, DocumentError> {
-        plan(self, groups, unreadable)
+        // Find the textures of every material that a group uses.
+        let all: Vec<usize> = (groups.iter().flat_map(|group| &group.primitives))
+            .copied()
+            .collect();
+        let users = users(self, &all)?;
+        let first_of_equals = images::first_of_equals(&self.body, &self.resources)?;
+        let mut slots = slots(self, &users, &first_of_equals, unreadable);
+        keep_frames_together(&users, &mut slots);
+        // Separate the materials to merge.
+        let merged = merge.map_or(&[][..], |merge| &merge.merged);
+        let looks: Vec<Look> = (merged.iter())
+            .map(|merged| Look::new(self, merged, &slots))
+            .collect::<Result<_, _>>()?;
+        let members = merged.iter().flat_map(|merged| &merged.members);
+        let replaced: BTreeMap<usize, Vec<Slot>> = members
+            .filter_map(|member| slots.remove_entry(member))
+            .collect();
+        // List the textures that stay, then plan those of each group.
+        let mut plan = BakePlan {
+            kept: kept(self, &slots)?,
+            merge: merge.cloned(),
+            ..BakePlan::default()
+        };
+        let infos = replaced.values().flatten();
+        (plan.replaced).extend(infos.map(|slot| slot.texture.pointer.clone()));
+        for (number, group) in groups.iter().enumerate() {
+            let group = PlannedGroup {
+                number,
+                name: &group.name,
+                members: group.primitives.iter().copied().collect(),
+                first: plan.planes.len(),
+            };
+            for (number, (merged, look)) in merged.iter().zip(&looks).enumerate() {
+                let of_look = |primitive: &usize| {
+                    let material = self.primitives[*primitive].material?;
+                    merged
+                        .members
+                        .contains(&material)
+                        .then_some((*primitive, material))
+                };
+                let primitives = group.members.iter().filter_map(of_look).collect();
+                group.plan_merged(&mut plan, number, look, &primitives);
+            }
+            group.plan_others(&mut plan, &users, &slots);
+        }
+        Ok(plan)
     }
 }
 
-/// Plans the textures for new UVs of `groups`. `unreadable` has the reasons why images cannot be read.
-fn plan(
-    document: &GltfDocument,
-    groups: &[Group],
-    unreadable: &BTreeMap<usize, String>,
-) -> Result<BakePlan, DocumentError> {
-    // Find the textures of every material that a group uses.
-    let users = users(document, groups)?;
-    let first_of_equals = images::first_of_equals(&document.body, &document.resources)?;
-    let mut slots: BTreeMap<usize, Vec<Slot>> = users
-        .keys()
-        .map(|&material| {
-            let slots = slots_of(document, material, &first_of_equals, unreadable);
-            (material, slots)
-        })
-        .collect();
-    keep_frames_together(&users, &mut slots);
-    // List the textures that stay, then plan those of each group.
-    let mut plan = BakePlan {
-        kept: kept(document, &slots)?,
-        ..BakePlan::default()
-    };
-    for (group, members) in groups.iter().enumerate() {
-        let members: BTreeSet<usize> = members.primitives.iter().copied().collect();
-        plan_group(
-            &mut plan,
-            group,
-            &groups[group].name,
-            &members,
-            &users,
-            &slots,
-        );
-    }
-    Ok(plan)
-}
-
-fn users(document: &GltfDocument, groups: &[Group]) -> Result<Users, DocumentError> {
+/// Returns the primitives, of some, that have each material.
+pub(super) fn users(document: &GltfDocument, primitives: &[usize]) -> Result<Users, DocumentError> {
     let mut users = Users::new();
-    for &index in groups.iter().flat_map(|group| &group.primitives) {
+    for &index in primitives {
         let primitive = &document.primitives[index];
         for material in materials(primitive.material, document.object(primitive)?)? {
             users.entry(material).or_default().insert(index);
         }
     }
     Ok(users)
+}
+
+/// Returns the textures of all materials that some primitives have.
+pub(super) fn slots(
+    document: &GltfDocument,
+    users: &Users,
+    first_of_equals: &[usize],
+    unreadable: &BTreeMap<usize, String>,
+) -> BTreeMap<usize, Vec<Slot>> {
+    let of_material = |&material: &usize| {
+        let slots = slots_of(document, material, first_of_equals, unreadable);
+        (material, slots)
+    };
+    users.keys().map(of_material).collect()
 }
 
 fn slots_of(
@@ -164,54 +192,99 @@ fn kept(
     Ok(kept.into_iter().collect())
 }
 
-/// Adds the textures of one group: for each slot one texture for all materials, as long as no surface has two of them.
-fn plan_group(
-    plan: &mut BakePlan,
-    group: usize,
-    name: &str,
-    members: &BTreeSet<usize>,
-    users: &Users,
-    slots: &BTreeMap<usize, Vec<Slot>>,
-) {
-    let first = plan.planes.len();
-    for (&material, slots) in slots {
-        // Skip materials that no primitive of the group uses.
-        let primitives: BTreeSet<usize> = users[&material].intersection(members).copied().collect();
+/// A group whose textures are planned.
+struct PlannedGroup<'a> {
+    number: usize,
+    name: &'a str,
+    /// Indices of its primitives.
+    members: BTreeSet<usize>,
+    /// Index of its first plane.
+    first: usize,
+}
+
+impl PlannedGroup<'_> {
+    /// Adds the textures of a merged material for `primitives` of the group, which have these materials.
+    fn plan_merged(
+        &self,
+        plan: &mut BakePlan,
+        merged: usize,
+        look: &Look,
+        primitives: &BTreeMap<usize, usize>,
+    ) {
         if primitives.is_empty() {
-            continue;
+            return;
         }
-        // Assign each texture of the material that can be resampled to a plane.
-        let mut planes = Vec::new();
-        for slot in slots {
-            let Ok(resampled) = &slot.resampled else {
-                continue;
-            };
+        let mut slots = Vec::new();
+        for drawn in &look.planes {
+            let sources = primitives.iter();
             let wanted = BakePlane {
-                name: format!("{name}_{}", word(&slot.texture.slot)),
-                group,
-                encoding: resampled.encoding,
-                filters: resampled.filters,
-                sources: primitives
-                    .iter()
-                    .map(|&p| (p, resampled.source.clone()))
+                name: format!("{}_{}", self.name, word(&drawn.slots[0])),
+                group: self.number,
+                encoding: drawn.encoding,
+                filters: drawn.filters,
+                sources: sources
+                    .map(|(&primitive, material)| (primitive, drawn.sources[material].clone()))
                     .collect(),
             };
-            planes.push((
-                slot.texture.slot.clone(),
-                joined(&mut plan.planes, first, wanted),
-            ));
-            plan.replaced.insert(slot.texture.pointer.clone());
-            if resampled.encoding == Encoding::Normal {
-                plan.normal_mapped.extend(&primitives);
+            let plane = joined(&mut plan.planes, self.first, wanted);
+            slots.extend(drawn.slots.iter().map(|slot| (slot.clone(), plane)));
+            if drawn.encoding == Encoding::Normal {
+                plan.normal_mapped.extend(primitives.keys());
             }
         }
-        // Record the planes of the material.
-        if !planes.is_empty() {
-            plan.materials.push(MaterialPlanes {
-                material,
-                primitives,
-                slots: planes,
-            });
+        plan.merged.push(MergedPlanes {
+            merged,
+            primitives: primitives.keys().copied().collect(),
+            material: look.material.clone(),
+            slots,
+        });
+    }
+
+    /// Adds the textures of the other materials: for each slot one texture for all materials, as long as no surface has
+    /// two of them.
+    fn plan_others(&self, plan: &mut BakePlan, users: &Users, slots: &BTreeMap<usize, Vec<Slot>>) {
+        for (&material, slots) in slots {
+            // Skip materials that no primitive of the group uses.
+            let primitives: BTreeSet<usize> = (users[&material].intersection(&self.members))
+                .copied()
+                .collect();
+            if primitives.is_empty() {
+                continue;
+            }
+            // Assign each texture of the material that can be resampled to a plane.
+            let mut planes = Vec::new();
+            for slot in slots {
+                let Ok(resampled) = &slot.resampled else {
+                    continue;
+                };
+                let source = PlaneSource {
+                    texture: Some(resampled.source.clone()),
+                    tint: Tint::NONE,
+                };
+                let wanted = BakePlane {
+                    name: format!("{}_{}", self.name, word(&slot.texture.slot)),
+                    group: self.number,
+                    encoding: resampled.encoding,
+                    filters: resampled.filters,
+                    sources: primitives.iter().map(|&p| (p, source.clone())).collect(),
+                };
+                planes.push((
+                    slot.texture.slot.clone(),
+                    joined(&mut plan.planes, self.first, wanted),
+                ));
+                plan.replaced.insert(slot.texture.pointer.clone());
+                if resampled.encoding == Encoding::Normal {
+                    plan.normal_mapped.extend(&primitives);
+                }
+            }
+            // Record the planes of the material.
+            if !planes.is_empty() {
+                plan.materials.push(MaterialPlanes {
+                    material,
+                    primitives,
+                    slots: planes,
+                });
+            }
         }
     }
 }
@@ -247,7 +320,7 @@ fn word(slot: &str) -> &str {
 
 /// A texture that can be resampled.
 #[derive(Debug, Clone)]
-struct Resampled {
+pub(super) struct Resampled {
     pub encoding: Encoding,
     pub filters: [Option<usize>; 2],
     pub source: TextureSource,

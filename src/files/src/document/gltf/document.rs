@@ -266,6 +266,12 @@ pub(super) fn material_name(document: &GltfDocument, material: usize) -> String 
     quoted(Names::material(document, material), "material", material)
 }
 
+/// Returns the name of a material without quotes, or its number.
+pub(super) fn plain_material_name(document: &GltfDocument, material: usize) -> String {
+    let name = Names::material(document, material);
+    name.unwrap_or_else(|| format!("material {material}"))
+}
+
 fn quoted(name: Option<String>, kind: &str, index: usize) -> String {
     name.map_or_else(|| format!("{kind} {index}"), |name| format!("`{name}`"))
 }

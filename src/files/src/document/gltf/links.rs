@@ -1,4 +1,4 @@
-//! References of a document to accessors, buffer views, images, samplers and textures.
+//! References of a document to materials, textures, images, samplers, accessors and buffer views.
 
 use super::body::GltfBody;
 use super::json::{array_mut, as_unsigned, items, required, unsigned};
@@ -9,6 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Collections of objects that can lose their last reference. Objects refer only to objects of later collections.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Collection {
+    Materials,
     Textures,
     Images,
     Samplers,
@@ -20,7 +21,8 @@ pub(super) enum Collection {
 pub(super) type GltfObject = (Collection, usize);
 
 impl Collection {
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
+        Self::Materials,
         Self::Textures,
         Self::Images,
         Self::Samplers,
@@ -31,6 +33,7 @@ impl Collection {
     /// Returns the member of the document that holds the collection.
     pub fn key(self) -> &'static str {
         match self {
+            Self::Materials => "materials",
             Self::Textures => "textures",
             Self::Images => "images",
             Self::Samplers => "samplers",
@@ -114,8 +117,20 @@ impl Visitor<'_> {
                     self.number(Collection::BufferViews, view);
                 }
             }
+            Collection::Materials => self.coarser_materials(object),
             Collection::Samplers | Collection::BufferViews => {}
         }
+    }
+
+    /// Visits the materials for smaller sizes on the screen. They count as references of the document, since objects
+    /// refer only to later collections.
+    fn coarser_materials(&mut self, material: &mut Value) {
+        let owner = self.owner.take();
+        self.all(
+            Collection::Materials,
+            material.pointer_mut("/extensions/MSFT_lod/ids"),
+        );
+        self.owner = owner;
     }
 
     /// Visits the references of another top-level member by the rules of glTF itself.
@@ -131,13 +146,34 @@ impl Visitor<'_> {
                         self.member(Collection::Accessors, sampler, "input");
                         self.member(Collection::Accessors, sampler, "output");
                     }
+                    for channel in children(object.get_mut("channels")) {
+                        let place = "/target/extensions/KHR_animation_pointer/pointer";
+                        self.material_pointer(channel.pointer_mut(place));
+                    }
                 }
                 _ => {}
             }
         }
     }
 
+    /// Visits the material that a JSON pointer names.
+    fn material_pointer(&mut self, pointer: Option<&mut Value>) {
+        let Some(Value::String(pointer)) = pointer else {
+            return;
+        };
+        let Some((number, rest)) = (pointer.strip_prefix("/materials/"))
+            .and_then(|path| path.split_once('/'))
+            .and_then(|(number, rest)| Some((number.parse::<usize>().ok()?, rest)))
+        else {
+            return;
+        };
+        let mut value = json!(number);
+        self.number(Collection::Materials, Some(&mut value));
+        *pointer = format!("/materials/{value}/{rest}");
+    }
+
     fn primitive(&mut self, primitive: &mut Value) {
+        self.member(Collection::Materials, primitive, "material");
         self.member(Collection::Accessors, primitive, "indices");
         self.all(Collection::Accessors, primitive.get_mut("attributes"));
         for target in children(primitive.get_mut("targets")) {
@@ -183,6 +219,11 @@ impl Visitor<'_> {
             }
             "EXT_mesh_gpu_instancing" => {
                 self.all(Collection::Accessors, extension.get_mut("attributes"));
+            }
+            "KHR_materials_variants" => {
+                for mapping in children(extension.get_mut("mappings")) {
+                    self.member(Collection::Materials, mapping, "material");
+                }
             }
             "CESIUM_primitive_outline" => self.member(Collection::Accessors, extension, "indices"),
             "EXT_mesh_manifold" => {

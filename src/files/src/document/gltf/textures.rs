@@ -10,8 +10,8 @@ use super::json::{
 use crate::document::bake::MaterialPlanes;
 use crate::document::error::listed;
 use crate::document::{
-    AffectedTexture, BakedTexture, BakedTextures, DocumentError, Primitive, Warning, WriteNotes,
-    uri,
+    AffectedTexture, BakedTexture, BakedTextures, DocumentError, MergeNote, MergedNote, Primitive,
+    Warning, WriteNotes, uri,
 };
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
@@ -219,7 +219,27 @@ pub(super) fn texture_warnings(document: &GltfDocument, notes: &WriteNotes) -> V
         );
         Warning::new("textures_kept", text)
     }));
+    warnings.extend(apart_warnings(notes));
     warnings
+}
+
+/// Returns a warning for each reason why materials stay apart.
+fn apart_warnings(notes: &WriteNotes) -> Vec<Warning> {
+    let mut of_reason: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for apart in notes.merged.iter().flat_map(|merged| &merged.apart) {
+        of_reason
+            .entry(&apart.reason)
+            .or_default()
+            .push(&apart.name);
+    }
+    let warning = |(reason, names): (&str, Vec<&str>)| {
+        let materials = listed(names.into_iter());
+        Warning::new(
+            "materials_apart",
+            format!("not merged: {materials} ({reason})"),
+        )
+    };
+    of_reason.into_iter().map(warning).collect()
 }
 
 // Insertion of new textures into the document.
@@ -273,8 +293,78 @@ pub(super) fn insert(
             });
         }
     }
+    insert_merged(document, body, baked, &textures, set, notes)?;
     notes.textures_kept.clone_from(&baked.plan.kept);
     Ok(resources)
+}
+
+/// Adds the merged materials with their `textures`, and assigns them to their primitives.
+fn insert_merged(
+    document: &GltfDocument,
+    body: &mut GltfBody,
+    baked: &BakedTextures,
+    textures: &[usize],
+    set: u32,
+    notes: &mut WriteNotes,
+) -> Result<(), DocumentError> {
+    let Some(plan) = &baked.plan.merge else {
+        return Ok(());
+    };
+    let mut note = MergeNote {
+        materials: Vec::new(),
+        apart: plan.apart.clone(),
+        draw_calls_before: draw_calls(&document.body.json)?,
+        draw_calls_after: 0,
+    };
+    for planes in &baked.plan.merged {
+        let merged = &plan.merged[planes.merged];
+        let material = push(&mut body.json, "materials", planes.material.clone())?;
+        for &index in &planes.primitives {
+            let primitive = &document.primitives[index];
+            let object = primitive_mut(&mut body.json, primitive.mesh, primitive.primitive)?;
+            object["material"] = json!(material);
+        }
+        for (slot, plane) in &planes.slots {
+            let pointer = format!("/materials/{material}/{slot}");
+            point(&mut body.json, &pointer, textures[*plane], set)?;
+            notes.textures_baked.push(BakedTexture {
+                material,
+                slot: slot.clone(),
+                texture: textures[*plane],
+                side: baked.files[*plane].0,
+            });
+        }
+        // Name what it replaces, with the transforms that are gone.
+        for &member in &merged.members {
+            let uses = MaterialTextures::of_material(&body.json, member).uses;
+            let transformed = uses.into_iter().filter(|texture| {
+                let info = body.json.pointer(&texture.pointer);
+                info.is_some_and(|info| extension(info, TRANSFORM).is_some())
+            });
+            (notes.transforms_removed).extend(transformed.map(|texture| texture.pointer));
+        }
+        let names = merged.members.iter();
+        note.materials.push(MergedNote {
+            material,
+            name: merged.name.clone(),
+            replaces: names
+                .map(|&member| document::plain_material_name(document, member))
+                .collect(),
+        });
+    }
+    notes.merged = Some(note);
+    Ok(())
+}
+
+/// Returns the number of draw calls of all nodes: the primitives of their meshes, including points and lines.
+pub(super) fn draw_calls(json: &Value) -> Result<usize, DocumentError> {
+    let mut n_calls = 0;
+    for node in items(json, "nodes")? {
+        if let Some(mesh) = unsigned(node, "mesh")? {
+            n_calls += items(item(json, "meshes", mesh)?, "primitives")?.len();
+        }
+    }
+    Ok(n_calls)
 }
 
 /// Appends to a top-level array and returns the index.
@@ -356,11 +446,9 @@ fn users(json: &Value, material: usize) -> Result<BTreeSet<[usize; 2]>, Document
     Ok(users)
 }
 
-/// Points a texture info to another texture, sampled by `set` without a transform. Returns whether it had a transform.
+/// Points a texture info, which is created if it is missing, to another texture, sampled by `set` without a transform. Returns whether it had a transform.
 fn point(json: &mut Value, pointer: &str, texture: usize, set: u32) -> Result<bool, DocumentError> {
-    let info = json
-        .pointer_mut(pointer)
-        .ok_or_else(|| invalid(format!("{pointer} does not exist")))?;
+    let info = info_mut(json, pointer)?;
     object_mut(info)?.insert("index".to_owned(), json!(texture));
     let was_transformed = remove_extension(info, TRANSFORM).is_some();
     if set == 0 {
@@ -369,4 +457,18 @@ fn point(json: &mut Value, pointer: &str, texture: usize, set: u32) -> Result<bo
         info["texCoord"] = json!(set);
     }
     Ok(was_transformed)
+}
+
+/// Returns the texture info at a place of an existing material, and creates it if it is missing.
+fn info_mut<'a>(json: &'a mut Value, pointer: &str) -> Result<&'a mut Value, DocumentError> {
+    let mut value = json;
+    for name in pointer.split('/').skip(1) {
+        value = match value {
+            Value::Array(items) => name.parse().ok().and_then(|k: usize| items.get_mut(k)),
+            Value::Object(members) => Some(members.entry(name).or_insert_with(|| json!({}))),
+            _ => None,
+        }
+        .ok_or_else(|| invalid(format!("{pointer} does not exist")))?;
+    }
+    Ok(value)
 }

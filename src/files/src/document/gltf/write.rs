@@ -2,16 +2,18 @@
 
 use super::body::GltfBody;
 use super::document::{self, GltfDocument};
+use super::join::join;
 use super::json::{item_mut, remove_extension};
 use super::links::{Collection, NewIndices};
+use super::merge::EMISSIVE_STRENGTH;
 use super::rewrite::rewrite;
 use super::texcoord_set::{self, Choice, Textures};
-use super::textures::{self, affected, remove_transform, texture_warnings};
+use super::textures::{self, TRANSFORM, affected, remove_transform, texture_warnings};
 use super::{as_obj, buffers, extensions, images, marking, primitives};
 use crate::document::error::listed;
 use crate::document::{
-    BakedTextures, DocumentError, Layout, Mark, NewUvs, OutputFormat, Warning, WriteNotes,
-    WriteOptions, Written, uri,
+    BakedTextures, DocumentError, JoinedPrimitive, Layout, Mark, NewUvs, OutputFormat, Warning,
+    WriteNotes, WriteOptions, Written, uri,
 };
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -84,6 +86,13 @@ fn write(
         }
         None => Cow::Borrowed(&document.resources),
     };
+    // Primitives of merged materials.
+    if let Some(baked) = baked {
+        notes.joined = join(document, &mut body, &baked.plan.merged)?;
+    }
+    if let Some(merged) = &mut notes.merged {
+        merged.draw_calls_after = textures::draw_calls(&body.json)?;
+    }
     // Extensions that no longer hold, and the mark.
     drop_manifold(&mut body.json, &mut notes)?;
     let gone = ["KHR_texture_transform", MANIFOLD];
@@ -95,7 +104,13 @@ fn write(
         .extensions_dropped
         .extend(extensions::prune(&mut body.json, &gone)?);
     if !notes.primitives.is_empty() {
-        let warning = mark(&mut body.json, uvs, &choices, options)?;
+        let warning = mark(
+            &mut body.json,
+            uvs,
+            &choices,
+            options,
+            notes.joined.as_deref(),
+        )?;
         notes.warnings.extend(warning);
     }
     let warnings = texture_warnings(document, &notes);
@@ -103,7 +118,11 @@ fn write(
     // Remove objects that have lost their last reference.
     let places = document.origin.clean(&mut body)?;
     if baked.is_some() {
-        let dropped = extensions::prune(&mut body.json, &[images::WEBP])?;
+        let mut gone = vec![images::WEBP];
+        if notes.merged.is_some() {
+            gone.extend([EMISSIVE_STRENGTH, TRANSFORM]);
+        }
+        let dropped = extensions::prune(&mut body.json, &gone)?;
         notes.extensions_dropped.extend(dropped);
     }
     renumber(&mut notes, &places);
@@ -117,22 +136,46 @@ fn mark(
     uvs: &NewUvs,
     choices: &[Option<Choice>],
     options: &WriteOptions,
+    joined: Option<&[JoinedPrimitive]>,
 ) -> Result<Option<Warning>, DocumentError> {
     let Some(terms) = &options.terms else {
         marking::clear(json);
         return Ok(None);
     };
-    let written = choices.iter().enumerate().map(|(index, choice)| {
-        let corners = uvs.toward(index, VAxis::Down)?;
-        let corners = corners.iter().map(|face| face.map(|uv| uv.map(f64::from)));
-        Some((choice.as_ref()?.set, corners.collect()))
+    let parts: Vec<Vec<usize>> = match joined {
+        Some(joined) => (joined.iter())
+            .map(|joined| joined.parts.iter().map(|part| part.primitive).collect())
+            .collect(),
+        None => (0..choices.len()).map(|index| vec![index]).collect(),
+    };
+    let written = parts.into_iter().map(|parts| {
+        let set = choices[*parts.first()?].as_ref()?.set;
+        let corners: Option<Vec<_>> = parts
+            .iter()
+            .map(|&part| uvs.toward(part, VAxis::Down))
+            .collect();
+        let corners = corners?.into_iter().flatten();
+        Some((
+            set,
+            corners
+                .map(|face| face.map(|uv| uv.map(f64::from)))
+                .collect(),
+        ))
     });
     marking::set(json, &Mark::new(terms, written))
 }
 
-/// Updates textures and images in notes to the numbers of the written file.
+/// Updates materials, textures and images in notes to the numbers of the written file.
 fn renumber(notes: &mut WriteNotes, places: &NewIndices) {
+    let merged = notes
+        .merged
+        .iter_mut()
+        .flat_map(|merged| &mut merged.materials);
+    for merged in merged {
+        merged.material = places.of((Collection::Materials, merged.material));
+    }
     for baked in &mut notes.textures_baked {
+        baked.material = places.of((Collection::Materials, baked.material));
         baked.texture = places.of((Collection::Textures, baked.texture));
     }
     for affected in &mut notes.textures_affected {
