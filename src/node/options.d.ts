@@ -83,4 +83,5 @@ export interface UnwrapFileOptions extends CalledOptions {
   rebake?: boolean;
   bakeSize?: number;
   imageFormat?: 'source' | 'png' | 'jpeg' | 'webp';
+  mergeMaterials?: string[];
 }

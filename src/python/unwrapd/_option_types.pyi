@@ -63,6 +63,7 @@ class UnwrapFileOptions(UnwrapOptions, Sets, total=False):
     rebake: bool | None
     bake_size: int | None
     image_format: Literal["source", "png", "jpeg", "webp"] | None
+    merge_materials: Sequence[str] | None
 
 class UnwrapBytesOptions(UnwrapFileOptions, total=False):
     """The same and the format of the result."""

@@ -24,6 +24,7 @@ _OF_FILES = frozenset(
         "rebake",
         "bake_size",
         "image_format",
+        "merge_materials",
         "separate_nodes",
         "skip_missing",
     )
