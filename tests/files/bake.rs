@@ -363,6 +363,62 @@ fn a_texture_has_as_many_texels_as_before() {
     assert_eq!(side_for(&plane, &tiny), 4096);
 }
 
+/// The picture with most texels on its surface decides; one of a single color never does.
+#[test]
+fn the_side_suits_the_finest_picture() {
+    let [fine, coarse, plain] = [colorful(256), colorful(16), colorful(1)];
+    let halves = [
+        rectangle(corners([0.0, 0.0], [0.5, 1.0])),
+        rectangle(corners([0.5, 0.0], [1.0, 1.0])),
+    ];
+    let side = |other: &Picture| {
+        let pictures = [&fine, other];
+        let [first, second] = pictures.map(|picture| {
+            plane(
+                texture(picture, Encoding::Color, Wrap::Clamp),
+                &unit_square(),
+            )
+        });
+        let others = second.faces.into_iter().flatten().map(|sampled| {
+            Some(Sampled {
+                texture: 1,
+                ..sampled
+            })
+        });
+        let both = Plane {
+            textures: [first.textures, second.textures].concat(),
+            faces: first.faces.into_iter().chain(others).collect(),
+            ..first
+        };
+        side_for(&both, &halves.concat())
+    };
+    // 256 texels on half of the square: 256 √2 along its side.
+    assert_eq!(side(&fine), 512);
+    assert_eq!((side(&coarse), side(&plain)), (512, 512));
+}
+
+/// Factors and offsets apply to linear light and to numbers, before rounding.
+#[test]
+fn a_tint_maps_decoded_values() {
+    let mut picture = Image::transparent(2, 2);
+    picture.pixels.fill([188, 100, 0, 200]);
+    let picture = Picture::Eight(picture);
+    let tint = Tint {
+        factor: [0.5, 1.0, 1.0, 0.0],
+        offset: [0.0, 0.0, 1.0, 1.0],
+    };
+    let shown = |encoding: Encoding| {
+        let texture = Texture {
+            tint,
+            ..texture(&picture, encoding, Wrap::Clamp)
+        };
+        resampled(texture, &unit_square(), &unit_square(), 8).pixels[9]
+    };
+    // 188 is half of the light of 255, and 137 a quarter.
+    assert_eq!(shown(Encoding::Color), [137, 100, 255, 255]);
+    assert_eq!(shown(Encoding::Data), [94, 100, 255, 255]);
+}
+
 #[test]
 fn any_number_of_threads_gives_the_same_picture() {
     let source = colorful(50);

@@ -4,6 +4,7 @@ use super::coverage::{Areas, Barycentric};
 use super::{Corners, Texture};
 use crate::document::Encoding;
 use crate::picture::Picture;
+use std::collections::HashMap;
 
 /// Texture of a face and, for each of its corners, the place in it, in texels.
 #[derive(Clone, Copy)]
@@ -43,18 +44,25 @@ const SIDES: [f64; 2] = [16.0, 4096.0];
 /// Texels by which a side may be too small without a visible loss.
 const SIDE_SLACK: f64 = 1.0;
 
-/// Returns the side, a power of two from 16 to 4096, of a texture on which the faces have the same number of texels as
-/// in the old ones. Faces of one color need none. `faces` are corners in the unit square.
+/// Returns the side, a power of two from 16 to 4096, of a texture on which the faces of each old picture have as many
+/// texels as on that. Faces of one color need none. `faces` are corners in the unit square.
 pub fn side_for(plane: &Plane, faces: &[Corners]) -> u32 {
-    let all = plane.faces.iter().zip(faces);
-    let detailed = all.filter_map(|(sampled, face)| {
-        let sampled = sampled.as_ref()?;
+    let mut of_pictures: HashMap<*const Picture, Vec<(&Corners, &Corners)>> = HashMap::new();
+    for (sampled, face) in plane.faces.iter().zip(faces) {
+        let Some(sampled) = sampled else {
+            continue;
+        };
         let texture = &plane.textures[sampled.texture as usize];
-        (!texture.is_constant()).then_some((&sampled.corners, face))
-    });
-    let areas = Areas::of(detailed);
+        if !texture.is_constant() {
+            let of_picture = of_pictures.entry(std::ptr::from_ref(texture.picture));
+            of_picture.or_default().push((&sampled.corners, face));
+        }
+    }
+    let lengths = of_pictures.into_values();
+    let lengths = lengths.map(|faces| Areas::of(faces.into_iter()).length());
     let [least, most] = SIDES;
-    ((areas.length() - SIDE_SLACK).ceil().clamp(least, most) as u32).next_power_of_two()
+    let length = lengths.fold(0.0, f64::max);
+    ((length - SIDE_SLACK).ceil().clamp(least, most) as u32).next_power_of_two()
 }
 
 // Directions converted from one tangent frame to another.
