@@ -407,7 +407,7 @@ fn joined_primitives_keep_their_attributes() {
     let color = |r: f64| json!({"pbrMetallicRoughness": {"baseColorFactor": [r, 0, 0, 1]}});
     let mut builder = squares(&[color(0.1), color(0.2), color(0.3)], &[]);
     for k in 0..2 {
-        let number = 1.0 + k as f32;
+        let number = 1.0 + f32::from(k);
         let morph = builder.floats("VEC3", 3, &[0., 0., number].repeat(4));
         let joints = builder.accessor("VEC4", 5121, 4, &[k, 0, 0, 0].repeat(4));
         let weights = builder.floats("VEC4", 4, &[1., 0., 0., 0.].repeat(4));
@@ -508,6 +508,23 @@ fn blended_primitives_are_not_joined() {
     );
     let wanted = [[0.25, 0., 0., 0.25], [0.5, 0., 0., 0.5]];
     check(&shown(&outcome, BASE, true), factor, &wanted, &[0, 1, 2, 3]);
+}
+
+/// Mip levels would blur a texture that had none; a material without textures goes with either.
+#[test]
+fn textures_with_and_without_mip_levels_stay_apart() {
+    let textured =
+        |index: usize| json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": index}}});
+    let materials = [textured(0), textured(1), json!({})];
+    let mut builder = squares(&materials, &[[255, 0, 0, 255], [0, 0, 255, 255]]);
+    builder.json["samplers"] = json!([{"minFilter": 9729}]);
+    builder.json["textures"][1]["sampler"] = json!(0);
+    let outcome = merged(&builder, &["all"]);
+    let note = outcome.report.written.unwrap().merged.unwrap();
+    assert_eq!(note.materials[0].replaces, ["material 0", "material 2"]);
+    let apart: Vec<_> = note.apart.iter().map(|apart| apart.material).collect();
+    assert_eq!(apart, [1]);
+    assert!(note.apart[0].reason.starts_with("minFilter"));
 }
 
 /// Points and lines are not unwrapped, and keep the material that their surfaces lose.

@@ -148,7 +148,9 @@ impl Visitor<'_> {
                     }
                     for channel in children(object.get_mut("channels")) {
                         let place = "/target/extensions/KHR_animation_pointer/pointer";
-                        self.material_pointer(channel.pointer_mut(place));
+                        if let Some(Value::String(pointer)) = channel.pointer_mut(place) {
+                            self.material_pointer(pointer);
+                        }
                     }
                 }
                 _ => {}
@@ -157,10 +159,7 @@ impl Visitor<'_> {
     }
 
     /// Visits the material that a JSON pointer names.
-    fn material_pointer(&mut self, pointer: Option<&mut Value>) {
-        let Some(Value::String(pointer)) = pointer else {
-            return;
-        };
+    fn material_pointer(&mut self, pointer: &mut String) {
         let Some((number, rest)) = (pointer.strip_prefix("/materials/"))
             .and_then(|path| path.split_once('/'))
             .and_then(|(number, rest)| Some((number.parse::<usize>().ok()?, rest)))

@@ -59,7 +59,7 @@ impl GltfDocument {
                 match obstacle {
                     Some(reason) => plan.apart.push(apart(self, material, reason)),
                     None => {
-                        Bucket::assign(&mut buckets, material, traits(object, &slots[&material]))
+                        Bucket::assign(&mut buckets, material, traits(object, &slots[&material]));
                     }
                 }
             }
@@ -161,8 +161,17 @@ fn is_animated(json: &Value, material: usize) -> bool {
 struct Traits {
     /// Values by name; extensions without the places of their textures.
     values: BTreeMap<String, Value>,
-    /// Filtering of the textures by the nearest texel; `None` without textures, which go with either.
-    is_nearest: Option<bool>,
+    /// Filtering of the textures; `None` without textures, which go with any.
+    filtering: Option<Filtering>,
+}
+
+/// Filtering that is seen: an atlas with mip levels blurs small text that had none, and one without flickers.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Filtering {
+    /// `true` if a texture shows enlarged texels without interpolation.
+    is_nearest: bool,
+    /// `true` if all textures use mip levels.
+    has_mip_levels: bool,
 }
 
 /// Materials that can be one.
@@ -178,7 +187,7 @@ impl Bucket {
         match known.find(|bucket| bucket.traits.differences(&traits).is_empty()) {
             Some(bucket) => {
                 bucket.members.push(material);
-                bucket.traits.is_nearest = bucket.traits.is_nearest.or(traits.is_nearest);
+                bucket.traits.filtering = bucket.traits.filtering.or(traits.filtering);
             }
             None => buckets.push(Self {
                 members: vec![material],
@@ -196,10 +205,13 @@ impl Traits {
             .filter(|name| self.values.get(*name) != other.values.get(*name))
             .cloned()
             .collect();
-        if let (Some(a), Some(b)) = (self.is_nearest, other.is_nearest)
-            && a != b
-        {
-            differing.push("magFilter".to_owned());
+        if let (Some(a), Some(b)) = (self.filtering, other.filtering) {
+            let filters = [
+                ("magFilter", a.is_nearest != b.is_nearest),
+                ("minFilter", a.has_mip_levels != b.has_mip_levels),
+            ];
+            let unequal = filters.into_iter().filter(|(_, differs)| *differs);
+            differing.extend(unequal.map(|(name, _)| name.to_owned()));
         }
         differing
     }
@@ -241,10 +253,14 @@ fn traits(object: &Value, slots: &[Slot]) -> Traits {
         }
     }
     let resampled = slots.iter().filter_map(|slot| slot.resampled.as_ref().ok());
-    let nearest: Vec<bool> = resampled.map(|r| is_nearest(r.filters)).collect();
+    let filters: Vec<_> = resampled.map(|resampled| resampled.filters).collect();
+    let filtering = Filtering {
+        is_nearest: filters.iter().any(|filters| is_nearest(*filters)),
+        has_mip_levels: filters.iter().all(has_mip_levels),
+    };
     Traits {
         values,
-        is_nearest: (!nearest.is_empty()).then(|| nearest.contains(&true)),
+        filtering: (!filters.is_empty()).then_some(filtering),
     }
 }
 
@@ -596,6 +612,12 @@ impl Drawn<'_> {
             None => [0.0, factor[k] + offset[k]],
         }
     }
+}
+
+/// Returns whether a sampler with these filters uses mip levels, as renderers do by default.
+fn has_mip_levels([_, min]: &[Option<usize>; 2]) -> bool {
+    // `NEAREST` and `LINEAR` of WebGL, the only filters without.
+    !matches!(min, Some(9728 | 9729))
 }
 
 /// Returns whether factors alone cannot show the materials.
