@@ -68,9 +68,9 @@ fn renumbered(
         .collect();
     let mut remaining = Vec::new();
     for mesh in 0..items(&body.json, "meshes")?.len() {
-        let Some(primitives) =
-            item_mut(&mut body.json, "meshes", mesh)?["primitives"].as_array_mut()
-        else {
+        let mesh_object = item_mut(&mut body.json, "meshes", mesh)?;
+        let primitives = mesh_object.get_mut("primitives");
+        let Some(primitives) = primitives.and_then(Value::as_array_mut) else {
             continue;
         };
         let old = std::mem::take(primitives);

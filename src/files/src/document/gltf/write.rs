@@ -5,7 +5,7 @@ use super::document::{self, GltfDocument};
 use super::join::join;
 use super::json::{item_mut, remove_extension};
 use super::links::{Collection, NewIndices};
-use super::merge::EMISSIVE_STRENGTH;
+use super::replacement::EMISSIVE_STRENGTH;
 use super::rewrite::rewrite;
 use super::texcoord_set::{self, Choice, Textures};
 use super::textures::{self, TRANSFORM, affected, remove_transform, texture_warnings};
