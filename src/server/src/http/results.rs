@@ -141,8 +141,8 @@ pub(super) async fn get_thumbnail(
 /// bytes and are little-endian:
 ///
 /// - the bytes `UVS1`, then the number of primitives;
-/// - for each primitive its mesh and its number in that, as the result counts them, and its numbers of
-///   faces F and of vertices V;
+/// - for each primitive its mesh and its number in that, as the result counts them before
+///   `merge_materials` joins any, and its numbers of faces F and of vertices V;
 /// - for each primitive 6 F floats: u and v of the three corners of each face, in the numbers of the
 ///   result; F integers: which triangle of the input each face is; V integers: which vertex of the
 ///   input each vertex of the result is.
