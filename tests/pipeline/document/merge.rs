@@ -600,6 +600,11 @@ fn bad_requests_are_refused() {
         ..options(&["all"])
     };
     assert_eq!(code(&obj), "invalid_options");
+    let of_meshes = Options {
+        group_by: Some(unwrapd_files::document::GroupBy::Mesh),
+        ..options(&["all"])
+    };
+    assert_eq!(code(&of_meshes), "invalid_options");
     for text in ["", "some", "=a", "x=", "x=a,,b"] {
         assert!(
             text.parse::<unwrapd_files::document::MaterialMerge>()

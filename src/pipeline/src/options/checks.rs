@@ -175,6 +175,12 @@ fn check(options: &Options) -> Result<(), String> {
         ),
         (
             "merge_materials",
+            "`group_by` material or scene: a material has one atlas",
+            !options.merge_materials.is_empty()
+                && matches!(options.group_by, Some(GroupBy::Mesh | GroupBy::Primitive)),
+        ),
+        (
+            "merge_materials",
             "a glTF result",
             !options.merge_materials.is_empty() && is_obj,
         ),
