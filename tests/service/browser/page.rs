@@ -132,6 +132,14 @@ async fn an_address_opens_the_same_state() {
 }
 
 #[tokio::test]
+async fn what_is_known_of_a_job_is_said_at_once() {
+    let server = Server::start();
+    let url = unwrapped(&server, "cat_head.obj").await;
+    let (page, job) = url.split_once("#job=").expect("a job");
+    scenario("prompt", page.to_owned(), &[job.to_owned()]).await;
+}
+
+#[tokio::test]
 async fn errors_say_what_to_do() {
     let server = Server::start();
     scenario("errors", server.url("/"), &[]).await;

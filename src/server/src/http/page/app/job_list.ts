@@ -54,7 +54,10 @@ export class JobList {
       if (filterings !== this.#filterings) return;
       const older = this.#jobs.filter((job) => page.jobs.length === PAGE && !page.jobs.some(({ id }) => id === job.id) && job.created_at < page.jobs.at(-1)!.created_at);
       if (!older.length) this.#next = page.next;
-      this.#jobs = [...page.jobs, ...older];
+      // Events may be ahead of the answer.
+      const known = new Map(this.#jobs.map((job) => [job.id, job]));
+      const latest = page.jobs.map((job) => (job.seq < (known.get(job.id)?.seq ?? 0) ? known.get(job.id)! : job));
+      this.#jobs = [...latest, ...older];
       this.listed(this.#jobs);
       this.#queue = page.jobs.some(({ state }) => state === "queued") ? await queue() : [];
       this.#show();
@@ -87,6 +90,12 @@ export class JobList {
     // Events do not say what was proven: an ended job is asked for.
     if (isFinal(event.state)) return;
     this.#jobs = this.#jobs.map((job) => (job.id === id && job.seq < event.seq ? { ...job, ...event } : job));
+    this.#show();
+  }
+
+  /** Shows a job as it was just fetched. */
+  take(job: Job): void {
+    this.#jobs = this.#jobs.map((listed) => (listed.id === job.id && listed.seq <= job.seq ? job : listed));
     this.#show();
   }
 

@@ -87,6 +87,7 @@ export class JobView {
     const made = this.#made.get(id);
     this.#made.delete(id);
     const job = made ?? (await call<Job>(jobPath(id)));
+    this.#parts.list.take(job);
     if (store.place.job !== id) return;
     const { subject } = store.state;
     const input = this.#inputs.get(id) ?? (subject.kind === "job" && subject.job.id === id ? subject.input : null);
@@ -108,7 +109,10 @@ export class JobView {
       panel.show(event);
       this.#parts.list.heard(id, event);
       if (!viewer.isRelaxing) note(awaited(job, event, isElsewhere));
-      if (isFinal(event.state)) void this.open(id).then(() => this.#parts.list.refresh()).catch(this.#parts.failed);
+      if (!isFinal(event.state)) return;
+      void this.open(id).catch(this.#parts.failed);
+      // Another job may have started in its place.
+      void this.#parts.list.refresh();
     };
     const stopEvents = watch(job, (event) => this.#heard(event));
     this.#stop = () => {

@@ -122,7 +122,7 @@ async function open(id: string | null, place: Place = { ...elsewhere(store.place
     else await sample();
   } catch (error) {
     jobs.leave();
-    store.change({ subject: { kind: "none" } });
+    store.change({ subject: { kind: "missing" } });
     viewer.clear();
     byId("inspector").replaceChildren();
     failed(error);

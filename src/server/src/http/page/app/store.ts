@@ -18,9 +18,11 @@ export interface Chosen {
   from?: readonly [number, number, number];
 }
 
-/** What the views show: a chosen file, or a job. */
+/** What the views show: a chosen file, or a job. There is none before the first one is fetched, or if the job of an
+ * address does not exist. */
 export type Subject =
   | { kind: "none" }
+  | { kind: "missing" }
   | { kind: "file"; file: Chosen }
   | { kind: "job"; job: Job; report: Report | null; input: Chosen | null };
 

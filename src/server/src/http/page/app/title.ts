@@ -6,7 +6,7 @@ import type { State } from "./store";
 /** Names what is shown. */
 export function showTitle(state: State): void {
   const name = nameOf(state);
-  byId("title").textContent = name || "Not found";
+  byId("title").textContent = name || (state.subject.kind === "missing" ? "Not found" : "Loading …");
   byId("title-state").textContent = state.subject.kind === "job" && state.place.uvs === "before" ? "before" : "";
   document.title = name ? `${name} · unwrapd` : "unwrapd";
 }
