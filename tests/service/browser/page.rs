@@ -180,7 +180,7 @@ async fn work_that_takes_a_while_is_seen_and_can_be_undone() {
     // It keeps the worker busy until the page has asked for an early finish.
     let before = server.submit(meshes::hills(800), "").await;
     let before = before["links"]["self"].as_str().expect("a link").to_owned();
-    let arguments = [asset("cat_head.obj"), asset("gltf/Fox.glb"), before];
+    let arguments = [asset("gltf/Fox.glb"), before];
     scenario("at_work", server.url("/"), &arguments).await;
 }
 
@@ -225,10 +225,11 @@ async fn the_api_can_be_read_and_tried_out() {
 #[tokio::test]
 async fn nothing_on_the_pages_is_inaccessible() {
     let server = Server::start();
-    let url = unwrapped(&server, "cat_head.obj").await;
-    let (page, job) = url.split_once("#job=").expect("a job");
-    let said = scenario("accessible", page.to_owned(), &[job.to_owned()]).await;
-    assert_eq!(said["checked"], 36);
+    let mesh = std::fs::read(places::asset("cat_head.obj")).expect("an asset");
+    let made = form("unwrap", "{}", ("cat_head.obj", mesh));
+    let job = ended(&server, made.text("metadata", r#"{"batch": "heads"}"#)).await;
+    let said = scenario("accessible", server.url("/"), &[id(&job).to_owned()]).await;
+    assert_eq!(said["checked"], 48);
 }
 
 #[tokio::test]
@@ -258,6 +259,13 @@ async fn several_files_are_unwrapped_at_once() {
     let server = Server::start();
     let meshes = ["cat_head.obj", "Box.glb"].map(asset);
     scenario("jobs", server.url("/"), &meshes).await;
+}
+
+#[tokio::test]
+async fn a_folder_is_a_batch_with_a_table_and_an_archive() {
+    let server = Server::start();
+    let given = ["cat_head.obj", "gltf/BoxInterleaved"].map(asset);
+    scenario("batch", server.url("/"), &given).await;
 }
 
 #[tokio::test]

@@ -28,10 +28,18 @@ const STYLE: &str = "text/css; charset=utf-8";
 const TEXT: &str = "text/plain; charset=utf-8";
 
 /// Assets of the pages by name.
-static ASSETS: [(&str, StaticAsset); 7] = [
+static ASSETS: [(&str, StaticAsset); 9] = [
     (
         "page.js",
         StaticAsset::new(SCRIPT, include_bytes!("page/dist/page.js")),
+    ),
+    (
+        "chunk.js",
+        StaticAsset::new(SCRIPT, include_bytes!("page/dist/chunk.js")),
+    ),
+    (
+        "demand.js",
+        StaticAsset::new(SCRIPT, include_bytes!("page/dist/demand.js")),
     ),
     (
         "worker.js",

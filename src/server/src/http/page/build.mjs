@@ -1,7 +1,7 @@
 // Builds the pages into a folder: `node build.mjs dist`. Equal sources make equal bytes.
 import { createHash } from "node:crypto";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { basename, dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 
@@ -24,8 +24,22 @@ async function bundle(entry, define = {}) {
   return outputFiles[0].contents;
 }
 
+/** Bundles the page in three parts: its start, what is fetched when it is needed, and what both have in common. */
+async function page(define) {
+  const { outputFiles } = await build({
+    ...shared, entryPoints: { page: "app/main.ts" }, splitting: true, chunkNames: "[name]", outdir: "assets", define, write: false,
+  });
+  const text = Object.fromEntries(outputFiles.map(({ path, text }) => [basename(path), text]));
+  const parts = {};
+  // Each names the parts before it.
+  for (const name of ["chunk.js", "demand.js", "page.js"]) {
+    parts[name] = text[name].replaceAll(/"\.\/(chunk|demand)\.js"/g, (_, part) => JSON.stringify(`./${versioned(`${part}.js`, parts[`${part}.js`])}`));
+  }
+  return parts;
+}
+
 const made = { "worker.js": await bundle("analysis/worker.ts") };
-made["page.js"] = await bundle("app/main.ts", { WORKER: JSON.stringify(versioned("worker.js", made["worker.js"])) });
+Object.assign(made, await page({ WORKER: JSON.stringify(versioned("worker.js", made["worker.js"])) }));
 made["docs.js"] = await bundle("docs/main.ts");
 made["page.css"] = await bundle("page.css");
 made["docs.css"] = await bundle("docs.css");

@@ -167,6 +167,12 @@ export function createJobFrom({ id }: Job, kind: string, options: Record<string,
   return call<Job>(`v1/jobs?${query}`, { method: "POST" });
 }
 
+/** Returns the name of the batch that a job belongs to: that of the jobs of files that were chosen together. */
+export function batchOf(job: Job | null): string | null {
+  const { batch } = job?.metadata ?? {};
+  return typeof batch === "string" ? batch : null;
+}
+
 export function isFinal(state: Job["state"]): boolean {
   return state !== "queued" && state !== "running";
 }

@@ -1,14 +1,13 @@
 // The panel on the right: facts about the job, and actions on it.
 
 import { address, isFinal, type Job, type Progress } from "./api";
-import { batchOf } from "./batch";
 import { chosenOptions } from "./definitions";
 import { commandLine, copy, curl } from "./commands";
 import { curve } from "./charts_svg";
 import { button, byId, element, pairs, prose } from "./dom";
 import { bytes, duration, percent, plain, short, whole } from "./format";
 import { doing, outcome } from "./outcome";
-import { claimed, claims, measure, measured, type Report } from "./reports";
+import { claimed, claims, figuresOf, measured, type Report } from "./reports";
 
 /** Actions on a job. */
 export interface Actions {
@@ -90,7 +89,7 @@ export async function showEnded(job: Job, report: Report | null, actions: Action
   parts.push(section("Job", about(job, options), element("div", { className: "actions" },
     job.state === "failed" ? button("Retry", actions.retry) : null,
     button("Use these options", actions.reuse, { title: "Put the options of this job into the form" }),
-    button("Delete", actions.remove, { className: "danger" })), copies(job, options)), batchOf(job), ...noted(job));
+    button("Delete", actions.remove, { className: "danger" })), copies(job, options)), ...noted(job));
   byId("inspector").replaceChildren(...parts.filter((part) => part !== null));
 }
 
@@ -148,18 +147,15 @@ function proofs(report: Report): HTMLElement {
 
 function facts(report: Report): HTMLElement | null {
   const groups = measured(report);
-  if (!groups.length) return report.groups ? null : section("Report", generic(report));
-  const sum = (key: string) => groups.reduce((total, group) => total + (measure(group, key) ?? 0), 0);
-  const area = sum("area_3d") || 1;
-  const mean = (key: string) => groups.reduce((total, group) => total + (measure(group, key) ?? 0) * (measure(group, "area_3d") ?? 0), 0) / area;
-  const [first] = groups;
+  const figures = figuresOf(report);
+  if (!figures) return report.groups ? null : section("Report", generic(report));
   return section(groups.length === 1 ? "Result" : `Result: ${groups.length} atlases`, pairs([
-    ["Faces", whole(sum("faces"))],
-    ["Charts", whole(sum("charts"))],
-    ["Seams / √area", short(sum("seam_length") / Math.sqrt(area)), "Length of all seams over the square root of the surface area"],
-    ["Distortion", short(mean("sym_dirichlet_mean")), "Mean symmetric Dirichlet energy; an isometry has 4"],
-    ["Covered", percent(sum("pack_unit") / groups.length), "Share of the texture that charts cover"],
-    ["Texels per unit", groups.length === 1 ? short(first!.texels_per_unit) : "by atlas"],
+    ["Faces", whole(figures.faces)],
+    ["Charts", whole(figures.charts)],
+    ["Seams / √area", short(figures.seams), "Length of all seams over the square root of the surface area"],
+    ["Distortion", short(figures.energy), "Mean symmetric Dirichlet energy; an isometry has 4"],
+    ["Covered", percent(figures.fill), "Share of the texture that charts cover"],
+    ["Texels per unit", groups.length === 1 ? short(groups[0]!.texels_per_unit) : "by atlas"],
   ]));
 }
 

@@ -5,7 +5,7 @@ import { button, byId, element } from "./dom";
 import { ago, duration, percent, plain } from "./format";
 import { fragmentOf, START } from "./address";
 import { JobFilters } from "./job_filters";
-import { doing, outcome } from "./outcome";
+import { doing, outcome, OUTCOMES } from "./outcome";
 import type { Store } from "./store";
 import { thumbnail } from "./thumbnails";
 
@@ -79,9 +79,9 @@ export class JobList {
     return this.#jobs.find((job) => job.id === id) ?? null;
   }
 
-  /** Lists jobs that were made here, until the service lists them. */
-  add(jobs: Job[]): void {
-    this.#jobs = [...jobs, ...this.#jobs];
+  /** Lists a job that was made here, until the service lists it. */
+  add(job: Job): void {
+    this.#jobs = [job, ...this.#jobs];
     this.#show();
   }
 
@@ -174,9 +174,8 @@ export class JobList {
       return `${kind}${position ? `number ${position} in the queue` : "queued"}`;
     }
     if (job.state === "running") return `${kind}${doing(job)} · ${percent(job.fraction)}`;
-    const word = { certified: "certified", open: "not certified", failed: "failed", cancelled: "cancelled", done: "done" }[outcome(job)];
     const gates = job.accepted === false ? " · not accepted" : "";
-    return `${kind}${word}${gates} · ${duration(job.elapsed_ms)} · ${ago(job.created_at)}`;
+    return `${kind}${OUTCOMES[outcome(job)]}${gates} · ${duration(job.elapsed_ms)} · ${ago(job.created_at)}`;
   }
 }
 

@@ -26,8 +26,8 @@ export interface Parts {
   /** Callbacks for the end of the job, and its removal. */
   ended: () => void;
   removed: () => void;
-  /** Callback for jobs that were made of the shown one. */
-  made: (jobs: { job: Job; input: Chosen | null }[]) => void;
+  /** Callback for a job that was made of the shown one. */
+  made: (job: Job, input: Chosen | null) => void;
 }
 
 /** Shows one job at a time. */
@@ -210,7 +210,7 @@ export class JobView {
           throw error;
         });
       },
-      again: (more: Record<string, boolean>) => wish(againOf(job, more).then((next) => made([{ job: next, input: this.#shown(job)?.input ?? null }]))),
+      again: (more: Record<string, boolean>) => wish(againOf(job, more).then((next) => made(next, this.#shown(job)?.input ?? null))),
       retry: () => wish(call(`${job.links.self}/retry`, { method: "POST" }).then(() => this.open(job.id))),
       remove: () => {
         list.remove(job);

@@ -14,6 +14,8 @@ export interface Chosen {
   name: string;
   content: Blob;
   resources: Map<string, Blob>;
+  /** Path in the folder or archive that it came in, if it did. */
+  path?: string;
   /** Direction from which it is seen first. */
   from?: readonly [number, number, number];
 }
@@ -33,6 +35,10 @@ export interface State {
   subject: Subject;
   /** The files that were chosen here, or the sample. */
   chosen: Chosen[];
+  /** Name of the folder or archive that they came in. */
+  source: string | null;
+  /** Files of a batch that the service refused, each with the cause. */
+  refused: { batch: string; files: string[] } | null;
   /** The form: the kind of the next jobs, and their options that differ from the defaults. */
   kind: FormKind;
   options: Values;
@@ -59,7 +65,7 @@ export class Store {
 
   constructor(place: Place) {
     const { kind = "unwrap", options = {} } = kept("form");
-    this.#state = { place, subject: { kind: "none" }, chosen: [], kind, options, inHand: null };
+    this.#state = { place, subject: { kind: "none" }, chosen: [], source: null, refused: null, kind, options, inHand: null };
   }
 
   get state(): Readonly<State> {
@@ -140,9 +146,9 @@ export class Store {
   }
 }
 
-/** Returns the part of a state that holds for all files: how they are filled, marked, pointed at and laid out. */
-export function looksOf({ shade, measure, scale, seams, wire, problems, cells, aim, alone, split }: Place): Partial<Place> {
-  return { shade, measure, scale, seams, wire, problems, cells, aim, alone, split };
+/** Returns the part of a state that holds for all files: how they are filled, marked, pointed at, laid out and listed. */
+export function looksOf({ shade, measure, scale, seams, wire, problems, cells, aim, alone, split, sheet, sort }: Place): Partial<Place> {
+  return { shade, measure, scale, seams, wire, problems, cells, aim, alone, split, sheet, sort };
 }
 
 /** Returns the place of another file or job: with the same looks, and nothing selected. */

@@ -1,5 +1,6 @@
 // The name of what is shown, in the bar and on the browser's tab.
 
+import { batchOf } from "./api";
 import { byId } from "./dom";
 import type { State } from "./store";
 
@@ -13,6 +14,7 @@ export function showTitle(state: State): void {
 
 function nameOf({ place, subject, inHand }: State): string {
   if (place.tab === "pull" && inHand) return inHand.name;
+  if (place.tab === "batch" && subject.kind === "job") return batchOf(subject.job) ?? "";
   if (subject.kind === "file") return subject.file.name;
   return subject.kind === "job" ? subject.job.filename : "";
 }

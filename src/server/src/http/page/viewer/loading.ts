@@ -55,7 +55,7 @@ export async function load(bundle: Bundle): Promise<Loaded> {
   if (kind === "ply") return plain(meshOf(new PLYLoader().parse(await bundle.content.arrayBuffer())));
   if (kind === "stl") return plain(meshOf(new STLLoader().parse(await bundle.content.arrayBuffer())));
   if (kind === "off") return plain(meshOf(parseOff(await bundle.content.text())));
-  if (kind === "zip") throw new NoView("What is in the archive is seen when it is unwrapped.");
+  if (kind === "zip") throw new NoView("The archive cannot be read here. Unwrap it to be told what is wrong with it.");
   throw new NoView(`There is no view of .${kind} files here. The job works on it all the same.`);
 }
 

@@ -1,0 +1,4 @@
+// What most visits do not need: it is fetched when it is first used.
+
+export { unzipSync } from "three/addons/libs/fflate.module.js";
+export { BatchView } from "./batch";
