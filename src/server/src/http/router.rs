@@ -74,7 +74,7 @@ fn panicked(_: Box<dyn Any + Send>) -> Response {
 fn routes() -> OpenApiRouter<Arc<App>> {
     OpenApiRouter::with_openapi(preamble())
         .routes(routes!(jobs::create_job, jobs::list_jobs))
-        .routes(routes!(jobs::get_job, jobs::delete_job))
+        .routes(routes!(jobs::get_job, jobs::change_job, jobs::delete_job))
         .routes(routes!(jobs::finish_job))
         .routes(routes!(jobs::retry_job))
         .routes(routes!(jobs::retry_jobs))
