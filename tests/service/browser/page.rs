@@ -288,6 +288,18 @@ async fn jobs_are_found_by_what_is_known_of_them() {
     scenario("filters", server.url("/"), &[id(&noted).to_owned()]).await;
 }
 
+#[tokio::test]
+async fn jobs_are_named_tagged_and_sought() {
+    let server = Server::start();
+    let mesh = |name: &str| std::fs::read(places::asset(name)).expect("an asset");
+    let noted = form("unwrap", "{}", ("cat_head.obj", mesh("cat_head.obj")));
+    let noted = ended(&server, noted.text("metadata", r#"{"project": "atlas"}"#)).await;
+    let other = form("unwrap", "{}", ("Fox.glb", mesh("gltf/Fox.glb")));
+    let other = ended(&server, other).await;
+    let ids = [&noted, &other].map(|job| id(job).to_owned());
+    scenario("named", server.url("/"), &ids).await;
+}
+
 /// Two squares of one triangle pair each that overlap in a corner, and a pair of charts half a texel apart.
 const WRONG: &str = "\
 v 0 0 0\nv 4 0 0\nv 0 4 0\nv 10 0 0\nv 14 0 0\nv 10 4 0\nv 20 0 0\nv 24 0 0\nv 20 4 0\nv 30 0 0\nv 34 0 0\nv 30 4 0

@@ -7,6 +7,7 @@ import { address, batchOf, call, download, fileOf, isFinal, type Job } from "./a
 import { fragmentOf } from "./address";
 import { button, byId, element } from "./dom";
 import { counted, duration, percent, plain, short, whole } from "./format";
+import { nameOf } from "./notes";
 import { doing, outcome, OUTCOMES } from "./outcome";
 import { type Figures, figuresOf, type Report } from "./reports";
 import { elsewhere, type Store } from "./store";
@@ -59,11 +60,6 @@ const COLUMNS: Column[] = [
 ];
 
 const stretch = ({ energy }: Figures) => stretchOf("sym-dirichlet", energy);
-
-/** Returns the path of a job's file in the folder or archive that it came in, or its name. */
-function nameOf({ filename, metadata }: Job): string {
-  return typeof metadata.path === "string" ? metadata.path : filename;
-}
 
 function stateOf(job: Job): string {
   if (job.state === "queued") return "queued";
@@ -186,7 +182,7 @@ export class BatchView {
     if (place.tab !== "batch" || this.#batch === null) return;
     const missing = refused?.batch === this.#batch ? refused.files : [];
     const rows = sorted(this.#jobs.map((job) => ({ job, figures: this.#figures.get(job.id) ?? null })), place.sort);
-    const key = JSON.stringify([this.#batch, place.sort, place.sheet, place.job, this.#zipped, missing, rows.map(({ job, figures }) => [job.id, job.seq, figures])]);
+    const key = JSON.stringify([this.#batch, place.sort, place.sheet, place.job, this.#zipped, missing, rows.map(({ job, figures }) => [job.id, job.seq, nameOf(job), figures])]);
     if (key === this.#key) return;
     this.#key = key;
     const focused = (document.activeElement as HTMLElement | null)?.dataset.focus;

@@ -6,6 +6,7 @@ import { commandLine, copy, curl } from "./commands";
 import { curve } from "./charts_svg";
 import { button, byId, element, pairs, prose } from "./dom";
 import { bytes, duration, percent, plain, short, whole } from "./format";
+import { notesOf } from "./notes";
 import { doing, outcome } from "./outcome";
 import { claimed, claims, figuresOf, measured, type Report } from "./reports";
 
@@ -20,6 +21,8 @@ export interface Actions {
   remove: () => void;
   reuse: () => void;
   position: () => number | null;
+  /** The name or the tags of the job are being changed. */
+  noted: (saving: Promise<void>) => void;
 }
 
 /** Shows a job that waits or runs. */
@@ -44,7 +47,7 @@ export class ProgressPanel {
         // The buttons come before the parts that grow, so that they do not move.
         element("div", { className: "actions" }, this.#finish, this.#cancel), this.#note,
         this.#facts, this.#curve),
-      ...noted(job));
+      ...notesOf(job, actions.noted));
     this.show(job);
   }
 
@@ -89,7 +92,7 @@ export async function showEnded(job: Job, report: Report | null, actions: Action
   parts.push(section("Job", about(job, options), element("div", { className: "actions" },
     job.state === "failed" ? button("Retry", actions.retry) : null,
     button("Use these options", actions.reuse, { title: "Put the options of this job into the form" }),
-    button("Delete", actions.remove, { className: "danger" })), copies(job, options)), ...noted(job));
+    button("Delete", actions.remove, { className: "danger" })), copies(job, options)), ...notesOf(job, actions.noted));
   byId("inspector").replaceChildren(...parts.filter((part) => part !== null));
 }
 
@@ -125,12 +128,6 @@ function gates({ accept, accepted }: Job): HTMLElement | null {
   if (accept === null || accepted === null) return null;
   return element("section", { className: `verdict ${accepted ? "certified" : "open"}` }, element("h2", { textContent: accepted ? "Accepted" : "Not accepted" }),
     element("p", { textContent: `The job ${accepted ? "meets" : "does not meet"} every gate: ${accept.replaceAll(",", ", ")}.` }));
-}
-
-/** Shows the metadata of a job. */
-function noted({ metadata }: Job): HTMLElement[] {
-  const members = Object.entries(metadata).map(([name, value]): [string, string] => [name, typeof value === "string" ? value : JSON.stringify(value)]);
-  return members.length ? [section("Metadata", pairs(members))] : [];
 }
 
 function failure({ error }: Job): HTMLElement | null {

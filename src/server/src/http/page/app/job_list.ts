@@ -5,11 +5,14 @@ import { button, byId, element } from "./dom";
 import { ago, duration, percent, plain } from "./format";
 import { fragmentOf, START } from "./address";
 import { JobFilters } from "./job_filters";
+import { nameOf, tagsOf, titleOf } from "./notes";
 import { doing, outcome, OUTCOMES } from "./outcome";
 import type { Store } from "./store";
 import { thumbnail } from "./thumbnails";
 
 const PAGE = 20;
+/** Number of jobs that are asked for at once while some are sought by their names: the most that the service lists. */
+const SOUGHT_PAGE = 200;
 /** Intervals at which the list is fetched: while a job may change, and otherwise. Shorter ones mean more requests. */
 const BUSY_MS = 1500;
 const IDLE_MS = 15000;
@@ -50,9 +53,9 @@ export class JobList {
     clearTimeout(this.#timer);
     const filterings = this.#filterings;
     try {
-      const page = await this.#page();
+      const page = await this.#page(null);
       if (filterings !== this.#filterings) return;
-      const older = this.#jobs.filter((job) => page.jobs.length === PAGE && !page.jobs.some(({ id }) => id === job.id) && job.created_at < page.jobs.at(-1)!.created_at);
+      const older = this.#jobs.filter((job) => PAGE <= page.jobs.length && !page.jobs.some(({ id }) => id === job.id) && job.created_at < page.jobs.at(-1)!.created_at);
       if (!older.length) this.#next = page.next;
       // Events may be ahead of the answer.
       const known = new Map(this.#jobs.map((job) => [job.id, job]));
@@ -65,7 +68,8 @@ export class JobList {
       // Keep the list; the next request may succeed.
     }
     const isBusy = !connection.isUp || this.#jobs.some(({ state }) => !isFinal(state));
-    if (!document.hidden) this.#timer = setTimeout(() => void this.refresh(), isBusy ? BUSY_MS : IDLE_MS);
+    // A search reads many pages, so it is not repeated by itself.
+    if (!document.hidden && !(this.#filters.isSearching && connection.isUp)) this.#timer = setTimeout(() => void this.refresh(), isBusy ? BUSY_MS : IDLE_MS);
   }
 
   /** Returns the position in the queue, from 1, or null. */
@@ -99,6 +103,12 @@ export class JobList {
     this.#show();
   }
 
+  /** Shows the name and the tags of a job that were changed here. */
+  rename({ id, metadata }: Job): void {
+    this.#jobs = this.#jobs.map((job) => (job.id === id ? { ...job, metadata } : job));
+    this.#show();
+  }
+
   /** Removes a job after a while in which it can be brought back. */
   remove(job: Job): void {
     this.#removeNow();
@@ -110,7 +120,7 @@ export class JobList {
       this.#show();
       this.chosen(job.id);
     });
-    byId("removed").replaceChildren(element("span", { textContent: `${job.filename} is deleted, with its files.` }), undo);
+    byId("removed").replaceChildren(element("span", { textContent: `${titleOf(job)} is deleted, with its files.` }), undo);
     byId("removed").hidden = false;
     this.#show();
   }
@@ -127,15 +137,24 @@ export class JobList {
 
   async #older(): Promise<void> {
     const filterings = this.#filterings;
-    const page = await this.#page(`&cursor=${this.#next}`);
+    const page = await this.#page(this.#next);
     if (filterings !== this.#filterings) return;
     this.#jobs.push(...page.jobs);
     this.#next = page.next;
     this.#show();
   }
 
-  #page(more = ""): Promise<{ jobs: Job[]; next: string | null }> {
-    return call(`v1/jobs?limit=${PAGE}${this.#filters.query()}${more}`);
+  /** Asks for jobs from a cursor on. While some are sought by their names, asks until a page of them is found. */
+  async #page(cursor: string | null): Promise<{ jobs: Job[]; next: string | null }> {
+    const [filterings, { isSearching }] = [this.#filterings, this.#filters];
+    const jobs: Job[] = [];
+    let next = cursor;
+    do {
+      const page: { jobs: Job[]; next: string | null } = await call(`v1/jobs?limit=${isSearching ? SOUGHT_PAGE : PAGE}${this.#filters.query()}${next === null ? "" : `&cursor=${next}`}`);
+      jobs.push(...page.jobs.filter((job) => this.#filters.finds(job)));
+      next = page.next;
+    } while (isSearching && jobs.length < PAGE && next !== null && filterings === this.#filterings);
+    return { jobs, next };
   }
 
   #show(): void {
@@ -145,7 +164,7 @@ export class JobList {
     const shownJobs = this.#jobs.filter(({ id }) => id !== this.#removed?.job.id);
     list.replaceChildren(...shownJobs.map((job) => {
       const old = shown.get(job.id);
-      const key = JSON.stringify([outcome(job), job.state, job.stage, Math.round(job.fraction * 100), this.position(job.id), this.#current === job.id, ago(job.created_at)]);
+      const key = JSON.stringify([outcome(job), job.state, job.stage, Math.round(job.fraction * 100), this.position(job.id), this.#current === job.id, ago(job.created_at), nameOf(job), tagsOf(job)]);
       return old?.dataset.key === key ? old : this.#row(job, key);
     }));
     const none = this.#filters.isAny ? "No job meets the filter." : "None yet. Press Unwrap to make one of the sample.";
@@ -156,14 +175,14 @@ export class JobList {
   #row(job: Job, key: string): HTMLElement {
     const link = element("a", { href: `#${fragmentOf({ ...START, job: job.id })}`, className: "row-link" },
       thumbnail(job),
-      element("span", { className: "name", textContent: job.filename, title: job.filename }),
+      element("span", { className: "name", title: [nameOf(job), ...tagsOf(job)].join(" · ") }, titleOf(job), ...tagsOf(job).map((tag) => element("small", { className: "tag", textContent: tag }))),
       element("span", { className: `facts ${outcome(job)}${job.accepted === false ? " refused" : ""}`, textContent: this.#facts(job) }));
     if (job.id === this.#current) link.setAttribute("aria-current", "true");
     link.addEventListener("click", (event) => {
       event.preventDefault();
       this.chosen(job.id);
     });
-    const bar = element("progress", { max: 1, value: job.fraction, hidden: job.state !== "running", aria: { label: `Progress of ${job.filename}` } });
+    const bar = element("progress", { max: 1, value: job.fraction, hidden: job.state !== "running", aria: { label: `Progress of ${titleOf(job)}` } });
     return element("li", { data: { id: job.id, key } }, link, bar);
   }
 

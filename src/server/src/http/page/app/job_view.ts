@@ -200,7 +200,7 @@ export class JobView {
   }
 
   #actions(job: Job) {
-    const { failed, list, setup, removed, made } = this.#parts;
+    const { store, failed, list, setup, removed, made } = this.#parts;
     const wish = (does: Promise<unknown>) => void does.then(() => list.refresh()).catch(failed);
     return {
       cancel: () => wish(call(address(job.links.self), { method: "DELETE" })),
@@ -218,6 +218,10 @@ export class JobView {
       },
       reuse: () => void setup.take(job.kind, job.options).catch(failed),
       position: () => list.position(job.id),
+      noted: (saving: Promise<void>) => void saving.then(() => {
+        list.rename(job);
+        store.change({});
+      }).catch(failed),
     };
   }
 }

@@ -2,6 +2,7 @@
 
 import { batchOf } from "./api";
 import { byId } from "./dom";
+import { titleOf } from "./notes";
 import type { State } from "./store";
 
 /** Names what is shown. */
@@ -16,5 +17,5 @@ function nameOf({ place, subject, inHand }: State): string {
   if (place.tab === "pull" && inHand) return inHand.name;
   if (place.tab === "batch" && subject.kind === "job") return batchOf(subject.job) ?? "";
   if (subject.kind === "file") return subject.file.name;
-  return subject.kind === "job" ? subject.job.filename : "";
+  return subject.kind === "job" ? titleOf(subject.job) : "";
 }
