@@ -289,6 +289,12 @@ async fn jobs_are_found_by_what_is_known_of_them() {
 }
 
 #[tokio::test]
+async fn options_are_saved_under_names() {
+    let server = Server::start();
+    scenario("presets", server.url("/"), &[]).await;
+}
+
+#[tokio::test]
 async fn jobs_are_named_tagged_and_sought() {
     let server = Server::start();
     let mesh = |name: &str| std::fs::read(places::asset(name)).expect("an asset");

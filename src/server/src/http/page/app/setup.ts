@@ -6,6 +6,7 @@ import { button, byId, element } from "./dom";
 import { chosenIn, type Given, nameOfAll, resourcesOf, unpacked } from "./dropped";
 import { bytes, counted } from "./format";
 import { extension, SHOWN } from "../viewer/loading";
+import { Presets } from "./presets";
 import { OptionForm, type Values, withOption } from "./option_form";
 import type { Chosen, State, Store } from "./store";
 
@@ -41,9 +42,11 @@ export function targetOf({ subject, chosen }: State): Target {
 /** The form on the left. */
 export class Setup {
   readonly #options: OptionForm;
+  readonly #presets: Presets;
 
   constructor(readonly store: Store, readonly told: Told) {
     this.#options = new OptionForm(byId("options"), (options) => store.change({ options }));
+    this.#presets = new Presets(store);
     this.#wire();
     store.show(() => this.#refresh());
   }
@@ -137,6 +140,7 @@ export class Setup {
     const count = Object.keys(options).length;
     byId("changed").textContent = count ? `${counted(count, "option")} set` : "";
     byId("reset").hidden = count === 0;
+    this.#presets.refresh();
     this.#refreshTarget();
     const looked = subject.kind === "file" ? subject.file : null;
     byId("chosen").replaceChildren(...chosen.map((one) => this.#chip(one, one === looked)));

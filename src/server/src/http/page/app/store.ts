@@ -5,7 +5,7 @@ import type { Origin } from "../pull/what";
 import type { Job } from "./api";
 import { type Place, START, writePlace } from "./address";
 import type { FormKind } from "./definitions";
-import { type Camera, kept, keep } from "./memory";
+import { type Camera, kept, keep, type Preset } from "./memory";
 import type { Values } from "./option_form";
 import type { Report } from "./reports";
 
@@ -42,6 +42,7 @@ export interface State {
   /** The form: the kind of the next jobs, and their options that differ from the defaults. */
   kind: FormKind;
   options: Values;
+  presets: Preset[];
   /** A file that was chosen in the pull view. */
   inHand: Origin | null;
 }
@@ -65,7 +66,7 @@ export class Store {
 
   constructor(place: Place) {
     const { kind = "unwrap", options = {} } = kept("form");
-    this.#state = { place, subject: { kind: "none" }, chosen: [], source: null, refused: null, kind, options, inHand: null };
+    this.#state = { place, subject: { kind: "none" }, chosen: [], source: null, refused: null, kind, options, presets: kept("presets"), inHand: null };
   }
 
   get state(): Readonly<State> {
@@ -91,6 +92,7 @@ export class Store {
   change(changes: Partial<State>): void {
     this.#state = { ...this.#state, ...changes };
     if ("kind" in changes || "options" in changes) keep("form", { kind: this.#state.kind, options: this.#state.options });
+    if ("presets" in changes) keep("presets", this.#state.presets);
     this.#tell();
   }
 
