@@ -32,12 +32,12 @@ export async function run(page, url, mesh, other) {
   assert.ok(await page.isHidden("#problem"));
 
   // A file that is valid but has no view is no alarm.
-  const draco = { asset: { version: "2.0" }, extensionsRequired: ["KHR_draco_mesh_compression"], extensionsUsed: ["KHR_draco_mesh_compression"], meshes: [{ primitives: [{ attributes: { POSITION: 0 }, extensions: { KHR_draco_mesh_compression: { bufferView: 0, attributes: { POSITION: 0 } } } }] }], nodes: [{ mesh: 0 }], scenes: [{ nodes: [0] }], scene: 0, accessors: [{ componentType: 5126, count: 3, type: "VEC3" }], bufferViews: [{ buffer: 0, byteLength: 4 }], buffers: [{ byteLength: 4, uri: "data:;base64,AAAAAA==" }] };
-  await choose(file("draco.gltf", JSON.stringify(draco)));
-  await page.waitForFunction(() => document.querySelector("#plane-note").textContent.includes("compressed"));
+  await choose(file("solid.msh", "$MeshFormat"));
+  await page.waitForFunction(() => document.querySelector("#plane-note").textContent.includes("no view of .msh"));
   assert.ok(await page.isHidden("#problem"));
   // What a lone glTF references is not asked of the service.
-  await choose(file("lone.gltf", JSON.stringify({ ...draco, extensionsRequired: [], extensionsUsed: [], meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }], accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: "VEC3" }], bufferViews: [{ buffer: 0, byteLength: 36 }], buffers: [{ byteLength: 36, uri: "lone.bin" }] })));
+  const lone = { asset: { version: "2.0" }, meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }], nodes: [{ mesh: 0 }], scenes: [{ nodes: [0] }], scene: 0, accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: "VEC3" }], bufferViews: [{ buffer: 0, byteLength: 36 }], buffers: [{ byteLength: 36, uri: "lone.bin" }] };
+  await choose(file("lone.gltf", JSON.stringify(lone)));
   await page.waitForFunction(() => document.querySelector("#plane-note").textContent.includes("lone.bin"));
   assert.deepEqual(missing, []);
 

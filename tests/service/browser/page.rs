@@ -289,6 +289,19 @@ async fn jobs_are_found_by_what_is_known_of_them() {
 }
 
 #[tokio::test]
+async fn compressed_meshes_are_seen() {
+    let server = Server::start();
+    let faces = [
+        ("gltf/BoxMetaDraco", 12),
+        ("gltf/CesiumMilkTruck-Draco", 2856),
+        ("gltf/BoxMeshopt.glb", 12),
+        ("gltf/KHR_meshopt-no-fallback", 60),
+    ];
+    let given = faces.map(|(name, faces)| format!("{}={faces}", asset(name)));
+    scenario("compressed", server.url("/"), &given).await;
+}
+
+#[tokio::test]
 async fn options_are_saved_under_names() {
     let server = Server::start();
     scenario("presets", server.url("/"), &[]).await;

@@ -1,7 +1,7 @@
 // Client of the service. All addresses are relative to the page, which may lie below any prefix.
 
 import { signIn } from "./sign_in";
-import { extension } from "../viewer/loading";
+import { extension } from "../viewer/formats";
 
 /** A job, in the JSON of the service. */
 export interface Job {

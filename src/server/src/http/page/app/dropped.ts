@@ -1,6 +1,6 @@
 // Files that a person gives: dropped anywhere on the page or chosen in a dialog, in folders and archives.
 
-import { extension } from "../viewer/loading";
+import { extension } from "../viewer/formats";
 import { byId } from "./dom";
 
 /** A file with its path in the folder or archive that it came in. */
@@ -52,7 +52,7 @@ async function filesIn(entry: FileSystemEntry): Promise<Given[]> {
 export async function unpacked(files: Given[]): Promise<Given[]> {
   const parts = await Promise.all(files.map(async (file) => {
     if (extension(file.path) !== "zip") return [file];
-    const { unzipSync } = await import("./demand");
+    const { unzipSync } = await import("../demand");
     try {
       const entries = Object.entries(unzipSync(new Uint8Array(await file.content.arrayBuffer())));
       return entries.filter(([path]) => !path.endsWith("/")).map(([path, bytes]): Given => ({ path, content: new Blob([bytes]) }));

@@ -222,7 +222,7 @@ function compare(uvs: "before" | "both"): void {
 // ---- batches
 
 async function showBatch(): Promise<void> {
-  const { BatchView } = await import("./demand");
+  const { BatchView } = await import("../demand");
   batch ??= new BatchView(store, { open: (id) => void open(id, elsewhere(store.place)), failed });
   batch.follow();
 }

@@ -5,7 +5,7 @@ import { chosenOptions, type FormKind, KINDS } from "./definitions";
 import { button, byId, element } from "./dom";
 import { chosenIn, type Given, nameOfAll, resourcesOf, unpacked } from "./dropped";
 import { bytes, counted } from "./format";
-import { extension, SHOWN } from "../viewer/loading";
+import { extension, SHOWN } from "../viewer/formats";
 import { Presets } from "./presets";
 import { OptionForm, type Values, withOption } from "./option_form";
 import type { Chosen, State, Store } from "./store";

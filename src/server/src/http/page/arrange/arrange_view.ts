@@ -7,7 +7,7 @@ import { counted } from "../app/format";
 import type { Report } from "../app/reports";
 import type { Viewer } from "../app/viewer";
 import type { Gesture } from "../viewer/gesture";
-import { extension } from "../viewer/loading";
+import { extension } from "../viewer/formats";
 import { IDENTITY, type Point, scaleOf, type Similarity, turnOf } from "../viewer/similarity";
 import { Arrangement, keyOf, moved, type Placed, type Snapshot } from "./arrangement";
 import { around, middleOf } from "./islands";

@@ -5,7 +5,7 @@ import { type Given, resourcesOf } from "../app/dropped";
 import { LiveClient, type Reply, type Wish } from "../live/client";
 import type { LiveFrame, LiveMesh } from "../live/decode";
 import type { Store } from "../app/store";
-import { extension } from "../viewer/loading";
+import { extension } from "../viewer/formats";
 import { type Grip, Grips, handleOf } from "./grips";
 import { type Doer, Pointer } from "./pointer";
 import type { Shown } from "./beside";

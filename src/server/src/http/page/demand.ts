@@ -1,4 +1,5 @@
 // What most visits do not need: it is fetched when it is first used.
 
 export { unzipSync } from "three/addons/libs/fflate.module.js";
-export { BatchView } from "./batch";
+export { BatchView } from "./app/batch";
+export { addDecoders } from "./viewer/decoders";
