@@ -289,6 +289,12 @@ async fn jobs_are_found_by_what_is_known_of_them() {
 }
 
 #[tokio::test]
+async fn a_whole_run_needs_no_pointer() {
+    let server = Server::start();
+    scenario("keyboard", server.url("/"), &[asset("spot.ply")]).await;
+}
+
+#[tokio::test]
 async fn compressed_meshes_are_seen() {
     let server = Server::start();
     let faces = [

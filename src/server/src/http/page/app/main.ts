@@ -66,6 +66,7 @@ function refresh(): void {
   if (!arrange.isOn) showPointed(viewer);
   for (const tab of TABS) {
     byId(`tab-${tab}`).setAttribute("aria-selected", String(place.tab === tab));
+    byId(`tab-${tab}`).tabIndex = place.tab === tab ? 0 : -1;
     byId(tab).hidden = place.tab !== tab;
   }
   const isOfBatch = batchOf(store.job) !== null;
@@ -235,6 +236,8 @@ function wire(): void {
   listen(keys);
   byId("keys-button").addEventListener("click", () => showKeys(keys()));
   for (const tab of TABS) byId(`tab-${tab}`).addEventListener("click", () => change({ tab }));
+  document.querySelector(".tabs")!.addEventListener("keydown", (event) => stepTabs(event as KeyboardEvent));
+  byId("skip").addEventListener("click", () => byId("plane").focus());
   viewer.pointing.onHover = () => arrange.isOn || showPointed(viewer);
   viewer.pointing.onSelect = change;
   viewer.changed = refresh;
@@ -251,6 +254,16 @@ function wire(): void {
     else change(place);
   });
   takeDropped((files) => (store.place.tab === "pull" ? pull.takeFiles(files) : void setup.takeFiles(files)), failed);
+}
+
+/** Goes to the tab beside by the arrow keys. */
+function stepTabs(event: KeyboardEvent): void {
+  const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+  if (!step) return;
+  const shown = TABS.filter((tab) => !byId(`tab-${tab}`).hidden);
+  const tab = shown[(shown.indexOf(store.place.tab) + step + shown.length) % shown.length]!;
+  change({ tab });
+  byId(`tab-${tab}`).focus();
 }
 
 /** Signs out, and removes all data of the caller from this browser. */

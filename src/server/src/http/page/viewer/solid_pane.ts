@@ -1,6 +1,6 @@
 // The view of the surface: a camera that orbits it.
 
-import { type Object3D, PerspectiveCamera, Scene, Sphere, Vector3 } from "three";
+import { MathUtils, type Object3D, PerspectiveCamera, Scene, Sphere, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { isStill, move } from "./motion";
 
@@ -66,6 +66,19 @@ export class SolidPane {
     const [from, target] = [this.camera.position.clone(), this.#controls.target.clone()];
     const to = place.clone().add(direction.clone().normalize().multiplyScalar(distance));
     move((t) => this.#look(from.clone().lerp(to, t), target.clone().lerp(place, t)));
+  }
+
+  /** Turns the camera around its target by degrees to the right and upward, short of the poles, and moves it to a multiple
+   * of its distance. */
+  orbit(right: number, up: number, farther = 1): void {
+    this.turn(false);
+    this.isMoved = true;
+    const target = this.#controls.target.clone();
+    const arm = new Spherical().setFromVector3(this.camera.position.clone().sub(target));
+    arm.theta += MathUtils.degToRad(right);
+    arm.phi -= MathUtils.degToRad(up);
+    arm.radius *= farther;
+    this.#look(target.clone().add(new Vector3().setFromSpherical(arm.makeSafe())), target);
   }
 
   /** Turns slowly until a person takes over, but for one full turn at most. */
