@@ -33,7 +33,7 @@ export async function run(page, url, ...inputs) {
     await page.setInputFiles("#files", files);
     await shown(page, files.find((name) => /\.gl(tf|b)$/.test(name)).split("/").pop());
     assert.equal(await page.evaluate(() => window.unwrapd.viewer.analysis.faces), Number(faces), path);
-    assert.ok(3 < variety(await colorsOf(page, "#solid")), `${path} is drawn`);
+    assert.ok(8 < variety(await colorsOf(page, "#solid")), `${path} is drawn`);
     assert.ok(await page.isHidden("#problem"));
   }
   assert.ok(await has(page, "draco_decoder.wasm"));

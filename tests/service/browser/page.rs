@@ -295,6 +295,13 @@ async fn a_whole_run_needs_no_pointer() {
 }
 
 #[tokio::test]
+async fn the_surface_is_turned_as_in_other_programs() {
+    let server = Server::start();
+    let url = unwrapped(&server, "spot.ply").await;
+    scenario("navigation", url, &[]).await;
+}
+
+#[tokio::test]
 async fn compressed_meshes_are_seen() {
     let server = Server::start();
     let faces = [

@@ -17,6 +17,7 @@ import { JobView, note } from "./job_view";
 import { listen, showKeys } from "./keys";
 import { forget } from "./memory";
 import { load, NoView } from "../viewer/loading";
+import { startNavigation } from "./navigation";
 import { showReport } from "./report_page";
 import { type Caller, showCaller } from "./sign_in";
 import { Setup } from "./setup";
@@ -275,7 +276,10 @@ async function signOut(): Promise<void> {
 }
 
 wire();
-if (viewer.stage) followStage(viewer, viewer.stage);
+if (viewer.stage) {
+  followStage(viewer, viewer.stage);
+  startNavigation(viewer.stage.solid);
+}
 void call<Caller>("v1/sign-in").then((caller) => showCaller(caller, () => void signOut().catch(failed)), failed);
 // Expose the views to scripts that drive the page.
 Object.assign(window, { unwrapd: { viewer, store, address } });

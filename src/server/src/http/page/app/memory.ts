@@ -1,6 +1,7 @@
 // What the page remembers in this browser.
 
 import type { Grip } from "../pull/grips";
+import type { Navigation } from "../viewer/navigation";
 import type { Place } from "./address";
 import type { FormKind } from "./definitions";
 import type { Values } from "./option_form";
@@ -23,13 +24,15 @@ interface Memory {
   presets: Preset[];
   /** Fill, measure and switches of the views. */
   looks: Partial<Place>;
+  /** How a mouse moves the surface. */
+  navigation: { name?: Navigation };
   /** Cameras by model, least recent first. */
   cameras: [string, Camera][];
   /** Handles by what is pulled and how, least recent first. */
   grips: [string, Grip[]][];
 }
 
-const EMPTY: Memory = { form: {}, presets: [], looks: {}, cameras: [], grips: [] };
+const EMPTY: Memory = { form: {}, presets: [], looks: {}, navigation: {}, cameras: [], grips: [] };
 const key = (name: keyof Memory) => `unwrapd.${name}`;
 
 /** Returns a remembered value, or an empty one if there is none or the browser refuses. */

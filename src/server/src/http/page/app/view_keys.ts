@@ -7,6 +7,7 @@ import type { Place } from "./address";
 import { type Key, showKeys } from "./keys";
 import type { Setup } from "./setup";
 import { otherSet } from "./toolbar";
+import { SIDES } from "./view_cube";
 import type { Viewer } from "./viewer";
 
 /** Parts of the page that shortcuts act on. */
@@ -50,7 +51,9 @@ function steering(page: Page): Key[] {
   };
   const arrow = (key: string, right: number, up: number): Key => ({ key, does: "", isSaid: true, inPane: true, act: () => steer(viewer, right, up) });
   const zoom = (key: string, farther: number): Key => ({ key, does: "", isSaid: true, inPane: true, act: () => steer(viewer, 0, 0, farther) });
+  const look = (key: string, side: 0 | 1 | 2): Key => ({ key, does: `Look from the ${["front", "right", "top"][side]}`, act: () => viewer.stage?.solid.lookFrom(SIDES[side][1]) });
   return [
+    look("4", 0), look("5", 1), look("6", 2),
     { key: "n", does: "Select the next island", shift: false, act: () => select(1) },
     { key: "n", does: "Select the island before", shift: true, act: () => select(-1) },
     { key: "Arrow keys", does: "In a view: turn the surface, move the UVs", act: () => {} },
