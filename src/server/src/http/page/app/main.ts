@@ -184,7 +184,10 @@ function made(job: Job, input: Chosen | null, isFurther = false): void {
   list.add(job);
   batch?.add(job);
   void list.refresh();
-  if (!isFurther) void open(job.id, { ...elsewhere(store.place), tab: batchOf(job) === null ? store.place.tab : "batch" });
+  if (isFurther) return;
+  // Where the form is below the views, they come into sight.
+  scrollTo({ top: 0 });
+  void open(job.id, { ...elsewhere(store.place), tab: batchOf(job) === null ? store.place.tab : "batch" });
 }
 
 // ---- report, before and after
