@@ -2,4 +2,5 @@
 
 export { unzipSync } from "three/addons/libs/fflate.module.js";
 export { BatchView } from "./app/batch";
+export { showReport } from "./app/report_page";
 export { addDecoders } from "./viewer/decoders";

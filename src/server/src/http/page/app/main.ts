@@ -18,7 +18,6 @@ import { listen, showKeys } from "./keys";
 import { forget } from "./memory";
 import { load, NoView } from "../viewer/loading";
 import { startNavigation } from "./navigation";
-import { showReport } from "./report_page";
 import { type Caller, showCaller } from "./sign_in";
 import { Setup } from "./setup";
 import { soupOf } from "../viewer/soups";
@@ -73,7 +72,7 @@ function refresh(): void {
   const isOfBatch = batchOf(store.job) !== null;
   byId("tab-batch").hidden = !isOfBatch;
   if (place.tab === "batch" && !isOfBatch && store.job?.id === place.job) return change({ tab: "view" });
-  if (place.tab === "report") void report();
+  if (place.tab === "report") void report().catch(failed);
   if (place.tab === "batch") void showBatch().catch(failed);
   if (place.tab === "pull") pull.offer(inHand ?? offered(), inHand ? null : known());
   const isPulled = place.tab === "pull" && pull.isActive;
@@ -199,6 +198,8 @@ async function report(): Promise<void> {
     return;
   }
   const { job } = subject;
+  const { showReport } = await import("../demand");
+  if (store.job !== job) return;
   const show = () => showReport({ job, report: subject.report, analysis: isResult() ? viewer.analysis : null, before: before?.analysis ?? null, atlas: viewer.atlas, flyTo: visit });
   show();
   const source = jobs.before();
