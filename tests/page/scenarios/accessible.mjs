@@ -34,13 +34,21 @@ export async function run(page, url, job) {
       await page.click("#tab-report");
       await page.waitForSelector(".certificate");
       await check(page, `${colorScheme} report at ${width}`);
+      await page.click("#tab-batch");
+      for (const layout of ["Table", "Contact sheet"]) {
+        await page.click(`#batch button:has-text("${layout}")`);
+        await page.waitForSelector(layout === "Table" ? "#batch tbody a" : ".contact-sheet img");
+        await check(page, `${colorScheme} batch at ${width}: ${layout}`);
+        const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+        assert.ok(overflow <= 0, `nothing is wider than ${width} in a batch: ${overflow}`);
+      }
       await page.click("#tab-pull");
       await page.click("#pull-start");
       await page.waitForFunction(() => document.querySelector("#pull-figures").textContent.includes("0 flips"));
       await check(page, `${colorScheme} pull at ${width}`);
       await page.click("#pull-tools button:has-text('End')");
       await check(page, `${colorScheme} pull at its end at ${width}`);
-      checked += 5;
+      checked += 7;
     }
     await page.setViewportSize({ width: 1280, height: 800 });
     await page.click("#tab-view");

@@ -16,7 +16,7 @@ export async function run(page, url, before, output, picture) {
     await page.keyboard.press("Tab");
     assert.equal(await page.getAttribute("#arrange", "aria-pressed"), String(isOn));
   }
-  assert.match(await page.textContent("#arrange-hints"), /repack/);
+  assert.match(await page.textContent("#arrange-hints"), /grab, rotate, scale/);
   const at = await project(page, "plane", face);
   const solid = await project(page, "solid", face);
   await hover(page, [640, 10]);

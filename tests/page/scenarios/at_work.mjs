@@ -1,6 +1,5 @@
-// Work that takes a while: uploads, finishing early, a lost connection, deleting, and several files.
+// Work that takes a while: uploads, finishing early, a lost connection, and deleting.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
 import { shown } from "../look.mjs";
 
 // A service that is gone tells in the console that it was asked for.
@@ -9,7 +8,7 @@ export const hasErrors = true;
 const rows = (page) => page.locator("#job-list .row-link");
 const count = (page, n) => page.waitForFunction((n) => document.querySelectorAll("#job-list .row-link").length === n, n);
 
-export async function run(page, url, small, textured, before) {
+export async function run(page, url, textured, before) {
   await page.goto(url);
   await shown(page, "spot.ply");
   await uploaded(page);
@@ -17,7 +16,6 @@ export async function run(page, url, small, textured, before) {
   await reconnected(page);
   await remedied(page, textured);
   await restored(page);
-  await batched(page, [small, textured]);
 }
 
 /** An upload says how far it is, and one that is cancelled makes no job. */
@@ -95,19 +93,4 @@ async function restored(page) {
   await page.waitForSelector(".verdict");
   assert.equal(await page.evaluate(() => window.unwrapd.store.place.job), id);
   assert.equal(await page.evaluate((id) => fetch(`v1/jobs/${id}`).then(({ status }) => status), id), 200);
-}
-
-/** Jobs of several files have totals and one archive. */
-async function batched(page, files) {
-  const n = await rows(page).count();
-  await page.setInputFiles("#files", files);
-  await page.click("#submit");
-  await count(page, n + files.length);
-  // The totals follow the jobs of the batch until all have ended.
-  await rows(page).first().click();
-  await page.waitForFunction((totals) => document.querySelector(".batch")?.textContent.includes(totals), `Jobs${files.length}Certified${files.length}`);
-  const [download] = await Promise.all([page.waitForEvent("download"), page.click(".batch button")]);
-  assert.match(download.suggestedFilename(), /\.zip$/);
-  const zip = readFileSync(await download.path());
-  assert.equal(zip.readUInt16LE(zip.length - 12), files.length, "entries of the archive");
 }

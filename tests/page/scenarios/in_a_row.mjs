@@ -1,20 +1,11 @@
 // One file after the other: nothing of the former is said of the next, and no file breaks the page.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { crc32 } from "node:zlib";
+import { archive } from "../archive.mjs";
 import { settled, shown } from "../look.mjs";
 
 // Three tells of the pictures that a lone glTF lacks.
 export const hasErrors = true;
-
-/** An archive of one file, which is stored as it is. */
-function zipped(name, content) {
-  const numbers = (...pairs) => Buffer.concat(pairs.map(([value, size]) => { const one = Buffer.alloc(size); one.writeUIntLE(value, 0, size); return one; }));
-  const facts = numbers([20, 2], [0, 2], [0, 2], [0, 2], [33, 2], [crc32(content), 4], [content.length, 4], [content.length, 4], [name.length, 2], [0, 2]);
-  const local = Buffer.concat([Buffer.from("PK\x03\x04"), facts, Buffer.from(name), content]);
-  const entry = Buffer.concat([Buffer.from("PK\x01\x02"), numbers([20, 2]), facts, numbers([0, 2], [0, 2], [0, 2], [0, 4], [0, 4]), Buffer.from(name)]);
-  return Buffer.concat([local, entry, Buffer.from("PK\x05\x06"), numbers([0, 2], [0, 2], [1, 2], [1, 2], [entry.length, 4], [local.length, 4], [0, 2])]);
-}
 
 export async function run(page, url, mesh, other) {
   const missing = [];
@@ -41,18 +32,18 @@ export async function run(page, url, mesh, other) {
   assert.ok(await page.isHidden("#problem"));
 
   // A file that is valid but has no view is no alarm.
-  const draco = { asset: { version: "2.0" }, extensionsRequired: ["KHR_draco_mesh_compression"], extensionsUsed: ["KHR_draco_mesh_compression"], meshes: [{ primitives: [{ attributes: { POSITION: 0 }, extensions: { KHR_draco_mesh_compression: { bufferView: 0, attributes: { POSITION: 0 } } } }] }], nodes: [{ mesh: 0 }], scenes: [{ nodes: [0] }], scene: 0, accessors: [{ componentType: 5126, count: 3, type: "VEC3" }], bufferViews: [{ buffer: 0, byteLength: 4 }], buffers: [{ byteLength: 4, uri: "data:;base64,AAAAAA==" }] };
-  await choose(file("draco.gltf", JSON.stringify(draco)));
-  await page.waitForFunction(() => document.querySelector("#plane-note").textContent.includes("compressed"));
+  await choose(file("solid.msh", "$MeshFormat"));
+  await page.waitForFunction(() => document.querySelector("#plane-note").textContent.includes("no view of .msh"));
   assert.ok(await page.isHidden("#problem"));
   // What a lone glTF references is not asked of the service.
-  await choose(file("lone.gltf", JSON.stringify({ ...draco, extensionsRequired: [], extensionsUsed: [], meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }], accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: "VEC3" }], bufferViews: [{ buffer: 0, byteLength: 36 }], buffers: [{ byteLength: 36, uri: "lone.bin" }] })));
+  const lone = { asset: { version: "2.0" }, meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }], nodes: [{ mesh: 0 }], scenes: [{ nodes: [0] }], scene: 0, accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: "VEC3" }], bufferViews: [{ buffer: 0, byteLength: 36 }], buffers: [{ byteLength: 36, uri: "lone.bin" }] };
+  await choose(file("lone.gltf", JSON.stringify(lone)));
   await page.waitForFunction(() => document.querySelector("#plane-note").textContent.includes("lone.bin"));
   assert.deepEqual(missing, []);
 
-  // A mesh in an archive is unwrapped.
-  await choose(file("mesh.zip", zipped("good.obj", good)));
-  await page.waitForFunction(() => document.querySelector("#plane-note").textContent.includes("archive"));
+  // A mesh in an archive is seen and unwrapped.
+  await choose(file("mesh.zip", archive([{ name: "in/good.obj", content: good }])));
+  await shown(page, "good.obj");
   assert.ok(await page.isHidden("#problem"));
   await page.click("#submit");
   await page.waitForSelector(".verdict.certified");

@@ -1,4 +1,4 @@
-// Every pane has room at every width, the tools are in one row, and a person can give either view more room.
+// Every pane has room at every width and keeps it under a legend, the tools are in one row, and a person can give either view more room.
 import assert from "node:assert/strict";
 import { shown, settled, colorsOf, variety } from "../look.mjs";
 
@@ -10,6 +10,26 @@ async function visible(page, selector) {
   const { x, y, width, height } = await page.locator(selector).boundingBox();
   const screen = page.viewportSize();
   return [Math.min(x + width, screen.width) - Math.max(x, 0), Math.min(y + height, screen.height) - Math.max(y, 0)];
+}
+
+/** Whether all tools that are seen are in one row. */
+async function areInOneRow(page, screen, when) {
+  const tools = await page.evaluate(() => [...document.querySelectorAll("#toolbar > *")].map((one) => one.getBoundingClientRect()).filter(({ height }) => height).map(({ top, bottom }) => (top + bottom) / 2));
+  assert.ok(5 < tools.length && Math.max(...tools) - Math.min(...tools) < 8, `one row of tools at ${screen} ${when}: ${tools}`);
+}
+
+/** A legend comes and goes over the views, which stay as they are. */
+async function keepsRoom(page, screen) {
+  const before = await page.locator("#panes").boundingBox();
+  for (const shade of ["heat", "checker"]) {
+    await page.click(`button[data-shade=${shade}]`);
+    const legend = await page.locator("#legend").boundingBox();
+    assert.deepEqual(await page.locator("#panes").boundingBox(), before, `the views under the legend of ${shade} at ${screen}`);
+    assert.ok(before.x <= legend.x && legend.x + legend.width <= before.x + before.width && legend.height < (screen < 1280 ? 80 : 42), `rows of the legend at ${screen}: ${JSON.stringify(legend)}`);
+    assert.deepEqual(await page.evaluate(() => [...document.querySelectorAll("#legend *")].filter(({ scrollWidth, clientWidth }) => clientWidth && clientWidth < scrollWidth).map(({ className }) => className)), [], `nothing of the legend is cut off at ${screen}`);
+  }
+  await page.click("button[data-shade=charts]");
+  assert.ok(await page.isHidden("#legend"));
 }
 
 const width = async (page, pane) => (await page.locator(pane).boundingBox()).width;
@@ -24,8 +44,16 @@ export async function run(page, url) {
       const [w, h] = await visible(page, pane);
       assert.ok(least <= w && high <= h, `${pane} at ${screen}: ${w} by ${h}`);
     }
-    const tools = await page.evaluate(() => [...document.querySelectorAll("#toolbar > *")].map((one) => one.getBoundingClientRect()).filter(({ height }) => height).map(({ top, bottom }) => (top + bottom) / 2));
-    if (1280 <= screen) assert.ok(Math.max(...tools) - Math.min(...tools) < 8, `one row of tools at ${screen}: ${tools}`);
+    if (768 <= screen) await keepsRoom(page, screen);
+    if (screen < 1280) continue;
+    await areInOneRow(page, screen, "");
+    const views = await page.locator("#panes").boundingBox();
+    await page.click("#arrange");
+    await areInOneRow(page, screen, "while islands are arranged");
+    assert.deepEqual(await page.locator("#panes").boundingBox(), views, `the views while islands are arranged at ${screen}`);
+    await page.selectOption("#fill", "heat");
+    await page.selectOption("#fill", "charts");
+    await page.click("#arrange");
   }
   await page.setViewportSize({ width: 1440, height: 844 });
   await settled(page);

@@ -23,7 +23,6 @@ export async function run(page, url) {
 }
 
 async function heat(page, { best, stretched }) {
-  // The legend of a heat map may take room from the views.
   const seen = async () => {
     await settled(page);
     return colors(page, [await project(page, "plane", best), await project(page, "plane", stretched)]);

@@ -7,7 +7,7 @@ export async function run(page, url, overlapping, near, clean) {
   await shown(page);
   const { atlases } = await page.evaluate(() => ({ atlases: window.unwrapd.viewer.analysis.atlases }));
   assert.equal(atlases[0].overlapping, 1);
-  assert.match(await page.textContent("#legend"), /1 overlap/);
+  assert.match(await page.textContent("#faults"), /1 overlap/);
   const at = async (face) => (await colors(page, [await project(page, "plane", Number(face))]))[0];
   const isRed = ([red, green]) => green + 90 < red;
   assert.ok(isRed(await at(overlapping)), "an overlap is red");

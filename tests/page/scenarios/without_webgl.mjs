@@ -12,6 +12,6 @@ export async function run(page, url) {
   assert.equal(await page.locator("#fallback img").count(), 2);
   assert.match(await page.textContent("#fallback"), /no WebGL/);
   await page.click("#tab-report");
-  assert.ok(await page.isVisible(".certificate"));
+  await page.waitForSelector(".certificate");
   assert.equal(await page.locator(".histogram").count(), 4);
 }

@@ -132,6 +132,14 @@ async fn an_address_opens_the_same_state() {
 }
 
 #[tokio::test]
+async fn what_is_known_of_a_job_is_said_at_once() {
+    let server = Server::start();
+    let url = unwrapped(&server, "cat_head.obj").await;
+    let (page, job) = url.split_once("#job=").expect("a job");
+    scenario("prompt", page.to_owned(), &[job.to_owned()]).await;
+}
+
+#[tokio::test]
 async fn errors_say_what_to_do() {
     let server = Server::start();
     scenario("errors", server.url("/"), &[]).await;
@@ -172,7 +180,7 @@ async fn work_that_takes_a_while_is_seen_and_can_be_undone() {
     // It keeps the worker busy until the page has asked for an early finish.
     let before = server.submit(meshes::hills(800), "").await;
     let before = before["links"]["self"].as_str().expect("a link").to_owned();
-    let arguments = [asset("cat_head.obj"), asset("gltf/Fox.glb"), before];
+    let arguments = [asset("gltf/Fox.glb"), before];
     scenario("at_work", server.url("/"), &arguments).await;
 }
 
@@ -217,10 +225,11 @@ async fn the_api_can_be_read_and_tried_out() {
 #[tokio::test]
 async fn nothing_on_the_pages_is_inaccessible() {
     let server = Server::start();
-    let url = unwrapped(&server, "cat_head.obj").await;
-    let (page, job) = url.split_once("#job=").expect("a job");
-    let said = scenario("accessible", page.to_owned(), &[job.to_owned()]).await;
-    assert_eq!(said["checked"], 36);
+    let mesh = std::fs::read(places::asset("cat_head.obj")).expect("an asset");
+    let made = form("unwrap", "{}", ("cat_head.obj", mesh));
+    let job = ended(&server, made.text("metadata", r#"{"batch": "heads"}"#)).await;
+    let said = scenario("accessible", server.url("/"), &[id(&job).to_owned()]).await;
+    assert_eq!(said["checked"], 48);
 }
 
 #[tokio::test]
@@ -253,6 +262,13 @@ async fn several_files_are_unwrapped_at_once() {
 }
 
 #[tokio::test]
+async fn a_folder_is_a_batch_with_a_table_and_an_archive() {
+    let server = Server::start();
+    let given = ["cat_head.obj", "gltf/BoxInterleaved"].map(asset);
+    scenario("batch", server.url("/"), &given).await;
+}
+
+#[tokio::test]
 async fn jobs_are_found_by_what_is_known_of_them() {
     let server = Server::start();
     let mesh = |name: &str| std::fs::read(places::asset(name)).expect("an asset");
@@ -270,6 +286,50 @@ async fn jobs_are_found_by_what_is_known_of_them() {
     )
     .await;
     scenario("filters", server.url("/"), &[id(&noted).to_owned()]).await;
+}
+
+#[tokio::test]
+async fn a_whole_run_needs_no_pointer() {
+    let server = Server::start();
+    scenario("keyboard", server.url("/"), &[asset("spot.ply")]).await;
+}
+
+#[tokio::test]
+async fn the_surface_is_turned_as_in_other_programs() {
+    let server = Server::start();
+    let url = unwrapped(&server, "spot.ply").await;
+    scenario("navigation", url, &[]).await;
+}
+
+#[tokio::test]
+async fn compressed_meshes_are_seen() {
+    let server = Server::start();
+    let faces = [
+        ("gltf/BoxMetaDraco", 12),
+        ("gltf/CesiumMilkTruck-Draco", 2856),
+        ("gltf/BoxMeshopt.glb", 12),
+        ("gltf/KHR_meshopt-no-fallback", 60),
+    ];
+    let given = faces.map(|(name, faces)| format!("{}={faces}", asset(name)));
+    scenario("compressed", server.url("/"), &given).await;
+}
+
+#[tokio::test]
+async fn options_are_saved_under_names() {
+    let server = Server::start();
+    scenario("presets", server.url("/"), &[]).await;
+}
+
+#[tokio::test]
+async fn jobs_are_named_tagged_and_sought() {
+    let server = Server::start();
+    let mesh = |name: &str| std::fs::read(places::asset(name)).expect("an asset");
+    let noted = form("unwrap", "{}", ("cat_head.obj", mesh("cat_head.obj")));
+    let noted = ended(&server, noted.text("metadata", r#"{"project": "atlas"}"#)).await;
+    let other = form("unwrap", "{}", ("Fox.glb", mesh("gltf/Fox.glb")));
+    let other = ended(&server, other).await;
+    let ids = [&noted, &other].map(|job| id(job).to_owned());
+    scenario("named", server.url("/"), &ids).await;
 }
 
 /// Two squares of one triangle pair each that overlap in a corner, and a pair of charts half a texel apart.

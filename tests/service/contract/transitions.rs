@@ -2,7 +2,9 @@
 
 use std::time::Duration;
 
-use unwrapd::jobs::{Command, Ending, Job, Refusal, State, Timestamp, Transition, WorkerId, after};
+use unwrapd::jobs::{
+    Command, Ending, Job, Metadata, Refusal, State, Timestamp, Transition, WorkerId, after,
+};
 use unwrapd_api::{Failure, OutputFile, Verdict};
 
 use super::{RULES, job, report};
@@ -60,6 +62,7 @@ fn transitions() -> Vec<(&'static str, Transition)> {
         ("cancel", Transition::Commanded(Command::Cancel)),
         ("finish", Transition::Commanded(Command::FinishEarly)),
         ("retry", Transition::Commanded(Command::Retry)),
+        ("note", Transition::Noted(Metadata::default())),
     ];
     for (name, ending) in endings {
         all.push((name, Transition::Ended(TOKEN, said, ending.clone())));
@@ -86,6 +89,7 @@ fn expected(name: &str, state: State) -> Result<State, Refusal> {
         ("cancel", Running) => Ok(Running),
         ("finish", Queued | Running) => Ok(state),
         ("retry", Failed) => Ok(Queued),
+        ("note", _) => Ok(state),
         ("succeeded", Running) => Ok(Succeeded),
         ("failed", Running) => Ok(Failed),
         ("cancelled", Running) => Ok(Cancelled),

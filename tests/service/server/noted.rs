@@ -81,6 +81,73 @@ async fn metadata_is_repeated_and_finds_jobs() {
 }
 
 #[tokio::test]
+async fn metadata_is_changed_in_any_state() {
+    let server = Server::start();
+    let form = Form::new().text("metadata", r#"{"project": "atlas"}"#);
+    let job = submitted(&server, form).await;
+    let path = job["links"]["self"].as_str().expect("a link");
+    let change = |metadata: &str| {
+        let query = [("metadata", metadata)];
+        let url = reqwest::Url::parse_with_params(&server.url(path), query).expect("an address");
+        server.request(
+            "PATCH",
+            &format!("{path}?{}", url.query().unwrap_or_default()),
+        )
+    };
+    let answer = change(r#"{"name": "Chair", "hero": true}"#).send().await;
+    let answer = answer.expect("an answer");
+    assert_eq!(answer.status(), 200);
+    let named = object!({ "name": "Chair", "hero": true });
+    assert_eq!(json(answer).await["metadata"], named);
+    // The end of the job keeps them, and they are changed after it.
+    let ended = server.get(&format!("{path}?wait=60")).send().await;
+    let ended = json(ended.expect("an answer")).await;
+    assert_eq!(
+        (&ended["state"], &ended["metadata"]),
+        (&object!("succeeded"), &named)
+    );
+    assert_eq!(
+        listed(&server, &[("metadata", r#"{"hero": true}"#)]).await,
+        [job["id"].clone()]
+    );
+    assert!(
+        listed(&server, &[("metadata", r#"{"project": "atlas"}"#)])
+            .await
+            .is_empty()
+    );
+    let answer = change("{}").send().await.expect("an answer");
+    assert_eq!(json(answer).await["metadata"], object!({}));
+    assert!(
+        listed(&server, &[("metadata", r#"{"hero": true}"#)])
+            .await
+            .is_empty()
+    );
+    // What is no metadata changes nothing.
+    for wrong in ["7", "{"] {
+        assert_problem(
+            change(wrong).send().await.expect("an answer"),
+            400,
+            "invalid_request",
+        )
+        .await;
+    }
+    let bare = server
+        .request("PATCH", path)
+        .send()
+        .await
+        .expect("an answer");
+    assert_problem(bare, 400, "invalid_request").await;
+    let gone = server
+        .request(
+            "PATCH",
+            "/v1/jobs/01a22773-0000-7000-8000-000000000000?metadata={}",
+        )
+        .send()
+        .await;
+    assert_problem(gone.expect("an answer"), 404, "job_not_found").await;
+}
+
+#[tokio::test]
 async fn what_cannot_be_looked_for_is_named() {
     let server = Server::start();
     for (name, value) in [

@@ -1,4 +1,4 @@
-//! Routes of jobs: create, get, list, cancel, finish, try again.
+//! Routes of jobs: create, get, list, change, cancel, finish, try again.
 //!
 //! Creation comes first, from the upload to the response.
 
@@ -241,6 +241,45 @@ pub(super) async fn delete_job(
     }
     let (job, _) = send_command(&app, &visibility, id, Command::Cancel).await?;
     Ok(json(StatusCode::ACCEPTED, &view(&app, &job)))
+}
+
+/// Query for a change of a job.
+#[derive(Deserialize, utoipa::IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ChangeQuery {
+    /// JSON object of at most 4096 bytes and 64 members, in place of the present metadata.
+    metadata: String,
+}
+
+/// Change the metadata of a job.
+///
+/// The new metadata replaces all of the old, in any state of the job, and `listJobs` finds the job by it
+/// from then on. What the job computes stays as it is, and so does what an `Idempotency-Key` has to
+/// repeat. Repeating the call is harmless.
+#[utoipa::path(
+    patch, path = "/v1/jobs/{id}", operation_id = "changeJob", tag = "jobs",
+    params(("id" = String, Path, format = "uuid", description = "The job"), ChangeQuery),
+    responses(
+        (status = 200, description = "The job", body = JobView),
+        (status = 400, description = "`invalid_request`", body = Problem, content_type = "application/problem+json"),
+        (status = 404, description = "`job_not_found`", body = Problem, content_type = "application/problem+json"),
+        (status = 410, description = "`job_expired`", body = Problem, content_type = "application/problem+json"),
+    )
+)]
+pub(super) async fn change_job(
+    State(app): Shared,
+    caller: Caller,
+    PathId(id): PathId,
+    Parameters(query): Parameters<ChangeQuery>,
+) -> Result<Response, Problem> {
+    let visibility = caller.visibility();
+    let metadata = metadata(&query.metadata)?;
+    match app.jobs.note(&visibility, id, metadata).await? {
+        Changed::Yes(job) => Ok(json(StatusCode::OK, &view(&app, &job))),
+        // No state of a job refuses metadata.
+        Changed::No(..) | Changed::Missing => Err(missing(&app, &visibility, id).await),
+    }
 }
 
 /// Finish a live job early.

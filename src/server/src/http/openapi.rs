@@ -168,6 +168,7 @@ fn links() -> Value {
     let operations = [
         "getJob",
         "watchJob",
+        "changeJob",
         "finishJob",
         "retryJob",
         "getResult",

@@ -24,14 +24,35 @@ static DOCS: StaticAsset = StaticAsset::new(
 );
 
 const SCRIPT: &str = "text/javascript; charset=utf-8";
+const WASM: &str = "application/wasm";
 const STYLE: &str = "text/css; charset=utf-8";
 const TEXT: &str = "text/plain; charset=utf-8";
 
 /// Assets of the pages by name.
-static ASSETS: [(&str, StaticAsset); 7] = [
+static ASSETS: [(&str, StaticAsset); 12] = [
     (
         "page.js",
         StaticAsset::new(SCRIPT, include_bytes!("page/dist/page.js")),
+    ),
+    (
+        "chunk.js",
+        StaticAsset::new(SCRIPT, include_bytes!("page/dist/chunk.js")),
+    ),
+    (
+        "demand.js",
+        StaticAsset::new(SCRIPT, include_bytes!("page/dist/demand.js")),
+    ),
+    (
+        "draco_wasm_wrapper.js",
+        StaticAsset::new(SCRIPT, include_bytes!("page/dist/draco_wasm_wrapper.js")),
+    ),
+    (
+        "draco_decoder.wasm",
+        StaticAsset::new(WASM, include_bytes!("page/dist/draco_decoder.wasm")),
+    ),
+    (
+        "decoders.txt",
+        StaticAsset::new(TEXT, include_bytes!("page/dist/decoders.txt")),
     ),
     (
         "worker.js",

@@ -24,8 +24,8 @@ use super::{
 use unwrapd_api::Catalog;
 
 /// Allows scripts, workers, styles and connections of this host only; no frames, and no forms elsewhere. `blob:` is
-/// for data that the page creates: pictures inside meshes.
-const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; \
+/// for data that the page creates: pictures inside meshes, and the workers of the decoder of Draco, which is WebAssembly like that of meshopt.
+const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self' blob:; style-src 'self'; \
     img-src 'self' blob: data:; connect-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// Cache-Control of private responses: shared caches must not keep them, and they must not be shown after a sign-out.
@@ -74,7 +74,7 @@ fn panicked(_: Box<dyn Any + Send>) -> Response {
 fn routes() -> OpenApiRouter<Arc<App>> {
     OpenApiRouter::with_openapi(preamble())
         .routes(routes!(jobs::create_job, jobs::list_jobs))
-        .routes(routes!(jobs::get_job, jobs::delete_job))
+        .routes(routes!(jobs::get_job, jobs::change_job, jobs::delete_job))
         .routes(routes!(jobs::finish_job))
         .routes(routes!(jobs::retry_job))
         .routes(routes!(jobs::retry_jobs))

@@ -13,6 +13,7 @@ use tokio_util::task::TaskTracker;
 
 use super::access::Visibility;
 use super::files::output_folder;
+use super::handling::Metadata;
 use super::job::{Event, Job, JobId, State, WorkerId};
 use super::meters;
 use super::running::{MapListener, Running};
@@ -146,6 +147,17 @@ impl Jobs {
             self.tell(job).await;
         }
         Ok(changed)
+    }
+
+    /// Replaces the metadata of a job.
+    pub async fn note(
+        &self,
+        visibility: &Visibility,
+        id: JobId,
+        metadata: Metadata,
+    ) -> StoreResult<Changed> {
+        let noted = Transition::Noted(metadata);
+        self.store.change(visibility, id, &noted).await
     }
 
     /// Removes a job in a final state with its files. Returns `false` if there is none.

@@ -4,6 +4,7 @@
 
 use std::time::Duration;
 
+use super::handling::Metadata;
 use super::job::{Job, ProgressReport, Rules, State, Token, WorkerId, next_attempt_seq};
 use super::timestamp::Timestamp;
 use unwrapd_api::{Failure, OutputFile, Progress, Verdict};
@@ -23,6 +24,8 @@ pub enum Transition {
     Ended(Token, ProgressReport, Ending),
     /// A client sends a command.
     Commanded(Command),
+    /// A client replaces its metadata.
+    Noted(Metadata),
     /// A picture of its result was drawn and stored.
     Drawn(Token, OutputFile),
 }
@@ -95,6 +98,7 @@ pub fn after(
             ended(&mut job, ending, rules, now);
         }
         Transition::Commanded(command) => commanded(&mut job, *command, now)?,
+        Transition::Noted(metadata) => job.metadata.clone_from(metadata),
         Transition::Drawn(token, file) => drawn(&mut job, *token, file)?,
     }
     Ok(job)

@@ -52,7 +52,11 @@ pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) ->
     .bind(job.webhook.as_ref().map(ToString::to_string))
     .execute(&mut **transaction)
     .await?;
-    // Add the labels by which the job is found.
+    label(job, transaction).await
+}
+
+/// Adds the labels by which a job is found.
+async fn label(job: &Job, transaction: &mut Transaction<'_, Any>) -> StoreResult<()> {
     for label in job.metadata.labels() {
         sqlx::query("INSERT INTO label (digest, job) VALUES ($1, $2) ON CONFLICT DO NOTHING")
             .bind(label)
@@ -61,6 +65,20 @@ pub(super) async fn insert(job: &Job, transaction: &mut Transaction<'_, Any>) ->
             .await?;
     }
     Ok(())
+}
+
+/// Writes the metadata of a job, and replaces the labels by which it is found.
+pub(super) async fn note(job: &Job, transaction: &mut Transaction<'_, Any>) -> StoreResult<()> {
+    sqlx::query("UPDATE job SET metadata = $1 WHERE id = $2")
+        .bind(json(&job.metadata)?)
+        .bind(job.id.to_string())
+        .execute(&mut **transaction)
+        .await?;
+    sqlx::query("DELETE FROM label WHERE job = $1")
+        .bind(job.id.to_string())
+        .execute(&mut **transaction)
+        .await?;
+    label(job, transaction).await
 }
 
 /// Updates the mutable columns of a job if its record has this token. Returns `false` if it has a different one.

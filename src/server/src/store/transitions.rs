@@ -194,6 +194,9 @@ pub(super) async fn written(
             if !rows::update(&next, job.token, transaction).await? {
                 return Err(StoreError::Conflict(format!("job {}", job.id)));
             }
+            if next.metadata != job.metadata {
+                rows::note(&next, transaction).await?;
+            }
             if !job.state.is_final() {
                 tell(&next, now, transaction).await?;
             }

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use unwrapd::jobs::access::{Owner, Visibility};
-use unwrapd::jobs::{Job, JobId, JobStore, Listing, Metadata, Order, State, Timestamp};
+use unwrapd::jobs::{Job, JobId, JobStore, Listing, Metadata, Order, State, Timestamp, Transition};
 use unwrapd::store::RecordStore;
 use unwrapd_api::Kind;
 
-use crate::contract::{claim, enqueued, job};
+use crate::contract::{change, claim, enqueued, job, yes};
 
 async fn listed(store: &RecordStore, visibility: &Visibility, listing: Listing) -> Vec<JobId> {
     let list = store.list(visibility, &listing).await.expect("an answer");
@@ -127,4 +127,14 @@ pub async fn jobs_are_found_by_their_metadata(store: Arc<RecordStore>) {
     assert!(list(r#"{"project": "atlas", "frame": 8}"#).await.is_empty());
     assert!(list(r#"{"projec": "tatlas"}"#).await.is_empty());
     assert_eq!(list("{}").await, [third.id, second, first.id]);
+    // New metadata replaces all of the old, in the record and in the lists.
+    let noted = Transition::Noted(metadata(r#"{"frame": 8}"#));
+    let changed = yes(change(&store, first.id, noted).await);
+    assert_eq!(changed.metadata, metadata(r#"{"frame": 8}"#));
+    let read = store.get(&Visibility::All, first.id).await;
+    let read = read.expect("an answer").expect("a job");
+    assert_eq!(read.metadata, changed.metadata);
+    assert_eq!(list(r#"{"frame": 8}"#).await, [first.id]);
+    assert!(list(r#"{"frame": 7}"#).await.is_empty());
+    assert_eq!(list(r#"{"project": "atlas"}"#).await, [second]);
 }

@@ -7,7 +7,7 @@ import { kept } from "./memory";
 /** State of the page that can be shared. */
 export interface Place {
   job: string | null;
-  tab: "view" | "report" | "pull";
+  tab: "view" | "report" | "batch" | "pull";
   shade: Shade;
   measure: Measure;
   /** Ends of the heat map's scale: the same for all results, or fitted to the shown one. */
@@ -33,6 +33,10 @@ export interface Place {
   alone: "solid" | "plane" | null;
   /** Width of the surface in percent of both views. */
   split: number;
+  /** Set if a batch is shown as a contact sheet, not as a table. */
+  sheet: boolean;
+  /** Column by which a batch is sorted, with a minus if from the greatest; empty for the order in which jobs were made. */
+  sort: string;
   /** Six numbers for the camera, three for the plane. */
   camera: number[] | null;
   plane: number[] | null;
@@ -49,7 +53,7 @@ export const CELLS = [8, 16, 32, 64, 128] as const;
 
 export const START: Place = {
   job: null, tab: "view", shade: "charts", measure: "sym-dirichlet", scale: "fixed", seams: true, wire: false, problems: true, only: false, cells: 32, set: null, uvs: "after", atlas: null,
-  aim: "chart", face: null, chart: null, seam: null, alone: null, split: 50, camera: null, plane: null,
+  aim: "chart", face: null, chart: null, seam: null, alone: null, split: 50, sheet: false, sort: "", camera: null, plane: null,
 };
 
 /** Reads the fragment of the address. Without one, files look as they did last time. */

@@ -1,7 +1,7 @@
 // Client of the service. All addresses are relative to the page, which may lie below any prefix.
 
 import { signIn } from "./sign_in";
-import { extension } from "../viewer/loading";
+import { extension } from "../viewer/formats";
 
 /** A job, in the JSON of the service. */
 export interface Job {
@@ -165,6 +165,12 @@ export function createJobFrom({ id }: Job, kind: string, options: Record<string,
   const query = new URLSearchParams({ job: id, kind });
   for (const [name, value] of Object.entries(options)) query.set(name, typeof value === "string" ? value : JSON.stringify(value));
   return call<Job>(`v1/jobs?${query}`, { method: "POST" });
+}
+
+/** Returns the name of the batch that a job belongs to: that of the jobs of files that were chosen together. */
+export function batchOf(job: Job | null): string | null {
+  const { batch } = job?.metadata ?? {};
+  return typeof batch === "string" ? batch : null;
 }
 
 export function isFinal(state: Job["state"]): boolean {

@@ -45,6 +45,6 @@ export function counted(count: number, one: string, several = `${one}s`): string
 
 /** Formats a word of the API for people. */
 export function plain(word: string): string {
-  const text = word.replaceAll("_", " ").replaceAll("-", " ").replace(/\buv\b/g, "UV");
+  const text = word.replaceAll("_", " ").replaceAll("-", " ").replace(/\buv(s?)\b/g, "UV$1");
   return text.charAt(0).toUpperCase() + text.slice(1);
 }

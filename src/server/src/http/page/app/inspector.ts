@@ -1,14 +1,14 @@
 // The panel on the right: facts about the job, and actions on it.
 
 import { address, isFinal, type Job, type Progress } from "./api";
-import { batchOf } from "./batch";
 import { chosenOptions } from "./definitions";
 import { commandLine, copy, curl } from "./commands";
 import { curve } from "./charts_svg";
 import { button, byId, element, pairs, prose } from "./dom";
 import { bytes, duration, percent, plain, short, whole } from "./format";
+import { notesOf } from "./notes";
 import { doing, outcome } from "./outcome";
-import { claimed, claims, measure, measured, type Report } from "./reports";
+import { claimed, claims, figuresOf, measured, type Report } from "./reports";
 
 /** Actions on a job. */
 export interface Actions {
@@ -21,6 +21,8 @@ export interface Actions {
   remove: () => void;
   reuse: () => void;
   position: () => number | null;
+  /** The name or the tags of the job are being changed. */
+  noted: (saving: Promise<void>) => void;
 }
 
 /** Shows a job that waits or runs. */
@@ -45,7 +47,7 @@ export class ProgressPanel {
         // The buttons come before the parts that grow, so that they do not move.
         element("div", { className: "actions" }, this.#finish, this.#cancel), this.#note,
         this.#facts, this.#curve),
-      ...noted(job));
+      ...notesOf(job, actions.noted));
     this.show(job);
   }
 
@@ -90,7 +92,7 @@ export async function showEnded(job: Job, report: Report | null, actions: Action
   parts.push(section("Job", about(job, options), element("div", { className: "actions" },
     job.state === "failed" ? button("Retry", actions.retry) : null,
     button("Use these options", actions.reuse, { title: "Put the options of this job into the form" }),
-    button("Delete", actions.remove, { className: "danger" })), copies(job, options)), batchOf(job), ...noted(job));
+    button("Delete", actions.remove, { className: "danger" })), copies(job, options)), ...notesOf(job, actions.noted));
   byId("inspector").replaceChildren(...parts.filter((part) => part !== null));
 }
 
@@ -128,12 +130,6 @@ function gates({ accept, accepted }: Job): HTMLElement | null {
     element("p", { textContent: `The job ${accepted ? "meets" : "does not meet"} every gate: ${accept.replaceAll(",", ", ")}.` }));
 }
 
-/** Shows the metadata of a job. */
-function noted({ metadata }: Job): HTMLElement[] {
-  const members = Object.entries(metadata).map(([name, value]): [string, string] => [name, typeof value === "string" ? value : JSON.stringify(value)]);
-  return members.length ? [section("Metadata", pairs(members))] : [];
-}
-
 function failure({ error }: Job): HTMLElement | null {
   if (!error) return null;
   return element("section", { className: "failure" }, element("p", {}, element("strong", { textContent: error.title })), element("p", { textContent: error.detail }),
@@ -148,18 +144,15 @@ function proofs(report: Report): HTMLElement {
 
 function facts(report: Report): HTMLElement | null {
   const groups = measured(report);
-  if (!groups.length) return report.groups ? null : section("Report", generic(report));
-  const sum = (key: string) => groups.reduce((total, group) => total + (measure(group, key) ?? 0), 0);
-  const area = sum("area_3d") || 1;
-  const mean = (key: string) => groups.reduce((total, group) => total + (measure(group, key) ?? 0) * (measure(group, "area_3d") ?? 0), 0) / area;
-  const [first] = groups;
+  const figures = figuresOf(report);
+  if (!figures) return report.groups ? null : section("Report", generic(report));
   return section(groups.length === 1 ? "Result" : `Result: ${groups.length} atlases`, pairs([
-    ["Faces", whole(sum("faces"))],
-    ["Charts", whole(sum("charts"))],
-    ["Seams / √area", short(sum("seam_length") / Math.sqrt(area)), "Length of all seams over the square root of the surface area"],
-    ["Distortion", short(mean("sym_dirichlet_mean")), "Mean symmetric Dirichlet energy; an isometry has 4"],
-    ["Covered", percent(sum("pack_unit") / groups.length), "Share of the texture that charts cover"],
-    ["Texels per unit", groups.length === 1 ? short(first!.texels_per_unit) : "by atlas"],
+    ["Faces", whole(figures.faces)],
+    ["Charts", whole(figures.charts)],
+    ["Seams / √area", short(figures.seams), "Length of all seams over the square root of the surface area"],
+    ["Distortion", short(figures.energy), "Mean symmetric Dirichlet energy; an isometry has 4"],
+    ["Covered", percent(figures.fill), "Share of the texture that charts cover"],
+    ["Texels per unit", groups.length === 1 ? short(groups[0]!.texels_per_unit) : "by atlas"],
   ]));
 }
 

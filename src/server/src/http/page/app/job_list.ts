@@ -5,11 +5,14 @@ import { button, byId, element } from "./dom";
 import { ago, duration, percent, plain } from "./format";
 import { fragmentOf, START } from "./address";
 import { JobFilters } from "./job_filters";
-import { doing, outcome } from "./outcome";
+import { nameOf, tagsOf, titleOf } from "./notes";
+import { doing, outcome, OUTCOMES } from "./outcome";
 import type { Store } from "./store";
 import { thumbnail } from "./thumbnails";
 
 const PAGE = 20;
+/** Number of jobs that are asked for at once while some are sought by their names: the most that the service lists. */
+const SOUGHT_PAGE = 200;
 /** Intervals at which the list is fetched: while a job may change, and otherwise. Shorter ones mean more requests. */
 const BUSY_MS = 1500;
 const IDLE_MS = 15000;
@@ -50,11 +53,14 @@ export class JobList {
     clearTimeout(this.#timer);
     const filterings = this.#filterings;
     try {
-      const page = await this.#page();
+      const page = await this.#page(null);
       if (filterings !== this.#filterings) return;
-      const older = this.#jobs.filter((job) => page.jobs.length === PAGE && !page.jobs.some(({ id }) => id === job.id) && job.created_at < page.jobs.at(-1)!.created_at);
+      const older = this.#jobs.filter((job) => PAGE <= page.jobs.length && !page.jobs.some(({ id }) => id === job.id) && job.created_at < page.jobs.at(-1)!.created_at);
       if (!older.length) this.#next = page.next;
-      this.#jobs = [...page.jobs, ...older];
+      // Events may be ahead of the answer.
+      const known = new Map(this.#jobs.map((job) => [job.id, job]));
+      const latest = page.jobs.map((job) => (job.seq < (known.get(job.id)?.seq ?? 0) ? known.get(job.id)! : job));
+      this.#jobs = [...latest, ...older];
       this.listed(this.#jobs);
       this.#queue = page.jobs.some(({ state }) => state === "queued") ? await queue() : [];
       this.#show();
@@ -62,7 +68,8 @@ export class JobList {
       // Keep the list; the next request may succeed.
     }
     const isBusy = !connection.isUp || this.#jobs.some(({ state }) => !isFinal(state));
-    if (!document.hidden) this.#timer = setTimeout(() => void this.refresh(), isBusy ? BUSY_MS : IDLE_MS);
+    // A search reads many pages, so it is not repeated by itself.
+    if (!document.hidden && !(this.#filters.isSearching && connection.isUp)) this.#timer = setTimeout(() => void this.refresh(), isBusy ? BUSY_MS : IDLE_MS);
   }
 
   /** Returns the position in the queue, from 1, or null. */
@@ -76,9 +83,9 @@ export class JobList {
     return this.#jobs.find((job) => job.id === id) ?? null;
   }
 
-  /** Lists jobs that were made here, until the service lists them. */
-  add(jobs: Job[]): void {
-    this.#jobs = [...jobs, ...this.#jobs];
+  /** Lists a job that was made here, until the service lists it. */
+  add(job: Job): void {
+    this.#jobs = [job, ...this.#jobs];
     this.#show();
   }
 
@@ -87,6 +94,18 @@ export class JobList {
     // Events do not say what was proven: an ended job is asked for.
     if (isFinal(event.state)) return;
     this.#jobs = this.#jobs.map((job) => (job.id === id && job.seq < event.seq ? { ...job, ...event } : job));
+    this.#show();
+  }
+
+  /** Shows a job as it was just fetched. */
+  take(job: Job): void {
+    this.#jobs = this.#jobs.map((listed) => (listed.id === job.id && listed.seq <= job.seq ? job : listed));
+    this.#show();
+  }
+
+  /** Shows the name and the tags of a job that were changed here. */
+  rename({ id, metadata }: Job): void {
+    this.#jobs = this.#jobs.map((job) => (job.id === id ? { ...job, metadata } : job));
     this.#show();
   }
 
@@ -101,7 +120,7 @@ export class JobList {
       this.#show();
       this.chosen(job.id);
     });
-    byId("removed").replaceChildren(element("span", { textContent: `${job.filename} is deleted, with its files.` }), undo);
+    byId("removed").replaceChildren(element("span", { textContent: `${titleOf(job)} is deleted, with its files.` }), undo);
     byId("removed").hidden = false;
     this.#show();
   }
@@ -118,15 +137,24 @@ export class JobList {
 
   async #older(): Promise<void> {
     const filterings = this.#filterings;
-    const page = await this.#page(`&cursor=${this.#next}`);
+    const page = await this.#page(this.#next);
     if (filterings !== this.#filterings) return;
     this.#jobs.push(...page.jobs);
     this.#next = page.next;
     this.#show();
   }
 
-  #page(more = ""): Promise<{ jobs: Job[]; next: string | null }> {
-    return call(`v1/jobs?limit=${PAGE}${this.#filters.query()}${more}`);
+  /** Asks for jobs from a cursor on. While some are sought by their names, asks until a page of them is found. */
+  async #page(cursor: string | null): Promise<{ jobs: Job[]; next: string | null }> {
+    const [filterings, { isSearching }] = [this.#filterings, this.#filters];
+    const jobs: Job[] = [];
+    let next = cursor;
+    do {
+      const page: { jobs: Job[]; next: string | null } = await call(`v1/jobs?limit=${isSearching ? SOUGHT_PAGE : PAGE}${this.#filters.query()}${next === null ? "" : `&cursor=${next}`}`);
+      jobs.push(...page.jobs.filter((job) => this.#filters.finds(job)));
+      next = page.next;
+    } while (isSearching && jobs.length < PAGE && next !== null && filterings === this.#filterings);
+    return { jobs, next };
   }
 
   #show(): void {
@@ -136,7 +164,7 @@ export class JobList {
     const shownJobs = this.#jobs.filter(({ id }) => id !== this.#removed?.job.id);
     list.replaceChildren(...shownJobs.map((job) => {
       const old = shown.get(job.id);
-      const key = JSON.stringify([outcome(job), job.state, job.stage, Math.round(job.fraction * 100), this.position(job.id), this.#current === job.id, ago(job.created_at)]);
+      const key = JSON.stringify([outcome(job), job.state, job.stage, Math.round(job.fraction * 100), this.position(job.id), this.#current === job.id, ago(job.created_at), nameOf(job), tagsOf(job)]);
       return old?.dataset.key === key ? old : this.#row(job, key);
     }));
     const none = this.#filters.isAny ? "No job meets the filter." : "None yet. Press Unwrap to make one of the sample.";
@@ -147,14 +175,14 @@ export class JobList {
   #row(job: Job, key: string): HTMLElement {
     const link = element("a", { href: `#${fragmentOf({ ...START, job: job.id })}`, className: "row-link" },
       thumbnail(job),
-      element("span", { className: "name", textContent: job.filename, title: job.filename }),
+      element("span", { className: "name", title: [nameOf(job), ...tagsOf(job)].join(" · ") }, titleOf(job), ...tagsOf(job).map((tag) => element("small", { className: "tag", textContent: tag }))),
       element("span", { className: `facts ${outcome(job)}${job.accepted === false ? " refused" : ""}`, textContent: this.#facts(job) }));
     if (job.id === this.#current) link.setAttribute("aria-current", "true");
     link.addEventListener("click", (event) => {
       event.preventDefault();
       this.chosen(job.id);
     });
-    const bar = element("progress", { max: 1, value: job.fraction, hidden: job.state !== "running", aria: { label: `Progress of ${job.filename}` } });
+    const bar = element("progress", { max: 1, value: job.fraction, hidden: job.state !== "running", aria: { label: `Progress of ${titleOf(job)}` } });
     return element("li", { data: { id: job.id, key } }, link, bar);
   }
 
@@ -165,9 +193,8 @@ export class JobList {
       return `${kind}${position ? `number ${position} in the queue` : "queued"}`;
     }
     if (job.state === "running") return `${kind}${doing(job)} · ${percent(job.fraction)}`;
-    const word = { certified: "certified", open: "not certified", failed: "failed", cancelled: "cancelled", done: "done" }[outcome(job)];
     const gates = job.accepted === false ? " · not accepted" : "";
-    return `${kind}${word}${gates} · ${duration(job.elapsed_ms)} · ${ago(job.created_at)}`;
+    return `${kind}${OUTCOMES[outcome(job)]}${gates} · ${duration(job.elapsed_ms)} · ${ago(job.created_at)}`;
   }
 }
 

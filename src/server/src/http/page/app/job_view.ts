@@ -26,8 +26,8 @@ export interface Parts {
   /** Callbacks for the end of the job, and its removal. */
   ended: () => void;
   removed: () => void;
-  /** Callback for jobs that were made of the shown one. */
-  made: (jobs: { job: Job; input: Chosen | null }[]) => void;
+  /** Callback for a job that was made of the shown one. */
+  made: (job: Job, input: Chosen | null) => void;
 }
 
 /** Shows one job at a time. */
@@ -87,6 +87,7 @@ export class JobView {
     const made = this.#made.get(id);
     this.#made.delete(id);
     const job = made ?? (await call<Job>(jobPath(id)));
+    this.#parts.list.take(job);
     if (store.place.job !== id) return;
     const { subject } = store.state;
     const input = this.#inputs.get(id) ?? (subject.kind === "job" && subject.job.id === id ? subject.input : null);
@@ -108,7 +109,10 @@ export class JobView {
       panel.show(event);
       this.#parts.list.heard(id, event);
       if (!viewer.isRelaxing) note(awaited(job, event, isElsewhere));
-      if (isFinal(event.state)) void this.open(id).then(() => this.#parts.list.refresh()).catch(this.#parts.failed);
+      if (!isFinal(event.state)) return;
+      void this.open(id).catch(this.#parts.failed);
+      // Another job may have started in its place.
+      void this.#parts.list.refresh();
     };
     const stopEvents = watch(job, (event) => this.#heard(event));
     this.#stop = () => {
@@ -196,7 +200,7 @@ export class JobView {
   }
 
   #actions(job: Job) {
-    const { failed, list, setup, removed, made } = this.#parts;
+    const { store, failed, list, setup, removed, made } = this.#parts;
     const wish = (does: Promise<unknown>) => void does.then(() => list.refresh()).catch(failed);
     return {
       cancel: () => wish(call(address(job.links.self), { method: "DELETE" })),
@@ -206,7 +210,7 @@ export class JobView {
           throw error;
         });
       },
-      again: (more: Record<string, boolean>) => wish(againOf(job, more).then((next) => made([{ job: next, input: this.#shown(job)?.input ?? null }]))),
+      again: (more: Record<string, boolean>) => wish(againOf(job, more).then((next) => made(next, this.#shown(job)?.input ?? null))),
       retry: () => wish(call(`${job.links.self}/retry`, { method: "POST" }).then(() => this.open(job.id))),
       remove: () => {
         list.remove(job);
@@ -214,6 +218,10 @@ export class JobView {
       },
       reuse: () => void setup.take(job.kind, job.options).catch(failed),
       position: () => list.position(job.id),
+      noted: (saving: Promise<void>) => void saving.then(() => {
+        list.rename(job);
+        store.change({});
+      }).catch(failed),
     };
   }
 }

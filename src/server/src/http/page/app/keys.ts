@@ -1,6 +1,7 @@
 // Keyboard shortcuts, and the dialog that lists them.
 
 import { button, byId, element } from "./dom";
+import { gestures, navigationField } from "./navigation";
 
 /** A shortcut with its action. */
 export interface Key {
@@ -51,12 +52,13 @@ export function showKeys(keys: Key[]): void {
   const dialog = byId<HTMLDialogElement>("keys");
   const rows = [
     ...keys.filter(({ isSaid }) => !isSaid).map((key) => [nameOf(key), key.does] as const),
-    ["Drag", "Turn the surface, move the UVs"], ["Right drag", "Move the surface"], ["Wheel", "Zoom to the pointer"], ["Click", "Select; elsewhere, select nothing"],
+    ...gestures(), ["Click", "Select; elsewhere, select nothing"],
   ];
   dialog.replaceChildren(
     element("h2", { id: "keys-title", textContent: "Keys" }),
     element("dl", { className: "keys" }, ...rows.map(([key, does]) => element("div", {}, element("dt", {}, element("kbd", { textContent: key! })), element("dd", { textContent: does! })))),
+    navigationField(() => showKeys(keys)),
     button("Close", () => dialog.close(), { className: "primary" }),
   );
-  dialog.showModal();
+  if (!dialog.open) dialog.showModal();
 }

@@ -3,7 +3,7 @@
 import { address, download, fileOf, type FileLink, type Job } from "./api";
 import type { Source } from "./source";
 import { type Chosen, modelOfJob } from "./store";
-import { extension, SHOWN } from "../viewer/loading";
+import { extension, SHOWN } from "../viewer/formats";
 import type { Report } from "./reports";
 
 /** Display of a job. */

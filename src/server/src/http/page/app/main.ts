@@ -2,10 +2,11 @@
 
 import { type Place, readPlace, START } from "./address";
 import type { Analysis } from "../analysis/analysis";
+import type { BatchView } from "./batch";
 import { analyzed } from "./analyst";
 import { ArrangeView } from "../arrange/arrange_view";
 import { arrangeKeys } from "../arrange/keys";
-import { address, call, connection, download, fileOf, type Job } from "./api";
+import { address, batchOf, call, connection, download, fileOf, type Job } from "./api";
 import { byId, element, pairs } from "./dom";
 import { startDivider } from "./divider";
 import { takeDropped } from "./dropped";
@@ -16,7 +17,7 @@ import { JobView, note } from "./job_view";
 import { listen, showKeys } from "./keys";
 import { forget } from "./memory";
 import { load, NoView } from "../viewer/loading";
-import { showReport } from "./report_page";
+import { startNavigation } from "./navigation";
 import { type Caller, showCaller } from "./sign_in";
 import { Setup } from "./setup";
 import { soupOf } from "../viewer/soups";
@@ -34,15 +35,17 @@ import { Viewer } from "./viewer";
 const store = new Store(readPlace());
 const viewer = new Viewer(store);
 const toolbar = new Toolbar(viewer, change, compare);
-const list = new JobList(store, (id) => void open(id), (listed) => jobs.listed(listed));
+const list = new JobList(store, (id) => void open(id), (listed) => { jobs.listed(listed); batch?.listed(listed); });
 const setup = new Setup(store, { shown: (chosen) => void preview(chosen), made, failed });
 const jobs = new JobView({ store, viewer, list, setup, failed, ended: solved, removed: () => void open(null), made });
 const pull = new PullView(store, { failed, changed: refresh, shown: () => (store.state.inHand ? null : viewer.shown), baked: (job) => { void list.refresh(); void open(job.id, { ...elsewhere(store.place) }); } });
 const arrange = new ArrangeView(viewer, { failed, open: (job) => open(job, { ...store.place, face: null, chart: null, seam: null }), changed: refresh });
+/** The view of a batch, fetched when it is first shown. */
+let batch: BatchView | null = null;
 /** Analysis of the input of the shown job, which the report compares with the result. */
 let before: { job: Job; analysis: Analysis } | null = null;
 
-const TABS = ["view", "report", "pull"] as const;
+const TABS = ["view", "report", "batch", "pull"] as const;
 
 // ---- state
 
@@ -63,9 +66,14 @@ function refresh(): void {
   if (!arrange.isOn) showPointed(viewer);
   for (const tab of TABS) {
     byId(`tab-${tab}`).setAttribute("aria-selected", String(place.tab === tab));
+    byId(`tab-${tab}`).tabIndex = place.tab === tab ? 0 : -1;
     byId(tab).hidden = place.tab !== tab;
   }
-  if (place.tab === "report") void report();
+  const isOfBatch = batchOf(store.job) !== null;
+  byId("tab-batch").hidden = !isOfBatch;
+  if (place.tab === "batch" && !isOfBatch && store.job?.id === place.job) return change({ tab: "view" });
+  if (place.tab === "report") void report().catch(failed);
+  if (place.tab === "batch") void showBatch().catch(failed);
   if (place.tab === "pull") pull.offer(inHand ?? offered(), inHand ? null : known());
   const isPulled = place.tab === "pull" && pull.isActive;
   byId("inspector").hidden = isPulled;
@@ -122,7 +130,7 @@ async function open(id: string | null, place: Place = { ...elsewhere(store.place
     else await sample();
   } catch (error) {
     jobs.leave();
-    store.change({ subject: { kind: "none" } });
+    store.change({ subject: { kind: "missing" } });
     viewer.clear();
     byId("inspector").replaceChildren();
     failed(error);
@@ -169,12 +177,16 @@ function describe(analysis: Analysis | null): void {
     element("p", { textContent: "The same mesh with UVs in which no face is flipped and no two overlap. That is proven on the bytes of the file." })));
 }
 
-/** Opens the first of some new jobs. */
-function made(created: { job: Job; input: Chosen | null }[]): void {
-  for (const { job, input } of created) jobs.remember(job, input);
-  list.add(created.map(({ job }) => job));
+/** Lists a new job, and opens it unless it is a further one of several files. */
+function made(job: Job, input: Chosen | null, isFurther = false): void {
+  jobs.remember(job, input);
+  list.add(job);
+  batch?.add(job);
   void list.refresh();
-  void open(created[0]!.job.id);
+  if (isFurther) return;
+  // Where the form is below the views, they come into sight.
+  scrollTo({ top: 0 });
+  void open(job.id, { ...elsewhere(store.place), tab: batchOf(job) === null ? store.place.tab : "batch" });
 }
 
 // ---- report, before and after
@@ -186,6 +198,8 @@ async function report(): Promise<void> {
     return;
   }
   const { job } = subject;
+  const { showReport } = await import("../demand");
+  if (store.job !== job) return;
   const show = () => showReport({ job, report: subject.report, analysis: isResult() ? viewer.analysis : null, before: before?.analysis ?? null, atlas: viewer.atlas, flyTo: visit });
   show();
   const source = jobs.before();
@@ -211,6 +225,14 @@ function compare(uvs: "before" | "both"): void {
   if (jobs.before()) change({ uvs: store.place.uvs === uvs ? "after" : uvs });
 }
 
+// ---- batches
+
+async function showBatch(): Promise<void> {
+  const { BatchView } = await import("../demand");
+  batch ??= new BatchView(store, { open: (id) => void open(id, elsewhere(store.place)), failed });
+  batch.follow();
+}
+
 // ---- keys and events
 
 function wire(): void {
@@ -219,6 +241,8 @@ function wire(): void {
   listen(keys);
   byId("keys-button").addEventListener("click", () => showKeys(keys()));
   for (const tab of TABS) byId(`tab-${tab}`).addEventListener("click", () => change({ tab }));
+  document.querySelector(".tabs")!.addEventListener("keydown", (event) => stepTabs(event as KeyboardEvent));
+  byId("skip").addEventListener("click", () => byId("plane").focus());
   viewer.pointing.onHover = () => arrange.isOn || showPointed(viewer);
   viewer.pointing.onSelect = change;
   viewer.changed = refresh;
@@ -234,7 +258,17 @@ function wire(): void {
     if (place.job !== store.place.job) void open(place.job, place);
     else change(place);
   });
-  takeDropped((files) => (store.place.tab === "pull" ? pull.takeFiles(files) : setup.takeFiles(files)));
+  takeDropped((files) => (store.place.tab === "pull" ? pull.takeFiles(files) : void setup.takeFiles(files)), failed);
+}
+
+/** Goes to the tab beside by the arrow keys. */
+function stepTabs(event: KeyboardEvent): void {
+  const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+  if (!step) return;
+  const shown = TABS.filter((tab) => !byId(`tab-${tab}`).hidden);
+  const tab = shown[(shown.indexOf(store.place.tab) + step + shown.length) % shown.length]!;
+  change({ tab });
+  byId(`tab-${tab}`).focus();
 }
 
 /** Signs out, and removes all data of the caller from this browser. */
@@ -246,7 +280,10 @@ async function signOut(): Promise<void> {
 }
 
 wire();
-if (viewer.stage) followStage(viewer, viewer.stage);
+if (viewer.stage) {
+  followStage(viewer, viewer.stage);
+  startNavigation(viewer.stage.solid);
+}
 void call<Caller>("v1/sign-in").then((caller) => showCaller(caller, () => void signOut().catch(failed)), failed);
 // Expose the views to scripts that drive the page.
 Object.assign(window, { unwrapd: { viewer, store, address } });

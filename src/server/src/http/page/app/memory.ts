@@ -1,6 +1,7 @@
 // What the page remembers in this browser.
 
 import type { Grip } from "../pull/grips";
+import type { Navigation } from "../viewer/navigation";
 import type { Place } from "./address";
 import type { FormKind } from "./definitions";
 import type { Values } from "./option_form";
@@ -8,19 +9,30 @@ import type { Values } from "./option_form";
 /** Cameras of both views; null if nobody has moved them. */
 export type Camera = Pick<Place, "camera" | "plane">;
 
+/** Options under a name. */
+export interface Preset {
+  name: string;
+  kind: FormKind;
+  options: Values;
+}
+
 /** The remembered values by name. */
 interface Memory {
   /** Kind and options of the form. */
   form: { kind?: FormKind; options?: Values };
+  /** Options that a person has saved, by name in the order of the alphabet. */
+  presets: Preset[];
   /** Fill, measure and switches of the views. */
   looks: Partial<Place>;
+  /** How a mouse moves the surface. */
+  navigation: { name?: Navigation };
   /** Cameras by model, least recent first. */
   cameras: [string, Camera][];
   /** Handles by what is pulled and how, least recent first. */
   grips: [string, Grip[]][];
 }
 
-const EMPTY: Memory = { form: {}, looks: {}, cameras: [], grips: [] };
+const EMPTY: Memory = { form: {}, presets: [], looks: {}, navigation: {}, cameras: [], grips: [] };
 const key = (name: keyof Memory) => `unwrapd.${name}`;
 
 /** Returns a remembered value, or an empty one if there is none or the browser refuses. */

@@ -8,6 +8,9 @@ export function outcome(job: Job): "certified" | "open" | "failed" | "cancelled"
   return job.certified === null ? "done" : job.certified ? "certified" : "open";
 }
 
+/** The outcomes in words. */
+export const OUTCOMES: Record<ReturnType<typeof outcome>, string> = { certified: "certified", open: "not certified", failed: "failed", cancelled: "cancelled", done: "done" };
+
 const STAGES: Record<string, string> = {
   read: "Reading the file", cut: "Finding seams", map: "Relaxing charts", deform: "Deforming", pack: "Packing the atlas",
   bake: "Resampling textures", write: "Writing the result", judge: "Proving the result",

@@ -84,6 +84,31 @@ export function measured(report: Report | null): GroupReport[] {
   return report?.groups?.filter(({ measures }) => measures) ?? [];
 }
 
+/** Figures of all measured groups together. */
+export interface Figures {
+  faces: number;
+  charts: number;
+  /** Length of all seams over the square root of the surface area. */
+  seams: number;
+  /** Mean symmetric Dirichlet energy over the surface; an isometry has 4. */
+  energy: number;
+  /** Mean share of the textures that charts cover. */
+  fill: number;
+}
+
+/** Returns the figures of a report; null if nothing was measured. */
+export function figuresOf(report: Report | null): Figures | null {
+  const groups = measured(report);
+  if (!groups.length) return null;
+  const sum = (of: (group: GroupReport) => number) => groups.reduce((total, group) => total + of(group), 0);
+  const total = (key: string) => sum((group) => measure(group, key) ?? 0);
+  const area = total("area_3d") || 1;
+  return {
+    faces: total("faces"), charts: total("charts"), seams: total("seam_length") / Math.sqrt(area),
+    energy: sum((group) => (measure(group, "sym_dirichlet_mean") ?? 0) * (measure(group, "area_3d") ?? 0)) / area, fill: total("pack_unit") / groups.length,
+  };
+}
+
 /** Returns a number among a group's measures. */
 export function measure(group: GroupReport, key: string): number | null {
   const value = group.measures?.[key];

@@ -1,10 +1,12 @@
 // The form: files, three choices, one button; the rest behind "More".
 
-import { createJob, createJobFrom, type Job, type Upload } from "./api";
+import { createJob, createJobFrom, type Job, Refused, type Upload } from "./api";
 import { chosenOptions, type FormKind, KINDS } from "./definitions";
 import { button, byId, element } from "./dom";
+import { chosenIn, type Given, nameOfAll, resourcesOf, unpacked } from "./dropped";
 import { bytes, counted } from "./format";
-import { extension, SHOWN } from "../viewer/loading";
+import { extension, SHOWN } from "../viewer/formats";
+import { Presets } from "./presets";
 import { OptionForm, type Values, withOption } from "./option_form";
 import type { Chosen, State, Store } from "./store";
 
@@ -12,8 +14,8 @@ import type { Chosen, State, Store } from "./store";
 export interface Told {
   /** A file is to be shown. */
   shown(chosen: Chosen): void;
-  /** Jobs were made, each of the input beside it. */
-  made(jobs: { job: Job; input: Chosen | null }[]): void;
+  /** A job was made of an input; `isFurther` if it is another one of several files. */
+  made(job: Job, input: Chosen | null, isFurther?: boolean): void;
   failed(error: unknown): void;
 }
 
@@ -40,15 +42,17 @@ export function targetOf({ subject, chosen }: State): Target {
 /** The form on the left. */
 export class Setup {
   readonly #options: OptionForm;
+  readonly #presets: Presets;
 
   constructor(readonly store: Store, readonly told: Told) {
     this.#options = new OptionForm(byId("options"), (options) => store.change({ options }));
+    this.#presets = new Presets(store);
     this.#wire();
     store.show(() => this.#refresh());
   }
 
-  choose(chosen: Chosen[]): void {
-    this.store.change({ chosen });
+  choose(chosen: Chosen[], source: string | null = null): void {
+    this.store.change({ chosen, source });
     if (chosen[0]) this.told.shown(chosen[0]);
   }
 
@@ -68,24 +72,32 @@ export class Setup {
   }
 
   /** Takes the files of a drop or of a dialog. */
-  takeFiles(files: File[]): void {
-    const meshes = files.filter((file) => MESHES.includes(extension(file.name)));
-    const resources = new Map(files.filter((file) => !meshes.includes(file)).map((file) => [file.webkitRelativePath || file.name, file as Blob]));
+  async takeFiles(given: Given[]): Promise<void> {
+    const files = await unpacked(given);
+    const meshes = files.filter(({ path }) => MESHES.includes(extension(path))).sort((one, other) => one.path.localeCompare(other.path));
+    const others = files.filter((file) => !meshes.includes(file));
     if (!meshes.length) {
-      this.told.failed(new Error(`None of these ${files.length} files is a mesh. Choose GLB, glTF, OBJ, PLY, STL or OFF, or one of them with its files in a ZIP.`));
+      this.told.failed(new Error(`${files.length === 1 ? "This file is no mesh" : `None of these ${files.length} files is a mesh`}. Choose GLB, glTF, OBJ, PLY, STL or OFF, a folder of them, or a ZIP.`));
       return;
     }
-    this.choose(meshes.map((file) => ({ name: file.name, content: file, resources })));
+    const source = nameOfAll(given);
+    this.choose(meshes.map((mesh) => {
+      const path = source !== null && mesh.path.startsWith(`${source}/`) ? mesh.path.slice(source.length + 1) : mesh.path;
+      const name = path.split("/").pop()!;
+      return { name, content: mesh.content, resources: resourcesOf(mesh, meshes, others), ...(path !== name && { path }) };
+    }), source);
   }
 
   #wire(): void {
     const form = byId<HTMLFormElement>("setup");
-    const files = byId<HTMLInputElement>("files");
-    files.addEventListener("change", () => {
-      if (files.files?.length) this.takeFiles([...files.files]);
-      files.value = "";
-    });
+    for (const id of ["files", "folder"]) {
+      const input = byId<HTMLInputElement>(id);
+      input.addEventListener("change", () => {
+        if (input.files?.length) void this.takeFiles(chosenIn(input));
+      });
+    }
     byId("choose").addEventListener("click", () => this.ask());
+    byId("choose-folder").addEventListener("click", () => byId<HTMLInputElement>("folder").click());
     // Show an invalid field, since the browser cannot point at a hidden one.
     form.addEventListener("invalid", ({ target }) => {
       byId<HTMLDetailsElement>("more").open = true;
@@ -128,6 +140,7 @@ export class Setup {
     const count = Object.keys(options).length;
     byId("changed").textContent = count ? `${counted(count, "option")} set` : "";
     byId("reset").hidden = count === 0;
+    this.#presets.refresh();
     this.#refreshTarget();
     const looked = subject.kind === "file" ? subject.file : null;
     byId("chosen").replaceChildren(...chosen.map((one) => this.#chip(one, one === looked)));
@@ -171,25 +184,30 @@ export class Setup {
     if ("none" in target) return this.told.failed(new Error(target.none));
     if ("files" in target && !target.files.length) return this.ask();
     const values = { ...options, ...more };
-    const made: { job: Job; input: Chosen | null }[] = [];
     this.#send(true);
     try {
-      if ("job" in target) made.push({ job: await createJobFrom(target.job, kind, values), input: target.input });
-      else await this.#upload(target.files, (input, metadata, sending) => createJob(kind, values, input, metadata, sending).then((job) => made.push({ job, input })));
+      if ("job" in target) this.told.made(await createJobFrom(target.job, kind, values), target.input);
+      else await this.#upload(target.files, (input, metadata, sending) => createJob(kind, values, input, metadata, sending));
     } catch (error) {
       if (!(error instanceof DOMException && error.name === "AbortError")) this.told.failed(error);
     } finally {
       this.#send(false);
-      if (made.length) this.told.made(made);
     }
   }
 
-  /** Uploads files one after the other, and shows how far it is. Jobs of several files have a batch in common. */
-  async #upload(files: Chosen[], each: (file: Chosen, metadata: Record<string, unknown>, sending: Upload) => Promise<unknown>): Promise<void> {
+  /** Uploads files one after the other, and shows how far it is. Jobs of several files have a batch in common. A file
+   * that the service refuses keeps none of the others; throws at the end if it refused all. */
+  async #upload(files: Chosen[], each: (file: Chosen, metadata: Record<string, unknown>, sending: Upload) => Promise<Job>): Promise<void> {
     const abort = new AbortController();
     const [bar, said] = [byId<HTMLProgressElement>("sent"), byId("sent-text")];
     byId("cancel-sending").onclick = () => abort.abort();
-    const metadata = 1 < files.length ? { batch: `${new Date().toISOString().slice(0, 19)}Z` } : {};
+    // Swedish writes times as ISO 8601 does, with a space.
+    const time = new Date().toLocaleString("sv");
+    const { source } = this.store.state;
+    const batch = source === null ? time : `${source} ${time}`;
+    const metadata = 1 < files.length ? { batch } : {};
+    const refused: string[] = [];
+    let made = 0;
     for (const [k, file] of files.entries()) {
       const ordinal = 1 < files.length ? `${k + 1} of ${files.length}: ` : "";
       const progressed = (sent: number, total: number) => {
@@ -197,8 +215,16 @@ export class Setup {
         said.textContent = `${ordinal}${bytes(sent)} of ${bytes(total)} sent`;
       };
       progressed(0, file.content.size);
-      await each(file, metadata, { progressed, signal: abort.signal });
+      try {
+        const job = await each(file, { ...metadata, ...(file.path && { path: file.path }) }, { progressed, signal: abort.signal });
+        this.told.made(job, file, 0 < made++);
+      } catch (error) {
+        if (files.length === 1 || !(error instanceof Refused)) throw error;
+        refused.push(`${file.path ?? file.name}: ${error.message}`);
+      }
     }
+    if (refused.length && !made) throw new Error(`All files are refused. ${refused.join(" ")}`);
+    if (refused.length) this.store.change({ refused: { batch, files: refused } });
   }
 
   #send(isSending: boolean): void {

@@ -1,6 +1,6 @@
 // The line below the views: the element under the pointer, the meaning of the colors, problems.
 
-import { type Analysis, UNMAPPED } from "../analysis/analysis";
+import { type Analysis, type Atlas, UNMAPPED } from "../analysis/analysis";
 import { type Measure, MEASURES, stretchOf } from "../analysis/distortion";
 import { gradient } from "../viewer/colors";
 import { CELLS, type Place } from "./address";
@@ -47,21 +47,25 @@ function summary({ faces, charts, drawn, atlases }: Analysis, isDrawn: boolean):
   return parts.join(" · ");
 }
 
-/** Shows the meaning of the colors; `changed` receives another measure or number of cells. */
+/** Shows the meaning of the colors over the views; `changed` receives another measure or number of cells. */
 export function showLegend(viewer: Viewer, changed: (changes: Partial<Place>) => void): void {
   const { analysis, place, atlas } = viewer;
   const shown = analysis?.atlases[atlas];
-  const parts: (Node | null)[] = [];
+  const parts: Node[] = [];
   if (shown && place.shade === "heat") parts.push(choice(place.measure, (measure) => changed({ measure })), scale(viewer), fitting(viewer, changed));
   if (shown && place.shade === "checker") parts.push(cells(place.cells, changed));
-  if (shown && place.problems) {
-    const found = [[shown.overlapping, "overlap", "overlaps"], [shown.flipped, "flipped face", "flipped faces"], [shown.near, "face near another island", "faces near another island"],
-      [shown.isMapped ? shown.unmapped : 0, "face without UVs", "faces without UVs"]] as const;
-    const wrong = found.filter(([count]) => count).map(([count, one, several]) => counted(count, one, several));
-    if (wrong.length) parts.push(element("span", { className: "wrong", textContent: wrong.join(", ") }));
-    else if (shown.isMapped) parts.push(element("span", { className: "right", textContent: "No overlaps or flips" }));
-  }
-  byId("legend").replaceChildren(...parts.filter((part) => part !== null));
+  byId("legend").replaceChildren(...parts);
+  byId("faults").replaceChildren(...(shown && place.problems ? faults(shown) : []));
+}
+
+/** Names what is wrong with the UVs of an atlas. */
+function faults(shown: Atlas): HTMLElement[] {
+  const found = [[shown.overlapping, "overlap", "overlaps"], [shown.flipped, "flipped face", "flipped faces"], [shown.near, "face near another island", "faces near another island"],
+    [shown.isMapped ? shown.unmapped : 0, "face without UVs", "faces without UVs"]] as const;
+  const wrong = found.filter(([count]) => count).map(([count, one, several]) => counted(count, one, several));
+  const text = wrong.join(", ");
+  if (text) return [element("span", { className: "wrong", textContent: text, title: text })];
+  return shown.isMapped ? [element("span", { className: "right", textContent: "No overlaps or flips" })] : [];
 }
 
 function choice(measure: Measure, changed: (measure: Measure) => void): HTMLElement {

@@ -5,7 +5,7 @@ import type { Origin } from "../pull/what";
 import type { Job } from "./api";
 import { type Place, START, writePlace } from "./address";
 import type { FormKind } from "./definitions";
-import { type Camera, kept, keep } from "./memory";
+import { type Camera, kept, keep, type Preset } from "./memory";
 import type { Values } from "./option_form";
 import type { Report } from "./reports";
 
@@ -14,13 +14,17 @@ export interface Chosen {
   name: string;
   content: Blob;
   resources: Map<string, Blob>;
+  /** Path in the folder or archive that it came in, if it did. */
+  path?: string;
   /** Direction from which it is seen first. */
   from?: readonly [number, number, number];
 }
 
-/** What the views show: a chosen file, or a job. */
+/** What the views show: a chosen file, or a job. There is none before the first one is fetched, or if the job of an
+ * address does not exist. */
 export type Subject =
   | { kind: "none" }
+  | { kind: "missing" }
   | { kind: "file"; file: Chosen }
   | { kind: "job"; job: Job; report: Report | null; input: Chosen | null };
 
@@ -31,9 +35,14 @@ export interface State {
   subject: Subject;
   /** The files that were chosen here, or the sample. */
   chosen: Chosen[];
+  /** Name of the folder or archive that they came in. */
+  source: string | null;
+  /** Files of a batch that the service refused, each with the cause. */
+  refused: { batch: string; files: string[] } | null;
   /** The form: the kind of the next jobs, and their options that differ from the defaults. */
   kind: FormKind;
   options: Values;
+  presets: Preset[];
   /** A file that was chosen in the pull view. */
   inHand: Origin | null;
 }
@@ -57,7 +66,7 @@ export class Store {
 
   constructor(place: Place) {
     const { kind = "unwrap", options = {} } = kept("form");
-    this.#state = { place, subject: { kind: "none" }, chosen: [], kind, options, inHand: null };
+    this.#state = { place, subject: { kind: "none" }, chosen: [], source: null, refused: null, kind, options, presets: kept("presets"), inHand: null };
   }
 
   get state(): Readonly<State> {
@@ -83,6 +92,7 @@ export class Store {
   change(changes: Partial<State>): void {
     this.#state = { ...this.#state, ...changes };
     if ("kind" in changes || "options" in changes) keep("form", { kind: this.#state.kind, options: this.#state.options });
+    if ("presets" in changes) keep("presets", this.#state.presets);
     this.#tell();
   }
 
@@ -138,9 +148,9 @@ export class Store {
   }
 }
 
-/** Returns the part of a state that holds for all files: how they are filled, marked, pointed at and laid out. */
-export function looksOf({ shade, measure, scale, seams, wire, problems, cells, aim, alone, split }: Place): Partial<Place> {
-  return { shade, measure, scale, seams, wire, problems, cells, aim, alone, split };
+/** Returns the part of a state that holds for all files: how they are filled, marked, pointed at, laid out and listed. */
+export function looksOf({ shade, measure, scale, seams, wire, problems, cells, aim, alone, split, sheet, sort }: Place): Partial<Place> {
+  return { shade, measure, scale, seams, wire, problems, cells, aim, alone, split, sheet, sort };
 }
 
 /** Returns the place of another file or job: with the same looks, and nothing selected. */

@@ -19,6 +19,8 @@ export class Toolbar {
   readonly #changed: (changes: Partial<Place>) => void;
   readonly #before: HTMLButtonElement;
   readonly #both: HTMLButtonElement;
+  /** The fills as a list, which takes less room than buttons. */
+  readonly #fill = element("select", { id: "fill", title: "Fill (C)", aria: { label: "Fill" } }, ...SHADES.map((shade) => element("option", { value: shade, textContent: SHADE_NAMES[shade] })));
   readonly #atlas = element("select", { id: "atlas", aria: { label: "Atlas" } });
   readonly #set = element("select", { id: "set", title: "UV set of the file (T)", aria: { label: "UV set" } });
   readonly #image = element("input", { type: "file", accept: "image/*", hidden: true, aria: { label: "Image for the faces" } });
@@ -26,25 +28,29 @@ export class Toolbar {
   constructor(viewer: Viewer, changed: (changes: Partial<Place>) => void, compare: (uvs: "before" | "both") => void) {
     this.#viewer = viewer;
     this.#changed = changed;
+    this.#fill.addEventListener("change", () => this.#chooseFill(this.#fill.value as Shade));
     this.#atlas.addEventListener("change", () => changed({ atlas: this.#atlas.value, face: null, chart: null, seam: null, plane: null }));
     this.#set.addEventListener("change", () => changed(otherSet(viewer, Number(this.#set.value))));
     this.#image.addEventListener("change", () => void this.#useImage());
-    this.#before = button("Before", () => compare("before"), { title: "The UVs that the input had (B)", aria: { pressed: "false" } });
-    this.#both = button("Side by side", () => compare("both"), { title: "The UVs of the result above those of the input, with one camera and one scale (D)", aria: { pressed: "false" } });
+    this.#before = button("Before", () => compare("before"), { className: "comparing", title: "The UVs that the input had (B)", aria: { pressed: "false" } });
+    this.#both = button("Side by side", () => compare("both"), { title: "The UVs of the result above those of the input, with one camera and one scale (D)", className: "comparing", aria: { pressed: "false" } });
     byId("toolbar").append(
-      group("Fill", ...SHADES.map((shade) => this.#choice("shade", shade, SHADE_NAMES[shade]))),
+      this.#fill, group("Fill", ...SHADES.map((shade) => this.#choice("shade", shade, SHADE_NAMES[shade]))),
       group("Alone", ...ALONE.map(([alone, text, title]) => button(text, () => changed({ alone: viewer.place.alone === alone ? null : alone }), { title, data: { alone }, aria: { pressed: "false" } }))),
       button("Frame", () => viewer.frame(), { title: "Show everything (F)" }), this.#before, this.#both, this.#set, this.#atlas, this.#image,
     );
     byId("pointed").after(group("Point at", ...(Object.keys(AIMS) as Aim[]).map((aim) => this.#choice("aim", aim, AIMS[aim]))));
-    byId("legend").after(group("Show", ...(Object.keys(SWITCHES) as Switch[]).map((name) => this.#toggle(name))));
+    byId("faults").after(group("Show", ...(Object.keys(SWITCHES) as Switch[]).map((name) => this.#toggle(name))));
   }
 
   #choice(name: "shade" | "aim", value: string, text: string): HTMLElement {
-    return button(text, () => {
-      if (value === "image") this.#image.click();
-      else this.#changed({ [name]: value });
-    }, { data: { [name]: value }, aria: { pressed: "false" } });
+    return button(text, () => (name === "shade" ? this.#chooseFill(value as Shade) : this.#changed({ aim: value as Aim })), { data: { [name]: value }, aria: { pressed: "false" } });
+  }
+
+  #chooseFill(shade: Shade): void {
+    this.#fill.value = this.#viewer.place.shade;
+    if (shade === "image") this.#image.click();
+    else this.#changed({ shade });
   }
 
   #toggle(name: Switch): HTMLElement {
@@ -66,6 +72,7 @@ export class Toolbar {
       const { shade, aim, alone, switch: name } = tool.dataset;
       tool.setAttribute("aria-pressed", String(shade === place.shade || aim === place.aim || alone === (place.alone ?? "") || (name !== undefined && place[name as Switch])));
     }
+    this.#fill.value = place.shade;
     this.#before.setAttribute("aria-pressed", String(place.uvs === "before"));
     this.#both.setAttribute("aria-pressed", String(place.uvs === "both"));
     this.#before.disabled = this.#both.disabled = !hasBefore;

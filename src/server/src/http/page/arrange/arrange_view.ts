@@ -7,7 +7,7 @@ import { counted } from "../app/format";
 import type { Report } from "../app/reports";
 import type { Viewer } from "../app/viewer";
 import type { Gesture } from "../viewer/gesture";
-import { extension } from "../viewer/loading";
+import { extension } from "../viewer/formats";
 import { IDENTITY, type Point, scaleOf, type Similarity, turnOf } from "../viewer/similarity";
 import { Arrangement, keyOf, moved, type Placed, type Snapshot } from "./arrangement";
 import { around, middleOf } from "./islands";
@@ -144,6 +144,16 @@ export class ArrangeView implements Doer {
 
   // ---- what the pointer does
 
+  /** Selects the island after the selected one, or the one before. */
+  #step(step: number): void {
+    const charts = [...(this.#scene?.islands.keys() ?? [])].sort((one, other) => one - other);
+    if (!charts.length) return;
+    const [selected] = this.#selected;
+    const from = selected === undefined ? (0 < step ? -1 : 0) : charts.indexOf(selected);
+    this.#selected.clear();
+    this.#selected.add(charts[(from + step + charts.length) % charts.length]!);
+  }
+
   #select(face: number | null, isAlso: boolean): void {
     const { analysis, atlas } = this.viewer;
     if (!analysis || this.#pointer.gesture || this.#isBusy) return;
@@ -271,7 +281,7 @@ export class ArrangeView implements Doer {
     const during: Record<string, () => void> = { x: () => pointer.constrain(0), y: () => pointer.constrain(1), confirm: () => pointer.end(true), cancel: () => pointer.end(false) };
     const between: Record<string, () => void> = {
       grab: () => this.#start("grab"), rotate: () => this.#start("rotate"), scale: () => this.#start("scale"),
-      cancel: () => this.#selected.clear(), all: () => this.#scene?.islands.forEach((_, chart) => this.#selected.add(chart)),
+      next: () => this.#step(1), previous: () => this.#step(-1), cancel: () => this.#selected.clear(), all: () => this.#scene?.islands.forEach((_, chart) => this.#selected.add(chart)),
       lock: () => this.#selected.size && this.#lock(arrangement),
       undo: () => arrangement.undo() && void this.#follow(), redo: () => arrangement.redo() && void this.#follow(),
       room: () => this.#toggleRoom(), bake: () => arrangement.isUnsaved && void this.#submit(this.#everything), repack: () => void this.#submit(arrangement.now.placed),

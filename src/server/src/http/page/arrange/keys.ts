@@ -14,6 +14,7 @@ export function arrangeKeys(view: ArrangeView): Key[] {
     { key: "0 … 9", does: "Type degrees, a factor, or a way along u or v", act: () => {} },
     ...CHARACTERS.map((key) => ({ key, does: "", act: () => view.type(key), isSaid: true })),
     does("Enter", "Leave them there", "confirm", { inPane: true }), does("Escape", "Put them back; select nothing", "cancel"),
+    does("n", "Select the next island", "next", { shift: false }), does("n", "Select the island before", "previous", { shift: true }),
     does("l", "Lock, or let go; what is moved is locked", "lock"), does("a", "Select all islands", "all"), does("m", "Let the other islands make room while some are moved, or not", "room"), does("b", "Bake: make a job of all islands where they lie", "bake"),
     does("p", "Repack the others around the locked ones", "repack"),
     does("z", "Undo", "undo", { ctrl: true, shift: false }), does("z", "Redo", "redo", { ctrl: true, shift: true }),

@@ -13,7 +13,7 @@ const TITLES: Record<string, string> = { room: "The other islands make room whil
 
 const HINTS = [
   ["Click", "select"], ["Shift Click", "more"], ["G R S", "grab, rotate, scale"], ["X Y", "along an axis"], ["Enter", "leave there"], ["Esc", "put back"],
-  ["L", "lock"], ["M", "make room"], ["B", "bake"], ["P", "repack the others"], ["Ctrl Z", "undo"], ["Tab", "leave"],
+  ["L", "lock"], ["Tab", "leave"],
 ] as const;
 
 /** State of the tools. */
@@ -42,7 +42,7 @@ export class ArrangeTools {
     this.#toggle.setAttribute("aria-pressed", String(isOn));
     byId("toolbar").classList.toggle("arranging", isOn);
     byId("arrange-hints").hidden = !isOn;
-    byId("legend").hidden = isOn;
+    byId("faults").hidden = isOn;
     const may: Record<string, boolean> = { undo: canUndo, redo: canRedo, grab: hasSelected, rotate: hasSelected, scale: hasSelected, lock: hasSelected, all: true, room: gesture === null, bake: canBake, repack: true };
     for (const tool of this.#during) {
       tool.hidden = !isOn;

@@ -1,10 +1,11 @@
 // The page's third view: a file that is pulled live.
 
 import { call, type Job, Refused } from "../app/api";
+import { type Given, resourcesOf } from "../app/dropped";
 import { LiveClient, type Reply, type Wish } from "../live/client";
 import type { LiveFrame, LiveMesh } from "../live/decode";
 import type { Store } from "../app/store";
-import { extension } from "../viewer/loading";
+import { extension } from "../viewer/formats";
 import { type Grip, Grips, handleOf } from "./grips";
 import { type Doer, Pointer } from "./pointer";
 import type { Shown } from "./beside";
@@ -92,11 +93,11 @@ export class PullView implements Doer {
   }
 
   /** Takes files that are chosen here. */
-  takeFiles(files: File[]): void {
+  takeFiles(files: Given[]): void {
     const [first, ...others] = files;
     if (!first) return;
     void this.#close();
-    this.store.change({ inHand: { name: first.name, content: first, resources: new Map(others.map((file) => [file.name, file as Blob])) } });
+    this.store.change({ inHand: { name: first.path.split("/").pop()!, content: first.content, resources: resourcesOf(first, [first], others) } });
   }
 
   /** Opens a session. */

@@ -1,6 +1,7 @@
 // The tools of the pull view: choice of the input, actions, and messages of the solver.
 
 import { button, byId, element } from "../app/dom";
+import { chosenIn, type Given } from "../app/dropped";
 import { counted, short } from "../app/format";
 import type { LiveFrame } from "../live/decode";
 import type { Gesture } from "../viewer/gesture";
@@ -12,7 +13,7 @@ import { ACCEPTED, type Way } from "./what";
 /** Requests of the tools. */
 export interface Asked {
   start(way: number): void;
-  take(files: File[]): void;
+  take(files: Given[]): void;
   resize(share: number): void;
   does(wish: string): void;
   fill(shade: Shade): void;
@@ -45,10 +46,7 @@ export class PullTools {
 
   constructor(asked: Asked) {
     const files = element("input", { type: "file", accept: ACCEPTED, multiple: true, hidden: true, id: "pull-files", aria: { label: "File to pull" } });
-    files.addEventListener("change", () => {
-      asked.take([...(files.files ?? [])]);
-      files.value = "";
-    });
+    files.addEventListener("change", () => asked.take(chosenIn(files)));
     this.#start = button("Take hold", () => asked.start(this.#ways.selectedIndex), { id: "pull-start", className: "primary" });
     this.#size.addEventListener("input", () => asked.resize(Number(this.#size.value)));
     this.#fill.append(...FILLS.map(([value, textContent]) => element("option", { value, textContent })));

@@ -2,7 +2,7 @@
 
 import { address, call } from "../app/api";
 import { modelOf } from "../app/store";
-import { extension } from "../viewer/loading";
+import { extension } from "../viewer/formats";
 
 /** A way to pull a file. */
 export interface Way {

@@ -5,6 +5,7 @@ import { GLTFLoader, type GLTFParser } from "three/addons/loaders/GLTFLoader.js"
 import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
 import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
 import { STLLoader } from "three/addons/loaders/STLLoader.js";
+import { extension } from "./formats";
 
 /** A file with the files that it may reference. */
 export interface Bundle {
@@ -33,13 +34,6 @@ export interface UvRecord {
   mips?: number;
 }
 
-/** Extensions of files that can be shown. */
-export const SHOWN = ["glb", "gltf", "obj", "ply", "stl", "off"];
-
-export function extension(name: string): string {
-  return name.split(".").pop()?.toLowerCase() ?? "";
-}
-
 /** Error of a file that may be valid, but that the page cannot show. */
 export class NoView extends Error {}
 
@@ -55,7 +49,7 @@ export async function load(bundle: Bundle): Promise<Loaded> {
   if (kind === "ply") return plain(meshOf(new PLYLoader().parse(await bundle.content.arrayBuffer())));
   if (kind === "stl") return plain(meshOf(new STLLoader().parse(await bundle.content.arrayBuffer())));
   if (kind === "off") return plain(meshOf(parseOff(await bundle.content.text())));
-  if (kind === "zip") throw new NoView("What is in the archive is seen when it is unwrapped.");
+  if (kind === "zip") throw new NoView("The archive cannot be read here. Unwrap it to be told what is wrong with it.");
   throw new NoView(`There is no view of .${kind} files here. The job works on it all the same.`);
 }
 
@@ -78,10 +72,12 @@ function meshOf(geometry: BufferGeometry): Mesh {
 
 async function loadGltf({ content, resources }: Bundle): Promise<Loaded> {
   const manager = new LoadingManager();
+  const assets = new URL("assets/", document.baseURI).href;
   const made: string[] = [];
   const missing = new Set<string>();
+  let free = () => {};
   manager.setURLModifier((url) => {
-    if (url.startsWith("blob:")) return url;
+    if (url.startsWith("blob:") || url.startsWith(assets)) return url;
     if (url.startsWith("data:")) return made[made.push(URL.createObjectURL(embedded(url))) - 1]!;
     const path = decodeURIComponent(url).replace(/^\.\//, "");
     const resource = resources.get(path) ?? resources.get(path.split("/").pop() ?? "");
@@ -95,19 +91,21 @@ async function loadGltf({ content, resources }: Bundle): Promise<Loaded> {
     return made.at(-1)!;
   });
   try {
-    const gltf = await new GLTFLoader(manager).parseAsync(await content.arrayBuffer(), "");
+    const loader = new GLTFLoader(manager);
+    const isCompressed = (await extensionsOf(content)).some((extension) => COMPRESSED.includes(extension));
+    if (isCompressed) free = await (await import("../demand")).addDecoders(loader, manager, assets);
+    const gltf = await loader.parseAsync(await content.arrayBuffer(), "");
     if (!gltf.scene) throw new Error("it has no scene. Its meshes can be unwrapped all the same.");
     const extras: { unwrapd?: UvRecord } | undefined = gltf.parser.json.asset?.extras;
     return { scene: gltf.scene, record: extras?.unwrapd ?? null, parser: gltf.parser };
   } catch (error) {
     const detail = String(error instanceof Error ? error.message : error);
-    if (/draco|meshopt|ktx2/i.test(detail) || (await isCompressed(content))) {
-      throw new NoView("The file is compressed in a way that this view does not decode. Unwrap it: the result is shown.");
-    }
+    if (/ktx2/i.test(detail)) throw new NoView("The pictures of this file are in KTX2, which this view does not decode. The job works on it all the same.");
     const buffer = [...missing].find((path) => !/\.(png|jpe?g|webp|ktx2|avif)$/i.test(path));
     if (buffer) throw new NoView(`The file needs ${buffer}, which was not chosen with it. Choose both together.`);
     throw new Error(`The view cannot read this glTF${detail.startsWith("it has") ? `: ${detail}` : ". Unwrap it to be told what is wrong with it."}`);
   } finally {
+    free();
     made.forEach((url) => URL.revokeObjectURL(url));
   }
 }
@@ -119,10 +117,23 @@ function embedded(url: string): Blob {
   return new Blob([Uint8Array.from(text, (byte) => byte.charCodeAt(0))], { type });
 }
 
-/** Returns whether a glTF needs a decoder for its meshes or pictures. */
-async function isCompressed(content: Blob): Promise<boolean> {
-  const begin = await content.slice(0, 1 << 20).text();
-  return /KHR_draco_mesh_compression|EXT_meshopt_compression|KHR_texture_basisu/.test(begin);
+/** Extensions of glTF that need a decoder. */
+const COMPRESSED = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"];
+
+/** Magic number of binary glTF, and the bytes before its JSON. */
+const GLB = 0x46546c67;
+const GLB_HEADER = 20;
+
+/** Returns the extensions that a glTF uses; none if it cannot be read. */
+async function extensionsOf(content: Blob): Promise<string[]> {
+  const header = new DataView(await content.slice(0, GLB_HEADER).arrayBuffer());
+  const isBinary = header.byteLength === GLB_HEADER && header.getUint32(0, true) === GLB;
+  const json = isBinary ? content.slice(GLB_HEADER, GLB_HEADER + header.getUint32(12, true)) : content;
+  try {
+    return (JSON.parse(await json.text()) as { extensionsUsed?: string[] }).extensionsUsed ?? [];
+  } catch {
+    return [];
+  }
 }
 
 /** Parses the Object File Format: a line of counts, vertices, polygons. */

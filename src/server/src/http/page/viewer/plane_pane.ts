@@ -81,6 +81,11 @@ export class PlanePane {
     this.#apply();
   }
 
+  /** Moves the view by shares of what it shows, and zooms around its middle. */
+  nudge(right: number, up: number, factor = 1): void {
+    this.place = [this.#middle[0]! + 2 * right * this.#half, this.#middle[1]! + 2 * up * this.#half, this.#limited(factor)];
+  }
+
   resize(width: number, height: number): void {
     this.#size = [Math.max(width, 1), Math.max(height, 1)];
     this.#apply();
@@ -115,9 +120,14 @@ export class PlanePane {
   #zoom(factor: number, [x, y]: [number, number], pane: HTMLElement): void {
     const box = pane.getBoundingClientRect();
     const [dx, dy] = [x - box.left - box.width / 2, y - box.top - box.height / 2];
-    const half = Math.min(Math.max(this.#half * factor, 1e-4), 20);
+    const half = this.#limited(factor);
     const change = this.#unit * (1 - half / this.#half);
     this.place = [this.#middle[0]! + dx * change, this.#middle[1]! - dy * change, half];
+  }
+
+  /** Returns a multiple of the distance to the nearer borders, within limits. */
+  #limited(factor: number): number {
+    return Math.min(Math.max(this.#half * factor, 1e-4), 20);
   }
 
   #drag(event: PointerEvent, pane: HTMLElement): void {

@@ -1,8 +1,9 @@
 // The view of the surface: a camera that orbits it.
 
-import { type Object3D, PerspectiveCamera, Scene, Sphere, Vector3 } from "three";
+import { MathUtils, type Object3D, PerspectiveCamera, Scene, Sphere, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { isStill, move } from "./motion";
+import { type Buttons, buttonsOf } from "./navigation";
 
 /** Initial direction of the camera, in front and a little above: the front of glTF is +z. */
 const FRONT = [0.55, 0.35, 1] as const;
@@ -20,14 +21,18 @@ export class SolidPane {
   #rest = 0;
   /** Set if a person has moved the camera since everything was fitted into the view. */
   isMoved = false;
+  /** Returns the actions of the buttons for a press of one. */
+  buttons: (event: PointerEvent) => Buttons = (event) => buttonsOf("page", event);
 
   /** Moves the camera by the pointer in several panes of the same size. */
   constructor(panes: HTMLElement[], changed: () => void) {
     const all = panes.map((pane) => new OrbitControls(this.camera, pane));
     this.#controls = all[0]!;
     this.#controls.autoRotateSpeed = SPEED;
-    for (const controls of all) {
+    for (const [k, controls] of all.entries()) {
       controls.zoomToCursor = true;
+      // Choose the actions before the controls see the press.
+      panes[k]!.addEventListener("pointerdown", (event) => (controls.mouseButtons = this.buttons(event)), { capture: true });
       controls.addEventListener("change", () => {
         // All look at the same place.
         for (const other of all) other.target.copy(controls.target);
@@ -66,6 +71,33 @@ export class SolidPane {
     const [from, target] = [this.camera.position.clone(), this.#controls.target.clone()];
     const to = place.clone().add(direction.clone().normalize().multiplyScalar(distance));
     move((t) => this.#look(from.clone().lerp(to, t), target.clone().lerp(place, t)));
+  }
+
+  /** Turns the camera around its target by degrees to the right and upward, short of the poles, and moves it to a multiple
+   * of its distance. */
+  orbit(right: number, up: number, farther = 1): void {
+    this.turn(false);
+    this.isMoved = true;
+    const target = this.#controls.target.clone();
+    const arm = new Spherical().setFromVector3(this.camera.position.clone().sub(target));
+    arm.theta += MathUtils.degToRad(right);
+    arm.phi -= MathUtils.degToRad(up);
+    arm.radius *= farther;
+    this.#look(target.clone().add(new Vector3().setFromSpherical(arm.makeSafe())), target);
+  }
+
+  /** Looks at the same target from another direction, as far away as before. */
+  lookFrom(direction: readonly [number, number, number]): void {
+    this.turn(false);
+    this.isMoved = true;
+    const target = this.#controls.target.clone();
+    const from = new Spherical().setFromVector3(this.camera.position.clone().sub(target));
+    const to = new Spherical().setFromVector3(new Vector3(...direction));
+    const turn = MathUtils.euclideanModulo(to.theta - from.theta + Math.PI, 2 * Math.PI) - Math.PI;
+    move((t) => {
+      const now = new Spherical(from.radius, MathUtils.lerp(from.phi, to.phi, t), from.theta + turn * t).makeSafe();
+      this.#look(target.clone().add(new Vector3().setFromSpherical(now)), target);
+    });
   }
 
   /** Turns slowly until a person takes over, but for one full turn at most. */

@@ -1,0 +1,6 @@
+// What most visits do not need: it is fetched when it is first used.
+
+export { unzipSync } from "three/addons/libs/fflate.module.js";
+export { BatchView } from "./app/batch";
+export { showReport } from "./app/report_page";
+export { addDecoders } from "./viewer/decoders";

@@ -1,0 +1,78 @@
+// The surface is turned as in programs that people know: by a cube, and by the buttons of the mouse that they are used to.
+import assert from "node:assert/strict";
+import { settled, shown } from "../look.mjs";
+
+/** The direction from the target to the camera, its distance, and the target. */
+const look = (page) => page.evaluate(() => {
+  const place = window.unwrapd.viewer.stage.solid.place;
+  const arm = [0, 1, 2].map((k) => place[k] - place[k + 3]);
+  const far = Math.hypot(...arm);
+  return { from: arm.map((x) => x / far), far, at: place.slice(3) };
+});
+const near = (one, other) => one.every((x, k) => Math.abs(x - other[k]) < 1e-3);
+const cube = (page) => page.evaluate(() => document.querySelector(".cube > div").style.transform);
+
+async function looksFrom(page, direction) {
+  await page.waitForFunction((direction) => {
+    const place = window.unwrapd.viewer.stage.solid.place;
+    const arm = [0, 1, 2].map((k) => place[k] - place[k + 3]);
+    return arm.every((x, k) => Math.abs(x / Math.hypot(...arm) - direction[k]) < 1e-3);
+  }, direction);
+}
+
+/** Drags with a button and keys held, and returns what has changed. */
+async function dragged(page, button, ...held) {
+  const before = await look(page);
+  const { x, y, width, height } = await page.locator("#solid").boundingBox();
+  for (const key of held) await page.keyboard.down(key);
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.mouse.down({ button });
+  await page.mouse.move(x + width / 2 + 40, y + height / 2 + 30, { steps: 4 });
+  await page.mouse.up({ button });
+  for (const key of held) await page.keyboard.up(key);
+  await settled(page);
+  const after = await look(page);
+  return [!near(before.from, after.from) && "turned", !near(before.at, after.at) && "moved", 1e-3 < Math.abs(before.far / after.far - 1) && "zoomed"].filter(Boolean).join(" ");
+}
+
+async function choose(page, name) {
+  await page.keyboard.press("?");
+  await page.selectOption("#navigation", name);
+  const said = await page.textContent(".keys");
+  await page.click("#keys >> text=Close");
+  return said;
+}
+
+export async function run(page, url) {
+  await page.goto(url);
+  await shown(page);
+  // Sides of the cube that are seen can be clicked; the surface behind it is not selected.
+  const { far } = await look(page);
+  const first = await cube(page);
+  await page.click(".cube >> text=Top");
+  await looksFrom(page, [0, 1, 0]);
+  await page.keyboard.press("5");
+  await looksFrom(page, [1, 0, 0]);
+  await page.keyboard.press("4");
+  await looksFrom(page, [0, 0, 1]);
+  await settled(page);
+  assert.ok(Math.abs((await look(page)).far / far - 1) < 1e-3, "as far away as before");
+  assert.equal(await page.evaluate(() => window.unwrapd.store.place.chart), null);
+  assert.notEqual(await cube(page), first, "the cube turns");
+
+  assert.equal(await dragged(page, "left"), "turned");
+  assert.equal(await dragged(page, "right"), "moved");
+  assert.match(await choose(page, "blender"), /Middle drag/);
+  assert.equal(await dragged(page, "left"), "");
+  assert.equal(await dragged(page, "middle"), "turned");
+  assert.equal(await dragged(page, "middle", "Shift"), "moved");
+  assert.equal(await dragged(page, "middle", "Control"), "zoomed");
+  await page.reload();
+  await shown(page);
+  assert.equal(await dragged(page, "middle"), "turned", "the choice is kept");
+  assert.match(await choose(page, "maya"), /Alt Drag/);
+  assert.equal(await dragged(page, "left"), "");
+  assert.equal(await dragged(page, "left", "Alt"), "turned");
+  assert.equal(await dragged(page, "middle", "Alt"), "moved");
+  assert.equal(await dragged(page, "right", "Alt"), "zoomed");
+}
