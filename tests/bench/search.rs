@@ -2,8 +2,8 @@
 //!
 //! `cargo bench -p unwrapd-layout --bench search -- [--bound E] FILE.obj…` prints for each file and way: charts, seam length over the root of
 //! the area, processor seconds on one thread, and how many faces were mapped and predicted for each face of the file. Ways:
-//! `cutters`, without cuts for fill and symmetry; `pieces`, the search from pieces; `charts`, the search from the charts of the
-//! cutters, or from components slit open if these cost less, with the effort of the program and without a limit.
+//! `cutters`, without cuts for fill and symmetry; `surface`, the search from pieces or components slit open; `charts`, the search from
+//! the charts of the cutters, or from components slit open if these cost less; both with the effort of the program and without a limit.
 
 #[expect(dead_code, reason = "only processor time is wanted")]
 mod clock;
@@ -17,13 +17,10 @@ use std::sync::Arc;
 use unwrapd_layout::charts::{
     Bound, Bounded, MappedChart, Symmetry, Unobserved, charts_under_bound, seam_length,
 };
-use unwrapd_layout::search::{Effort, Terms, from_charts, from_pieces};
+use unwrapd_layout::search::{Effort, Terms, from_charts, from_surface};
 use unwrapd_maps::embed::Options;
 use unwrapd_maps::mesh::{Surface, canonical_order};
 use unwrapd_method::energy::SymmetricDirichlet;
-
-/// Price at which no seam is cut for fill alone.
-const NO_CUTS_FOR_FILL: f64 = 1e3;
 
 fn main() {
     let mut bound = Bound {
@@ -59,27 +56,44 @@ fn report(file: &str, bound: &Bound) {
         density: Arc::new(SymmetricDirichlet),
         ..Options::default()
     };
-    let price = NO_CUTS_FOR_FILL;
     let clock = Clock::start();
-    let cut = charts_under_bound(&surface, bound, price, &options, Symmetry::Off, &Unobserved);
+    let cut = charts_under_bound(&surface, bound, &options, Symmetry::Off, &Unobserved);
     line(file, "cutters", &cut, &clock, Effort::UNBOUNDED);
-    let clock = Clock::start();
-    let (charts, counts) = from_pieces(&surface, bound, &options, &Unobserved);
-    line(file, "pieces", &charts, &clock, counts.effort);
     let faces = surface.triangles.len();
     let efforts = [
-        ("charts", Effort::for_surface(faces, faces)),
-        ("charts, unbounded", Effort::UNBOUNDED),
+        ("", Effort::for_surface(faces, faces)),
+        (", unbounded", Effort::UNBOUNDED),
     ];
-    for (way, effort) in efforts {
-        let clock = Clock::start();
-        let cut = cut.clone();
+    for (limit, effort) in efforts {
         let terms = Terms {
             effort,
             ..Terms::default()
         };
+        let clock = Clock::start();
+        let (charts, counts) = from_surface(
+            &surface,
+            bound,
+            &terms,
+            &options,
+            Symmetry::Off,
+            &Unobserved,
+        );
+        line(
+            file,
+            &format!("surface{limit}"),
+            &charts,
+            &clock,
+            counts.effort,
+        );
+        let (cut, clock) = (cut.clone(), Clock::start());
         let (charts, counts) = from_charts(&surface, cut, bound, &terms, &options, &Unobserved);
-        line(file, way, &charts, &clock, counts.effort);
+        line(
+            file,
+            &format!("charts{limit}"),
+            &charts,
+            &clock,
+            counts.effort,
+        );
     }
 }
 

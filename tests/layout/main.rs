@@ -2,7 +2,6 @@
 mod atlas;
 mod charts;
 mod constraints;
-mod creases;
 #[path = "../support/disks.rs"]
 #[allow(dead_code)]
 mod disks;
@@ -18,6 +17,7 @@ mod not_given_back;
 mod optima;
 mod own_axes;
 mod pages;
+mod panels;
 #[path = "../places.rs"]
 #[allow(dead_code)]
 mod places;

@@ -4,9 +4,9 @@ use crate::zoo::{self, Mesh};
 use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
 use unwrapd_layout::charts::{
-    Bound, Bounded, Cut, Folds, MappedChart, Unobserved, charts, map_chart, seam_length,
+    Bound, Bounded, Cut, Folds, MappedChart, Symmetry, Unobserved, charts, map_chart, seam_length,
 };
-use unwrapd_layout::search::{Effort, Terms, from_charts, from_pieces};
+use unwrapd_layout::search::{Effort, Terms, from_charts, from_surface};
 use unwrapd_maps::certificate::{Claims, certify};
 use unwrapd_maps::embed::Options;
 use unwrapd_maps::mesh::{Surface, canonical_order};
@@ -34,10 +34,25 @@ fn surface(mesh: &Mesh) -> Surface {
     Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh")
 }
 
-/// Charts of a mesh from pieces, checked.
+/// Terms without a limit, by which the fill of the page does not count.
+fn unbounded() -> Terms {
+    Terms {
+        fill_weight: 0.0,
+        ..Terms::default()
+    }
+}
+
+/// Charts of a mesh, checked.
 fn divided(mesh: &Mesh, mean: f64) -> Vec<MappedChart> {
     let surface = surface(mesh);
-    let (charts, _) = from_pieces(&surface, &bound(mean), &options(), &Unobserved);
+    let (charts, _) = from_surface(
+        &surface,
+        &bound(mean),
+        &unbounded(),
+        &options(),
+        Symmetry::Auto,
+        &Unobserved,
+    );
     check(&surface, &charts);
     charts
 }
@@ -335,7 +350,7 @@ fn parts_that_collide_are_not_mapped() {
     check(&surface, &found);
     assert_eq!(found.len(), 2);
     assert!(counts.collided > 0);
-    assert_eq!(counts.maps, 0);
+    assert_eq!(counts.failed, 0);
 }
 
 /// A search that may do nothing, or whose bound is spent, returns what it was given.
@@ -363,18 +378,25 @@ fn charts_stay_without_effort_and_at_the_bound() {
         );
         assert_eq!(found.len(), cut.len());
         assert_eq!(seam(&found), seam(&cut));
-        assert_eq!(counts.maps, 0);
+        assert_eq!(counts.glued + counts.reopened, 0);
     }
 }
 
 /// Pose, scale and order change numbers at the size of rounding, not the cut, although many parts of these shapes are alike.
 #[test]
 fn pose_and_order_do_not_change_the_cut() {
-    for mesh in [elbow(12, 8), beveled_box(0.1), ring(16)] {
+    for mesh in [elbow(12, 8), beveled_box(0.1)] {
         let of = |mesh: &Mesh| {
             let surface = surface(mesh);
             let surface = surface.reordered(&canonical_order(&surface));
-            let (charts, _) = from_pieces(&surface, &bound(4.1), &options(), &Unobserved);
+            let (charts, _) = from_surface(
+                &surface,
+                &bound(4.1),
+                &unbounded(),
+                &options(),
+                Symmetry::Auto,
+                &Unobserved,
+            );
             (charts.len(), seam(&charts))
         };
         let tiny = posed(&mesh, [0.0, 0.0], 1e-3);

@@ -54,60 +54,39 @@ fn tight_packing_fills_more_than_fast() {
     assert!(tight > 1.001 * fast, "{fast} {tight}");
 }
 
-/// Crosses of creased arms, each larger than the last, which lies below it.
-fn crosses(n: u32) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
-    const WIDTH: f64 = 0.2;
-    const QUADS: u32 = 6;
-    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
-    for cross in 0..n {
-        let (first, size) = (positions.len() as u32, 1.0 + f64::from(cross) / 200.0);
-        let mut place = |x: f64, y: f64, crease: u32| {
-            let z = f64::from(cross) + 0.05 * f64::from(crease % 2);
-            positions.push([size * x, size * y, z].map(|x| x as f32));
-        };
-        for quarter in 0..4 {
-            let (sin, cos) = (f64::from(quarter) * std::f64::consts::FRAC_PI_2).sin_cos();
-            for i in 0..=QUADS {
-                let along = WIDTH / 2.0 + f64::from(i) / f64::from(QUADS);
-                for across in [-WIDTH / 2.0, WIDTH / 2.0] {
-                    place(cos * along - sin * across, sin * along + cos * across, i);
-                }
-            }
-        }
-        let arm = 2 * (QUADS + 1);
-        let corner = |quarter: u32| first + quarter * arm;
-        triangles.extend([[0, 1, 2], [0, 2, 3]].map(|t: [u32; 3]| t.map(corner)));
-        triangles.extend((0..4 * QUADS).flat_map(|i| {
-            let [a, b, c, d] = [0, 1, 2, 3].map(|k| corner(i / QUADS) + 2 * (i % QUADS) + k);
-            [[a, d, b], [a, c, d]]
-        }));
-    }
-    (positions, triangles)
-}
-
 #[test]
-fn a_hundred_crosses_are_cut_until_they_fill_the_page() {
-    let (positions, triangles) = crosses(100);
-    let [whole, cut] = [1e6, 0.1].map(|seam_weight| {
-        let settings = Settings {
-            cutting: Cutting {
-                seam_weight,
-                ..Cutting::default()
-            },
-            ..Settings::default()
-        };
-        unwrap(&positions, &triangles, &settings, &Unobserved).expect("crosses")
-    });
-    assert!(cut.charts.len() > whole.charts.len());
-    let exact: Vec<[f64; 3]> = positions.iter().map(|p| p.map(f64::from)).collect();
-    let certificate = certify(&exact, &triangles, &cut.corner_uvs(), &Claims::default());
-    assert!(certificate.is_bijective(), "{certificate:?}");
-    assert!(
-        cut.scale > 1.1 * whole.scale,
-        "{} {}",
-        whole.scale,
-        cut.scale
-    );
+fn bars_and_combs_are_cut_until_they_fill_the_page() {
+    let bar: Vec<[i32; 3]> = (0..12).map(|x| [x, 0, 0]).collect();
+    let tooth = |x: i32| (0..if x % 2 == 0 { 4 } else { 1 }).map(move |z| [x, 0, z]);
+    let comb: Vec<[i32; 3]> = (0..9).flat_map(tooth).collect();
+    for cells in [bar, comb] {
+        let mesh = voxels(&cells);
+        let [whole, cut] = [1e6, 0.1].map(|seam_weight| {
+            let settings = Settings {
+                cutting: Cutting {
+                    seam_weight,
+                    ..Cutting::default()
+                },
+                ..Settings::default()
+            };
+            unwrap(&mesh.positions, &mesh.triangles, &settings, &Unobserved).expect("a mesh")
+        });
+        assert!(cut.charts.len() > whole.charts.len());
+        let exact: Vec<[f64; 3]> = mesh.positions.iter().map(|p| p.map(f64::from)).collect();
+        let certificate = certify(
+            &exact,
+            &mesh.triangles,
+            &cut.corner_uvs(),
+            &Claims::default(),
+        );
+        assert!(certificate.is_bijective(), "{certificate:?}");
+        assert!(
+            cut.scale > 1.1 * whole.scale,
+            "{} {}",
+            whole.scale,
+            cut.scale
+        );
+    }
 }
 
 #[test]

@@ -74,7 +74,7 @@ fn a_rough_sheet_stays_whole_unless_its_own_distortion_is_bounded() {
             density: Arc::new(SymmetricDirichlet),
             ..Options::default()
         };
-        charts_under_bound(&surface, &bound, 1.0, &options, Symmetry::Auto, &Unobserved)
+        charts_under_bound(&surface, &bound, &options, Symmetry::Auto, &Unobserved)
     };
     let [whole, cut] = [Bounded::Smoothed, Bounded::Surface].map(charts);
     assert_eq!(whole.len(), 1);

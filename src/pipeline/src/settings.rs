@@ -199,7 +199,7 @@ options! {
         /// large number prevents such cuts.
         pub seam_weight: f64 = 1.0, in 0..=1e6, value "W";
         /// Let `cut` auto cut both sides of a mirror plane alike. auto: where a surface is its own
-        /// mirror image, exactly or nearly. off: nowhere.
+        /// mirror image, exactly or nearly, and does not consist of panels. off: nowhere.
         pub symmetry: Symmetry = Symmetry::Auto;
     }
 }

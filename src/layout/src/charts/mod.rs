@@ -12,8 +12,7 @@
 //! shortest: where it is opened follows from its shape and, but for ties, not from the order of its vertices.
 //! With a large disk a chart of fewer faces goes that way first, and the disk is parted as that is.
 //!
-//! Before that [`Cut::Auto`] looks for components that consist mostly of planes, such as machine parts and sheet metal (`facets`):
-//! each plane is laid into the page as it is, and they are joined where a seam would cost most (`creases`).
+//! Surfaces that consist of panels, such as machine parts and sheet metal, are not cut here but by the [search](crate::search).
 //!
 //! Rough surfaces, such as noisy scans, are cut as what they are samples of (`rough`): smoothed; then the true surface is mapped.
 //!
@@ -41,7 +40,6 @@ mod bound;
 mod chart;
 mod compact;
 mod crease;
-mod creases;
 mod facets;
 mod give_back;
 mod halves;
@@ -75,8 +73,8 @@ pub use polygons::{PolygonHome, with_whole_polygons};
 pub use rough::smoothed_where_rough;
 pub use symmetry::plane::MirrorPlane;
 
-pub(crate) use bound::distortion::excess_and_area;
 pub(crate) use observer::Watching;
+pub(crate) use symmetry::search::mirror_plane;
 pub(crate) use unfold::overlaps::overlaps;
 pub(crate) use unfold::push_apart::{all_pushed_apart, pushed_apart};
 

@@ -33,18 +33,6 @@ pub(super) fn charts_alike(surface: &Surface, cut: Cut, mirror: Option<MirrorPla
     charts_glued(surface, &twin, mirror)
 }
 
-/// The charts of given regions of a surface, each opened to a disk, alike on both sides of a plane;
-/// `region` labels triangles.
-pub(super) fn charts_of_regions(
-    surface: &Surface,
-    region: &[u32],
-    n_regions: usize,
-    mirror: Option<MirrorPlane>,
-) -> Vec<Chart> {
-    let twin = opened(surface, (region, n_regions), (Branches::None, mirror));
-    charts_glued(surface, &twin, mirror)
-}
-
 /// The charts of a surface whose components are opened to disks, in several ways, at most so many: in each way closed components of
 /// genus 0 are slit between other vertices.
 pub(super) fn charts_in_ways(
@@ -99,22 +87,6 @@ fn opened_in_ways(
         twin
     };
     (0..n_ways).map(opened).collect()
-}
-
-/// The charts that a gluing leaves of some faces, which it does not glue to others.
-pub(super) fn glued_charts(
-    surface: &Surface,
-    twin: &mut [u32],
-    mirror: Option<MirrorPlane>,
-    is_wanted: impl Fn(usize) -> bool,
-) -> Vec<Chart> {
-    isolate_doubled_edges(surface, twin);
-    let mesh = (&*surface.triangles, &*surface.positions);
-    let (label, n_charts) = connected_faces(twin);
-    let sheets = Sheet::divide(mesh, twin, &label, n_charts).into_iter();
-    let wanted = sheets.filter(|sheet| is_wanted(sheet.triangles[0] as usize));
-    let charts = wanted.flat_map(|sheet| open(surface, sheet));
-    charts.map(|chart| Chart { mirror, ..chart }).collect()
 }
 
 /// The charts that a gluing leaves.

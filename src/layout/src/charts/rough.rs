@@ -5,7 +5,8 @@
 
 use std::f64::consts::TAU;
 
-use super::creases::hard_components::Divided;
+use super::facets::faces::Faces;
+use super::facets::planar::Facets;
 use super::mapped::MappedChart;
 use super::observer::Observer;
 use unwrapd_maps::embed;
@@ -16,6 +17,9 @@ use unwrapd_method::numerics::vec3::{cross, dot, norm, sub};
 const ROUGH: f64 = 0.2;
 /// The share of its canceling curvature that smoothing leaves to noise at most; of a shape it leaves a third and more.
 const LEFT: f64 = 1.0 / 6.0;
+
+/// The share of the area of a component in planes of more than one face from which on it consists of planes. Not tuned.
+const OF_PLANES: f64 = 0.6;
 
 /// The surface with its rough components smoothed; none if it has no rough one.
 ///
@@ -35,9 +39,8 @@ pub fn smoothed_where_rough(surface: &Surface) -> Option<Surface> {
         .collect();
     let component = &surface.adjacency().component;
     if is_rough.contains(&true) {
-        let is_hard = Divided::new(surface).is_hard;
-        for (&c, is_hard) in component.iter().zip(is_hard) {
-            is_rough[c as usize] &= !is_hard;
+        for (is_rough, share) in is_rough.iter_mut().zip(shares_of_planes(surface)) {
+            *is_rough &= share < OF_PLANES;
         }
     }
     let mut is_kept = vec![true; surface.positions.len()];
@@ -50,6 +53,22 @@ pub fn smoothed_where_rough(surface: &Surface) -> Option<Surface> {
         smooth.positions[v] = surface.positions[v];
     }
     is_rough.contains(&true).then_some(smooth)
+}
+
+/// Returns the share of the area of each component that lies in planes of more than one face.
+fn shares_of_planes(surface: &Surface) -> Vec<f64> {
+    let faces = Faces::of_surface(surface);
+    let facets = Facets::new(&faces);
+    let adjacency = surface.adjacency();
+    let mut areas = vec![[0.0; 2]; adjacency.n_components];
+    for (face, &area) in faces.areas.iter().enumerate() {
+        let is_in_plane = facets.n_faces[facets.of_face[face] as usize] > 1;
+        let [all, in_planes] = &mut areas[adjacency.component[face] as usize];
+        *all += area;
+        *in_planes += if is_in_plane { area } else { 0.0 };
+    }
+    let shares = areas.iter().map(|[all, in_planes]| in_planes / all);
+    shares.collect()
 }
 
 /// The curvature of a component: sums of the angle defects 2π − Σ angles of its inner vertices, in radians.

@@ -34,6 +34,8 @@ pub struct Metric<'a> {
     pub area: Vec<f64>,
     /// Area of each face, times what its excess counts.
     pub weight: Vec<f64>,
+    /// Stretch, max(σ₁, 1/σ₂), beyond which a face counts as stretched.
+    pub most_stretch: f64,
     /// Angle at each corner.
     pub angle: Vec<f64>,
     /// Cotangent of the angle at each corner of the rest shape.
@@ -42,6 +44,16 @@ pub struct Metric<'a> {
     pub rest: Vec<[[f64; 2]; 2]>,
     /// For each face its longest halfedge if it is a needle.
     pub needle: Vec<Option<u32>>,
+}
+
+/// Distortion of a mapped face.
+pub struct Distortion {
+    /// Symmetric Dirichlet energy over 4.
+    pub excess: f64,
+    /// Determinant of the Jacobian.
+    pub det: f64,
+    /// max(σ₁, 1/σ₂).
+    pub stretch: f64,
 }
 
 impl<'a> Metric<'a> {
@@ -82,6 +94,7 @@ impl<'a> Metric<'a> {
             fold: Vec::new(),
             area: Vec::with_capacity(n),
             weight: Vec::new(),
+            most_stretch: f64::INFINITY,
             angle: Vec::with_capacity(3 * n),
             cotangent: Vec::with_capacity(3 * n),
             rest: Vec::with_capacity(n),
@@ -183,9 +196,8 @@ impl<'a> Metric<'a> {
         [[0.0; 2], [d / det, -c / det], [-b / det, a / det]]
     }
 
-    /// Returns by how much the symmetric Dirichlet energy of a mapped face exceeds 4, and the determinant of its
-    /// Jacobian.
-    pub fn excess_of_face(&self, face: u32, [a, b, c]: [[f64; 2]; 3]) -> [f64; 2] {
+    /// Measures the distortion of a mapped face.
+    pub fn distortion_of_face(&self, face: u32, [a, b, c]: [[f64; 2]; 3]) -> Distortion {
         let [p, q] = self.rest[face as usize];
         let (first, last) = (minus(b, a), minus(c, a));
         let jacobian = [0, 1].map(|i| {
@@ -197,7 +209,16 @@ impl<'a> Metric<'a> {
         let [[j00, j01], [j10, j11]] = jacobian;
         let det = j00 * j11 - j01 * j10;
         let squares = j00 * j00 + j01 * j01 + j10 * j10 + j11 * j11;
-        [squares * (1.0 + 1.0 / (det * det)) - 4.0, det]
+        let larger = f64::midpoint(
+            squares,
+            (squares * squares - 4.0 * det * det).max(0.0).sqrt(),
+        )
+        .sqrt();
+        Distortion {
+            excess: squares * (1.0 + 1.0 / (det * det)) - 4.0,
+            det,
+            stretch: larger.max(larger / det),
+        }
     }
 }
 

@@ -14,15 +14,16 @@
 //!
 //! A move opens the faces of one net, or of two neighbors, in another way (`moves`):
 //!
-//! - Neighbors are *glued*: with no cut between them, which unites tubes; with the slits that both have; or at a hinge, one
-//!   stretch of their border, which makes the nets of polyhedra.
+//! - Neighbors are *glued*: with the slits that both have; without those that end at their border, which unites tubes; or at a hinge,
+//!   one stretch of their border, which makes the nets of polyhedra.
 //! - Slits of a net are *given back*, whole or by half.
 //! - While the bound is broken, nets without slits are slit.
 //!
 //! To each of these ways, slits are added while they pay (`opening`), by a prediction of the distortion that needs no map
-//! (`prediction`). Only ways that promise to pay are mapped (`net`), from the maps of the parts where these can be laid
-//! together (`laid_together`); parts that collide are not mapped. A map that flips or overlaps, and cannot be pushed apart, rejects
-//! the way. Moves wait in one queue, the one that gains most for its work first, until the effort is spent (`effort`).
+//! (`prediction`). Only ways that promise to pay are mapped (`net`), from the maps of the parts where these can be laid together
+//! (`laid_together`). Parts that collide are not mapped, and neither are those that keep their shapes. A map that flips or overlaps,
+//! and cannot be pushed apart, rejects the way. Moves wait in one queue, the one that gains most for its work first, until the effort
+//! is spent (`effort`).
 //!
 //! On panels the excess counts 16 times, in the map, the prediction and the bound (`panels`): they stay straight, and what is round
 //! beside them takes the distortion. The bound on this weighted mean is one on the plain mean as well.
@@ -30,11 +31,13 @@
 //! Lengths and whatever else decides are rounded, so that parts that are alike tie, and the order of the faces decides between them,
 //! not the rounding of their vertices ([`tied`](unwrapd_method::numerics::ties::tied)): pose, scale and digits seldom change the cut.
 //!
-//! The search starts from given charts, or from the components of the surface, each slit open (`slitting`), if these cost less; or from
-//! facets, joined while they stay nearly developable (`pieces`).
+//! Surfaces that consist of panels are divided from scratch ([`from_surface`]): from facets, joined while they stay nearly developable
+//! (`pieces`) and glued at strict prices, or from components slit open (`slitting`), whichever cost less. Others start from the charts of
+//! the cutters, or from components slit open ([`from_charts`]).
 //!
 //! Every face is in exactly one net, and every net is a disk, possibly with holes, whose map has neither flips nor overlaps.
-//! Not done here: cuts for fill, symmetry, a bound on the stretch.
+//! Not done here: cuts for fill, symmetry.
+
 mod cut_mesh;
 mod effort;
 mod laid_together;
@@ -50,7 +53,9 @@ mod sets;
 mod slitting;
 mod state;
 
-use crate::charts::{Bound, Bounded, MappedChart, Observer, excess_and_area, smoothed_where_rough};
+use crate::charts::{
+    Bound, Bounded, MappedChart, Observer, Symmetry, mirror_plane, smoothed_where_rough,
+};
 pub use effort::Effort;
 use metric::Metric;
 use net::Net;
@@ -63,12 +68,15 @@ use unwrapd_maps::measure::cost::GIVEN_PAGE;
 use unwrapd_maps::mesh::Surface;
 use unwrapd_method::solver::Control;
 
-/// Prices of the excess, one pass each, from pieces: strict ones make nets of what is flat, loose ones spend the bound. Steps
-/// of 2 instead of 4 give 4 to 7 % less seam for 1.3 times the time.
-const FROM_PIECES: [f64; 5] = [128.0, 32.0, 8.0, 2.0, 0.5];
-/// Prices of the excess from charts that are cut already. A third price of 0.5 leaves each less of the effort: seams and charts cost
+/// Prices of the excess, one pass each, from pieces: they make nets of what is flat. With two prices, 64 and 8, the sum of the costs of
+/// 11 machine parts is higher by .2, and so it is with a fourth price of 4 (`cost` in the reports of `unwrap`).
+const STRICT: [f64; 3] = [128.0, 32.0, 8.0];
+/// Prices of the excess from charts: they spend the bound. A third price of 0.5 leaves each less of the effort: seams and charts cost
 /// 5 % more on ten machine parts and game assets (`cargo bench -p unwrapd-layout --bench search`).
-const FROM_CHARTS: [f64; 2] = [8.0, 2.0];
+const LOOSE: [f64; 2] = [8.0, 2.0];
+/// Share of the area from which on a surface consists of panels, and is searched without the cutters. Of 27 machine parts and game
+/// assets the panels of 4 have .06 to .20, of one .34 and of the others .65 or more.
+const PANELED: f64 = 0.3;
 
 /// Cost that cuts alike on both sides of a mirror plane are worth. Not tuned: about a tenth of the seams.
 const SYMMETRY: f64 = 0.1;
@@ -91,38 +99,56 @@ impl Default for Terms {
     }
 }
 
-/// Divides a surface into charts that keep a bound on the mean energy, starting from pieces that are nearly developable.
+/// Divides a surface into charts that keep a bound on the mean energy, from pieces that are nearly developable or from components slit
+/// open.
 ///
-/// Returns the charts and the work that it took. The bound is exceeded only if the pieces exceed it: then nothing is glued that
-/// adds to the excess. The fill of the page does not count.
-pub fn from_pieces(
+/// Returns the charts and the work that it took. The bound is exceeded only if both starts exceed it: then nothing is glued that adds to
+/// the excess. Symmetry does not decide where the search cuts, but charts on both sides of a mirror plane are known to be images of each
+/// other where they are.
+pub fn from_surface(
     surface: &Surface,
     bound: &Bound,
+    terms: &Terms,
     options: &embed::Options,
+    symmetry: Symmetry,
     observer: &dyn Observer,
 ) -> (Vec<MappedChart>, Counts) {
-    let metric = weighted(surface);
-    let nets = Nets::new(&metric, Vec::new());
-    let terms = Terms {
-        fill_weight: 0.0,
-        ..Terms::default()
+    let mut metric = weighted(surface);
+    metric.most_stretch = bound.stretch.unwrap_or(f64::INFINITY);
+    let mut search = Search::new(&metric, bound.budget(), terms, options, observer);
+    let most = terms.effort.most;
+    search.start_from_pieces(STRICT[0]);
+    search.run(&STRICT, most / 2.0);
+    let cost = search.cost();
+    let pieces = std::mem::replace(&mut search.nets, Nets::new(&metric, Vec::new()));
+    search.counts.effort.most = f64::midpoint(search.counts.effort.spent(), most);
+    if is_slit_open_below(&mut search, cost) {
+        search.run(&LOOSE, most);
+    } else {
+        search.nets = pieces;
+        search.run(&LOOSE[1..], most);
+    }
+    let mirror = match symmetry {
+        Symmetry::Auto => mirror_plane(surface),
+        Symmetry::Off => None,
     };
-    let mut search = Search::new(nets, bound.budget(), &terms, options, observer);
-    search.start(FROM_PIECES[0]);
-    search.run(&FROM_PIECES);
-    let nets = search.nets.list.values();
-    let charts = nets.filter_map(|net| net.mapped_chart(&metric));
-    (charts.collect(), search.counts)
+    let mut charts = search.charts();
+    for map in &mut charts {
+        map.chart.mirror = mirror;
+    }
+    (charts, search.counts)
 }
 
 /// Glues charts and gives slits back as long as the charts keep a bound on the mean energy; slits charts that break it.
 ///
 /// The search starts from given charts, which hold every face of the surface once, or from its components slit open if these cost less.
-/// It takes the share of the effort that the charts leave of the bound, or that panels have of the area: bent parts without much of the
-/// bound left have little to gain. It takes all of the effort if the charts break the bound.
+/// Charts that are cut alike on both sides of a plane give way only to much cheaper ones. Where panels are so small that their share of
+/// the effort is not one map, nothing is slit: the cutters have slit such a surface open already. The search takes the share of the effort
+/// that the charts leave of the bound, or that panels have of the area: bent parts without much of the bound left have little to gain. It
+/// takes all of the effort if the charts break the bound.
 ///
-/// Returns the charts, and the work that the search took. If the given charts kept the bound, those returned cost at most as much.
-/// Charts that no move changed stay as they are; so do all if the stretch is bounded, which the search does not measure.
+/// Returns the charts, and the work that the search took. If the given charts kept the bound, so do those returned. Charts that no move
+/// changed stay as they are; so do all if the stretch is bounded.
 pub fn from_charts(
     surface: &Surface,
     charts: Vec<MappedChart>,
@@ -135,25 +161,29 @@ pub fn from_charts(
         return (charts, Counts::new(terms.effort.share(0.0)));
     }
     let metric = weighted(surface);
+    let mut search = Search::new(&metric, bound.budget(), terms, options, observer);
+    search.nets = nets_of(&metric, &charts);
+    let mut charts = charts;
     let is_measured = !is_of_smoothed(bound, surface);
-    let slit = is_measured.then(|| slit_open(&metric, &charts, bound, terms, options, observer));
-    let (charts, effort) = slit.flatten().unwrap_or((charts, terms.effort));
-    let nets = charts.iter().map(|chart| Net::of_chart(&metric, chart));
-    let nets = Nets::new(&metric, nets.collect());
-    let unspent = 1.0 - nets.excess() / bound.budget().max(f64::MIN_POSITIVE);
-    let share = if is_measured && is_broken(&charts, bound) {
-        1.0
-    } else {
-        unspent.max(share_of_panels(&metric))
-    };
-    let effort = effort.share(share);
+    let panels = share_of_panels(&metric);
+    if is_measured && terms.effort.share(panels).most >= metric.corners.len() as f64 {
+        let [beyond, cost] = search.cost_unweighted();
+        let bonus = if is_symmetric(&charts) { SYMMETRY } else { 0.0 };
+        if is_slit_open_below(&mut search, [beyond, cost - bonus]) {
+            charts = search.charts();
+        }
+        search.nets = nets_of(&metric, &charts);
+    }
+    let unspent = 1.0 - search.nets.excess() / bound.budget().max(f64::MIN_POSITIVE);
+    let is_broken = is_measured && search.cost_unweighted()[0] > 0.0;
+    let share = if is_broken { 1.0 } else { unspent.max(panels) };
+    let effort = search.counts.effort.left().share(share);
     let smallest = charts.iter().map(|map| map.chart.corners.len()).min();
     if smallest.is_none_or(|faces| effort.most < faces as f64) {
-        return (charts, Counts::new(effort));
+        return (charts, search.counts);
     }
-    let terms = Terms { effort, ..*terms };
-    let mut search = Search::new(nets, bound.budget(), &terms, options, observer);
-    search.run(&FROM_CHARTS);
+    let spent = search.counts.effort.spent();
+    search.run(&LOOSE, spent + effort.most);
     // Nets are numbered in the order of the charts; changed ones have later numbers.
     let found = search.nets.list.iter();
     let found = found.filter_map(|(&number, net)| match charts.get(number as usize) {
@@ -163,38 +193,23 @@ pub fn from_charts(
     (found.collect(), search.counts)
 }
 
-/// Slits the components of a surface open until they keep a bound on the mean energy.
-///
-/// Returns the charts, and the effort that is left, if they [cost](unwrapd_maps::measure::cost) less than `rival`, other charts of the surface,
-/// or only they keep the bound. Charts that are cut alike on both sides of a plane give way only to much cheaper ones. Where panels are
-/// so small that their share of the effort is not one map, nothing is tried: the cutters have slit such a surface open already.
-fn slit_open(
-    metric: &Metric,
-    rival: &[MappedChart],
-    bound: &Bound,
-    terms: &Terms,
-    options: &embed::Options,
-    observer: &dyn Observer,
-) -> Option<(Vec<MappedChart>, Effort)> {
-    if terms.effort.share(share_of_panels(metric)).most < metric.corners.len() as f64 {
-        return None;
-    }
-    let nets = rival.iter().map(|chart| Net::of_chart(metric, chart));
-    let nets = Nets::new(metric, nets.collect());
-    let most = if is_broken(rival, bound) {
-        f64::INFINITY
-    } else if is_symmetric(rival) {
-        nets.cost(terms.fill_weight) - SYMMETRY
-    } else {
-        nets.cost(terms.fill_weight)
-    };
-    let nets = Nets::new(metric, Vec::new());
-    let mut search = Search::new(nets, bound.budget(), terms, options, observer);
-    search.start_from_components(most)?;
-    let charts = search.nets.list.values();
-    let charts: Vec<MappedChart> = charts.filter_map(|net| net.mapped_chart(metric)).collect();
-    let is_better = search.nets.cost(terms.fill_weight) < most && !is_broken(&charts, bound);
-    is_better.then(|| (charts, search.counts.effort.left()))
+/// Slits the components of the surface open; returns whether these nets cost less than some others, compared as by [`Search::cost`].
+/// Otherwise the nets are undefined.
+fn is_slit_open_below(search: &mut Search, others: [f64; 2]) -> bool {
+    let [beyond, cost] = others;
+    let most = if beyond > 0.0 { f64::INFINITY } else { cost };
+    search.start_from_components(most).is_some() && search.cost_unweighted() < others
+}
+
+/// Returns charts as nets.
+fn nets_of<'a>(metric: &'a Metric<'a>, charts: &[MappedChart]) -> Nets<'a> {
+    let nets = charts.iter().map(|chart| Net::of_chart(metric, chart));
+    Nets::new(metric, nets.collect())
+}
+
+/// Returns whether a surface consists of panels, which [`from_surface`] keeps straight and no cutter does.
+pub fn is_paneled(surface: &Surface, bound: &Bound) -> bool {
+    !is_of_smoothed(bound, surface) && share_of_panels(&weighted(surface)) >= PANELED
 }
 
 /// Returns the share of the area that lies on panels.
@@ -220,16 +235,6 @@ fn is_symmetric(charts: &[MappedChart]) -> bool {
 /// Returns whether a bound is on the surface that a rough one is a sample of, whose distortion the search does not measure.
 fn is_of_smoothed(bound: &Bound, surface: &Surface) -> bool {
     bound.of == Bounded::Smoothed && smoothed_where_rough(surface).is_some()
-}
-
-/// Returns whether the mean energy of charts exceeds a bound.
-fn is_broken(charts: &[MappedChart], bound: &Bound) -> bool {
-    let mut sum = [0.0; 2];
-    for chart in charts {
-        let [excess, area] = excess_and_area(chart, &chart.rest_shapes());
-        sum = [sum[0] + excess, sum[1] + area];
-    }
-    sum[0] > (bound.mean - 4.0) * sum[1]
 }
 
 /// Measures a surface; the excess on its panels counts [several times](PANEL_FACTOR).

@@ -3,8 +3,9 @@
 use super::cut_mesh::CutMesh;
 use super::net::Net;
 use super::opening::{GAIN, MAPPED, Ways};
-use super::sets::{branching, chains, difference, halves, union};
+use super::sets::{chains, difference, halves, unbranched, union};
 use super::state::Search;
+use crate::charts::Bound;
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap};
 use unwrapd_maps::measure::cost::PER_CHART;
@@ -137,16 +138,20 @@ impl Search<'_> {
         !self.nets.list[&net].slits.is_empty() || self.is_broken()
     }
 
-    /// Creates a move. Its gain is an upper bound: faces have neither slits nor distortion at best.
+    /// Creates a move, with the gain that may be expected of it at best: one net has neither slits nor distortion, and two save their
+    /// border and one chart. Two that save slits as well wait longer than they should.
     fn proposed(&self, nets: Vec<u32>, lambda: f64) -> Move {
-        let contact = match nets[..] {
-            [a, b] => self.nets.metric.length_of(&self.nets.contact(a, b)),
-            _ => 0.0,
+        let (contact, most) = match nets[..] {
+            [a, b] => {
+                let contact = self.nets.metric.length_of(&self.nets.contact(a, b));
+                (contact, contact + PER_CHART)
+            }
+            _ => (0.0, self.price_of(&nets, 0.0, lambda)),
         };
         let each = nets.iter().map(|net| &self.nets.list[net]);
         let faces = each.fold(Vec::new(), |faces, net| union(&faces, &net.faces));
         Move {
-            gain: self.price_of(&nets, contact, lambda) / faces.len() as f64,
+            gain: most / faces.len() as f64,
             nets,
             faces,
             contact,
@@ -207,31 +212,33 @@ impl Search<'_> {
         self.push_moves(number, 0, lambda, heap);
     }
 
-    /// Returns whether the bound is kept if a net replaces others; counts refusals.
+    /// Returns whether the bound is kept if a net replaces others, or what is beyond it does not grow; counts refusals.
     fn keeps_bound(&mut self, nets: &[u32], by: &Net) -> bool {
-        let replaced: f64 = nets.iter().map(|net| self.nets.list[net].excess).sum();
-        let is_kept =
-            by.excess <= replaced || self.nets.excess() - replaced + by.excess <= self.budget;
+        let is_kept_of = |of: fn(&Net) -> f64, all: f64, most: f64| {
+            let replaced: f64 = nets.iter().map(|net| of(&self.nets.list[net])).sum();
+            of(by) <= replaced || all - replaced + of(by) <= most
+        };
+        let stretched = Bound::stretched_budget();
+        let is_kept = is_kept_of(|net| net.excess, self.nets.excess(), self.budget)
+            && is_kept_of(|net| net.unweighted, self.nets.unweighted(), self.budget)
+            && is_kept_of(|net| net.stretched, self.nets.stretched(), stretched);
         self.counts.refused += usize::from(!is_kept);
         is_kept
     }
 
-    /// Returns the slits to start from. For one net: none, and its own without one of them or half of it. For two: none, those of
-    /// both, and those with all of the contact but one stretch of it, a hinge.
+    /// Returns the slits to start from. For one net: none, and its own without one of them or half of it. For two: those of both, those
+    /// that do not end at the contact, and those of both with all of the contact but one stretch of it, a hinge.
     fn starts(&self, it: &Move) -> Vec<Vec<u32>> {
-        let mut starts = vec![Vec::new()];
         match it.nets[..] {
-            [a, b] => starts.extend(self.starts_of_union([a, b], &it.faces)),
-            _ => starts.extend(self.starts_of_net(it.nets[0])),
+            [a, b] => self.starts_of_union([a, b], &it.faces),
+            _ => self.starts_of_net(it.nets[0]),
         }
-        starts
     }
 
     fn starts_of_net(&self, net: u32) -> Vec<Vec<u32>> {
         let (metric, slits) = (self.nets.metric, &self.nets.list[&net].slits);
-        let breaks = branching(metric, slits);
-        let mut starts = Vec::new();
-        for chain in chains(metric, slits, |v| breaks.binary_search(&v).is_ok()) {
+        let mut starts = vec![Vec::new()];
+        for chain in unbranched(metric, slits) {
             starts.push(difference(slits, &chain));
             let halves = halves(metric, &chain).into_iter().flatten();
             starts.extend(halves.map(|half| difference(slits, &half)));
@@ -251,7 +258,15 @@ impl Search<'_> {
             .map(|v| mesh.welded[v])
             .collect();
         let mut stretches = chains(metric, &contact, |v| sharp.contains(&v));
-        let mut starts = vec![carried.clone()];
+        let ends = contact.iter().flat_map(|&edge| metric.ends_of_edge(edge));
+        let at_contact: BTreeSet<u32> = ends.collect();
+        let ends_there = |chain: &Vec<u32>| {
+            let mut ends = chain.iter().flat_map(|&edge| metric.ends_of_edge(edge));
+            ends.any(|v| at_contact.contains(&v))
+        };
+        let away = unbranched(metric, &carried).into_iter().filter(ends_there);
+        let away = away.fold(carried.clone(), |away, chain| difference(&away, &chain));
+        let mut starts = vec![carried.clone(), away];
         if stretches.len() > 1 {
             stretches.sort_by(|a, b| metric.length_of(b).total_cmp(&metric.length_of(a)));
             starts.extend(stretches.iter().take(HINGES).map(|hinge| {

@@ -24,11 +24,16 @@ pub struct Net {
     pub length: f64,
     /// Sum of the excess over 4 times the weight of each face.
     pub excess: f64,
+    /// The same by the area of each face, not its weight: what the bound is on.
+    pub unweighted: f64,
+    /// Area of the faces that are [stretched](Metric::most_stretch).
+    pub stretched: f64,
     /// Area of the smallest square around the map.
     pub page: f64,
     /// Corners of each face in the plane.
     pub uv: Vec<[[f64; 2]; 3]>,
-    summary: Summary,
+    /// Summary of the minimizations that made the map.
+    pub summary: Summary,
     /// Seconds of the observer's clock that its map took.
     pub seconds: f64,
 }
@@ -46,8 +51,11 @@ impl Net {
         uv: Vec<[[f64; 2]; 3]>,
         summary: Summary,
     ) -> Self {
+        let [excess, unweighted, stretched] = distortion(metric, &faces, &uv);
         Self {
-            excess: excess(metric, &faces, &uv),
+            excess,
+            unweighted,
+            stretched,
             length: metric.length_of(&slits),
             page: tied(page(&uv)),
             summary,
@@ -80,14 +88,14 @@ impl Net {
             observer,
         };
         let embedding = embed::parameterize(&chart.disk, &chart.positions, options, &watching);
-        Self::checked(metric, opening, chart, &embedding, options, observer)
+        Self::checked(metric, opening, &chart, &embedding, options, observer)
     }
 
     /// Creates the net of a map if it has no flips, and no overlaps but such that can be pushed apart.
     pub fn checked(
         metric: &Metric,
         opening: &Opening,
-        chart: Chart,
+        chart: &Chart,
         embedding: &Embedding,
         options: &embed::Options,
         observer: &dyn Observer,
@@ -95,31 +103,31 @@ impl Net {
         if !embed::is_positive(&chart.disk.triangles, &embedding.uv) {
             return None;
         }
-        let watching = Watching {
-            chart: &chart,
-            observer,
-        };
+        let watching = Watching { chart, observer };
         let pairs = overlaps(&chart.disk, &embedding.uv);
-        let uv = all_pushed_apart(&chart, &embedding.uv, &pairs, options, &watching)?;
-        let faces = chart.corners.iter().map(|corners| corners[0] / 3).collect();
-        let map = MappedChart {
+        let uv = all_pushed_apart(chart, &embedding.uv, &pairs, options, &watching)?;
+        let slits = opening.slits.clone();
+        Some(Self::of_places(
+            metric,
             chart,
-            embedding: Embedding {
-                uv,
-                summary: embedding.summary,
-            },
-            seconds: 0.0,
-        };
-        Some(Self::of_map(metric, faces, opening.slits.clone(), &map))
+            &uv,
+            slits,
+            embedding.summary,
+        ))
     }
 
-    /// Creates the net of a map whose faces are those of the chart, in ascending order.
-    fn of_map(metric: &Metric, faces: Vec<u32>, slits: Vec<u32>, map: &MappedChart) -> Self {
-        let place = |v: u32| map.embedding.uv[v as usize].map(|x| x / metric.unit);
-        let uv: Vec<[[f64; 2]; 3]> = (map.chart.disk.triangles.iter())
-            .map(|triangle| triangle.map(place))
-            .collect();
-        Self::new(metric, faces, slits, uv, map.embedding.summary)
+    /// Creates the net of a chart, whose faces are in ascending order, from the places of its vertices.
+    pub fn of_places(
+        metric: &Metric,
+        chart: &Chart,
+        uv: &[[f64; 2]],
+        slits: Vec<u32>,
+        summary: Summary,
+    ) -> Self {
+        let faces = chart.corners.iter().map(|corners| corners[0] / 3).collect();
+        let place = |v: u32| uv[v as usize].map(|x| x / metric.unit);
+        let uv = (chart.disk.triangles.iter()).map(|triangle| triangle.map(place));
+        Self::new(metric, faces, slits, uv.collect(), summary)
     }
 
     /// Creates the net of a chart as it is mapped.
@@ -222,17 +230,24 @@ fn own_corner(metric: &Metric, corner: u32) -> usize {
     }
 }
 
-fn excess(metric: &Metric, faces: &[u32], uv: &[[[f64; 2]; 3]]) -> f64 {
-    let of_face = |(&face, corners): (&u32, &[[f64; 2]; 3])| {
-        let [excess, det] = metric.excess_of_face(face, *corners);
-        let excess = if det > 0.0 {
-            excess.clamp(0.0, LARGEST)
-        } else {
+/// Returns the excess of mapped faces by weight and by area, and the area of those that are stretched.
+fn distortion(metric: &Metric, faces: &[u32], uv: &[[[f64; 2]; 3]]) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for (&face, corners) in faces.iter().zip(uv) {
+        let distortion = metric.distortion_of_face(face, *corners);
+        let is_flipped = distortion.det <= 0.0;
+        let excess = if is_flipped {
             LARGEST
+        } else {
+            distortion.excess.clamp(0.0, LARGEST)
         };
-        metric.weight[face as usize] * excess
-    };
-    faces.iter().zip(uv).map(of_face).sum()
+        sum[0] += metric.weight[face as usize] * excess;
+        sum[1] += metric.area[face as usize] * excess;
+        if is_flipped || distortion.stretch > metric.most_stretch {
+            sum[2] += metric.area[face as usize];
+        }
+    }
+    sum
 }
 
 /// Returns the edges between faces whose corners differ there: places of a map, or vertices of a chart.

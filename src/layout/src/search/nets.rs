@@ -45,6 +45,16 @@ impl<'a> Nets<'a> {
         number
     }
 
+    /// Replaces the nets by an earlier state of theirs.
+    pub fn restore(&mut self, list: BTreeMap<u32, Net>) {
+        for (&number, net) in &list {
+            for &face in &net.faces {
+                self.label[face as usize] = number;
+            }
+        }
+        self.list = list;
+    }
+
     /// Returns the edges between two nets, in ascending order.
     pub fn contact(&self, a: u32, b: u32) -> Vec<u32> {
         let (a, b) = if self.list[&a].faces.len() <= self.list[&b].faces.len() {
@@ -80,6 +90,16 @@ impl<'a> Nets<'a> {
         self.list.values().map(|net| net.excess).sum()
     }
 
+    /// Returns the total excess by area, not weight.
+    pub fn unweighted(&self) -> f64 {
+        self.list.values().map(|net| net.unweighted).sum()
+    }
+
+    /// Returns the area that is stretched.
+    pub fn stretched(&self) -> f64 {
+        self.list.values().map(|net| net.stretched).sum()
+    }
+
     /// Estimates the share of a square page that nets of total area 1 fill: the usual share, or less if one long net sets the
     /// scale.
     pub fn fill<'n>(nets: impl Iterator<Item = &'n Net>) -> f64 {
@@ -92,14 +112,14 @@ impl<'a> Nets<'a> {
         self.seam_and_charts().ln() - fill_weight * Self::fill(self.list.values())
     }
 
-    /// Returns the cost where no net is so long that it sets the scale.
-    pub fn least_cost(&self, fill_weight: f64) -> f64 {
-        self.seam_and_charts().ln() - fill_weight * USUAL_FILL
+    /// Returns the cost of nets of which none is so long that it sets the scale, by the length of their seams and their number.
+    pub fn least_cost(seam: f64, n: usize, fill_weight: f64) -> f64 {
+        seam_and_charts(seam, n).ln() - fill_weight * USUAL_FILL
     }
 
     /// Returns ½ + S + n/10.
     pub fn seam_and_charts(&self) -> f64 {
-        FIRST_SEAM + self.seam() + PER_CHART * self.list.len() as f64
+        seam_and_charts(self.seam(), self.list.len())
     }
 
     /// Returns the length of the borders between nets and of their slits.
@@ -114,4 +134,8 @@ impl<'a> Nets<'a> {
         let slits = self.list.values().map(|net| net.length);
         borders.sum::<f64>() + slits.sum::<f64>()
     }
+}
+
+fn seam_and_charts(seam: f64, n: usize) -> f64 {
+    FIRST_SEAM + seam + PER_CHART * n as f64
 }

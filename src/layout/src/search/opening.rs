@@ -3,7 +3,7 @@
 use super::cut_mesh::CutMesh;
 use super::effort::Effort;
 use super::metric::Metric;
-use super::prediction::{Grounded, Prediction};
+use super::prediction::{Grounded, Prediction, is_saddle};
 use super::sets::union;
 use std::collections::BTreeSet;
 use unwrapd_maps::cut::Neighbors;
@@ -132,7 +132,7 @@ fn opened_further(
                 continue;
             }
             effort.predicted_faces += faces.len();
-            let trial = prediction.grounded(path.iter().flat_map(|&h| mesh.sheet.ends(h)));
+            let trial = prediction.grounded(&relieved(&mesh, &path));
             let slit = price(added, trial.excess, lambda);
             if slit < cost - GAIN {
                 cost = slit;
@@ -149,6 +149,16 @@ fn opened_further(
         slits = union(&slits, &edges);
         prediction.accept(grounded);
     }
+}
+
+/// Returns the vertices of a path that a slit along it relieves: not a saddle at its end.
+fn relieved(mesh: &CutMesh, path: &[u32]) -> Vec<u32> {
+    let mut vertices: Vec<u32> = path.iter().flat_map(|&h| mesh.sheet.ends(h)).collect();
+    vertices.sort_unstable();
+    (vertices.chunk_by(|a, b| a == b))
+        .filter(|of| of.len() > 1 || !is_saddle(mesh, of[0] as usize))
+        .map(|of| of[0])
+        .collect()
 }
 
 /// Returns a path on a closed surface from the vertex of largest defect to the one farthest from it.

@@ -6,6 +6,7 @@ use super::opening::Ways;
 use super::state::Search;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
+use unwrapd_maps::measure::cost::PER_CHART;
 use unwrapd_maps::mesh::{CUT, UnionFind};
 
 /// Fold of an edge, in radians, below which its faces lie in one facet.
@@ -197,6 +198,18 @@ impl<'a> Pieces<'a> {
         inside.map(|v| self.defect[v as usize]).sum()
     }
 
+    /// Returns the length of the border between two pieces, which may be joined.
+    fn border(&self, [a, b]: [u32; 2]) -> f64 {
+        let [a, b] = [a, b].map(|piece| &self.list[piece as usize].faces);
+        let halfedges = a.iter().flat_map(|&face| 3 * face..3 * face + 3);
+        let edges = halfedges.filter(|&h| {
+            let t = self.metric.twin[h as usize];
+            t != CUT && b.binary_search(&(t / 3)).is_ok()
+        });
+        let lengths = edges.map(|h| self.metric.length[self.metric.edge[h as usize] as usize]);
+        lengths.sum()
+    }
+
     /// Replaces two pieces by their union and returns its number.
     fn joined(&mut self, [a, b]: [u32; 2], perimeter: f64, bent: f64) -> u32 {
         let number = self.list.len() as u32;
@@ -235,8 +248,9 @@ impl<'a> Pieces<'a> {
 }
 
 impl Search<'_> {
-    /// Starts from pieces that are nearly developable; one that has no map falls into those that it was joined from.
-    pub fn start(&mut self, lambda: f64) {
+    /// Starts from pieces that are nearly developable. One falls into those that it was joined from if it has no map, or if its slits and
+    /// excess cost more than the border between them.
+    pub fn start_from_pieces(&mut self, lambda: f64) {
         let mut pieces = Pieces::of_facets(self.nets.metric);
         pieces.join(DEVELOPABLE, |_| true);
         let mut pending: Vec<u32> = (0..pieces.list.len() as u32)
@@ -245,7 +259,14 @@ impl Search<'_> {
             .collect();
         while let Some(number) = pending.pop() {
             let piece = &pieces.list[number as usize];
-            match (self.opened(&piece.faces, lambda), piece.joined_from) {
+            let border = piece
+                .joined_from
+                .map_or(f64::INFINITY, |parts| pieces.border(parts) + PER_CHART);
+            let net = self.opened(&piece.faces, lambda);
+            match (
+                net.filter(|net| net.price(lambda) <= border),
+                piece.joined_from,
+            ) {
                 (Some(net), _) => {
                     self.nets.add(net);
                 }

@@ -27,8 +27,14 @@ pub fn chains(metric: &Metric, edges: &[u32], is_break: impl Fn(u32) -> bool) ->
     groups
 }
 
-/// Returns the vertices at which other than two of some edges meet.
-pub fn branching(metric: &Metric, edges: &[u32]) -> Vec<u32> {
+/// Divides edges, given in ascending order, into chains between the vertices at which more than two of them meet.
+pub fn unbranched(metric: &Metric, edges: &[u32]) -> Vec<Vec<u32>> {
+    let breaks = branching(metric, edges);
+    chains(metric, edges, |v| breaks.binary_search(&v).is_ok())
+}
+
+/// Returns the vertices at which more than two of some edges meet.
+fn branching(metric: &Metric, edges: &[u32]) -> Vec<u32> {
     let mut ends: Vec<u32> = (edges.iter())
         .flat_map(|&edge| metric.ends_of_edge(edge))
         .collect();

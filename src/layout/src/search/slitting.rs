@@ -98,7 +98,7 @@ impl<'a> Slitting<'a> {
         for path in paths(self.mesh, &self.neighbors, &self.prediction) {
             effort.predicted_faces += self.mesh.faces.len();
             let ends = path.iter().flat_map(|&h| self.mesh.sheet.ends(h));
-            let grounded = self.prediction.grounded(ends);
+            let grounded = self.prediction.grounded(&ends.collect::<Vec<u32>>());
             let edges = self.mesh.edges(&path);
             let excess = grounded.excess;
             let rate = tied((before - excess).max(0.0) / self.mesh.metric.length_of(&edges));
@@ -141,66 +141,63 @@ impl Search<'_> {
     /// Starts from the components of the surface; returns `None` if one of them has no map, or the slits alone cost `most`.
     pub fn start_from_components(&mut self, most: f64) -> Option<()> {
         let metric = self.nets.metric;
-        let components: Vec<(Vec<u32>, Vec<u32>)> = components(metric)
-            .into_iter()
-            .map(|faces| {
-                let slits = self.opening(&faces)?;
-                Some((faces, slits))
+        let components = components(metric);
+        let ways: Vec<Vec<Vec<u32>>> = (components.iter())
+            .map(|faces| ways_to_open(metric, faces))
+            .collect();
+        let meshes: Vec<Vec<CutMesh>> = (components.iter().zip(&ways))
+            .map(|(faces, ways)| {
+                (ways.iter().map(|slits| CutMesh::new(metric, faces, slits))).collect()
             })
-            .collect::<Option<_>>()?;
-        let meshes = (components.iter()).map(|(faces, slits)| CutMesh::new(metric, faces, slits));
-        let meshes: Vec<CutMesh> = meshes.collect();
-        let slittings = meshes.iter().zip(&components);
-        let mut slittings: Vec<Slitting> = slittings
-            .map(|(mesh, (_, slits))| Slitting::new(mesh, slits))
-            .collect::<Option<_>>()?;
-        self.slit_under_bound(&mut slittings)?;
-        let maps = slittings.into_iter().filter_map(|slitting| slitting.map);
-        let maps: Vec<MappedChart> = maps.map(|mapped| mapped.map).collect();
-        let nets = maps.iter().map(|map| Net::of_chart(metric, map));
-        self.nets = Nets::new(metric, nets.collect());
-        if self.nets.least_cost(self.fill_weight) >= most {
-            return None;
+            .collect();
+        let mut slittings = Vec::new();
+        for (meshes, ways) in meshes.iter().zip(&ways) {
+            let ways = meshes.iter().zip(ways);
+            let ways = ways.filter_map(|(mesh, slits)| Slitting::new(mesh, slits));
+            slittings.push(self.shortest(ways.collect())?);
         }
-        let nets = maps.into_iter().flat_map(|map| self.parted(map));
+        self.slit_under_bound(&mut slittings, most)?;
+        let maps = slittings.into_iter().filter_map(|slitting| slitting.map);
+        let nets = maps.flat_map(|mapped| self.parted(mapped.map));
         self.nets = Nets::new(metric, nets.collect());
         Some(())
     }
 
-    /// Returns the slits that open a component to a disk: of several ways, if it is closed, the one that promises to keep the bound with
-    /// the shortest slits.
+    /// Returns the way to open a component to a disk that promises to keep the bound with the shortest slits; `None` if there is none.
     ///
-    /// The best has the least length of slits times the excess that they leave: longer slits are not worse if they leave less.
-    fn opening(&mut self, faces: &[u32]) -> Option<Vec<u32>> {
-        let metric = self.nets.metric;
-        let mut ways = ways_to_open(metric, faces);
+    /// It has the least length of slits times the excess that they leave: longer slits are not worse if they leave less.
+    fn shortest<'a>(&mut self, mut ways: Vec<Slitting<'a>>) -> Option<Slitting<'a>> {
         if ways.len() < 2 {
             return ways.pop();
         }
-        let weight: f64 = faces.iter().map(|&face| metric.weight[face as usize]).sum();
+        let metric = self.nets.metric;
+        let faces = ways[0].mesh.faces.iter();
+        let weight: f64 = faces.map(|&face| metric.weight[face as usize]).sum();
         let budget = self.budget * weight / metric.weight.iter().sum::<f64>();
-        let mut best: Option<(f64, Vec<u32>)> = None;
-        for slits in ways {
-            let mesh = CutMesh::new(metric, faces, &slits);
-            let Some(slitting) = Slitting::new(&mesh, &slits) else {
-                continue;
-            };
+        let mut best: Option<(f64, Slitting)> = None;
+        for slitting in ways {
             let mut slitting = [slitting];
             self.slit_until(&mut slitting, budget);
             let [slitting] = slitting;
             let price = tied(metric.length_of(&slitting.slits()) * slitting.excess());
             if best.as_ref().is_none_or(|(least, _)| price < *least) {
-                best = Some((price, slits));
+                best = Some((price, slitting));
             }
         }
-        best.map(|(_, slits)| slits)
+        best.map(|(_, slitting)| slitting)
     }
 
-    /// Slits components until their maps keep the bound, as far as slits help.
-    fn slit_under_bound(&mut self, slittings: &mut [Slitting]) -> Option<()> {
+    /// Slits components until their maps keep the bound, as far as slits help; returns `None` if that costs `most`.
+    fn slit_under_bound(&mut self, slittings: &mut [Slitting], most: f64) -> Option<()> {
         let mut wanted = self.budget;
         for round in 0..MOST_ROUNDS {
             self.slit_until(slittings, wanted);
+            let slits = slittings
+                .iter()
+                .map(|it| self.nets.metric.length_of(&it.slits()));
+            if Nets::least_cost(slits.sum(), slittings.len(), self.fill_weight) >= most {
+                return None;
+            }
             self.map_all(slittings)?;
             let excess = excess_of(slittings);
             if excess <= self.budget || self.must_end() {

@@ -2,12 +2,13 @@
 
 use super::Terms;
 use super::effort::Effort;
-use super::laid_together::Start;
+use super::laid_together::Laid;
+use super::metric::Metric;
 use super::net::Net;
 use super::nets::Nets;
 use super::opening::Opening;
 use super::sets::union;
-use crate::charts::Observer;
+use crate::charts::{Bound, MappedChart, Observer};
 use std::collections::HashMap;
 use unwrapd_maps::embed;
 use unwrapd_method::solver::Control;
@@ -72,16 +73,16 @@ impl Counts {
 }
 
 impl<'a> Search<'a> {
-    /// Creates a search that starts from some nets; `budget` is the mean excess that is allowed.
+    /// Creates a search without nets; `budget` is the mean excess that is allowed.
     pub fn new(
-        nets: Nets<'a>,
+        metric: &'a Metric<'a>,
         budget: f64,
         terms: &Terms,
         options: &'a embed::Options,
         observer: &'a dyn Observer,
     ) -> Self {
         Self {
-            nets,
+            nets: Nets::new(metric, Vec::new()),
             budget,
             fill_weight: terms.fill_weight,
             most: terms.effort.most,
@@ -93,14 +94,15 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Makes the moves at falling prices of the excess, and keeps the cheapest of the states after each. Each price may take an
-    /// equal part of the effort, and what the earlier ones left; it ends when no move pays for [`PATIENCE`] of the effort.
-    pub fn run(&mut self, prices: &[f64]) {
+    /// Makes the moves at falling prices of the excess, and keeps the cheapest of the states after each. Each price may take an equal
+    /// part of the effort up to `most`, and what the earlier ones left; it ends when no move pays for [`PATIENCE`] of the effort.
+    pub fn run(&mut self, prices: &[f64], most: f64) {
         let mut cheapest = (self.cost(), self.nets.list.clone());
-        let most = self.counts.effort.most;
-        self.patience = PATIENCE * most;
+        let begin = self.counts.effort.spent();
+        let left = most - begin;
+        self.patience = PATIENCE * left;
         for (k, &lambda) in (1..).zip(prices) {
-            self.most = most * f64::from(k) / prices.len() as f64;
+            self.most = begin + left * f64::from(k) / prices.len() as f64;
             self.go_on();
             self.make_moves(lambda);
             let cost = self.cost();
@@ -108,7 +110,8 @@ impl<'a> Search<'a> {
                 cheapest = (cost, self.nets.list.clone());
             }
         }
-        self.nets.list = cheapest.1;
+        self.nets.restore(cheapest.1);
+        self.counts.effort.most = most;
     }
 
     /// Allows further effort, as a move has just paid.
@@ -117,15 +120,34 @@ impl<'a> Search<'a> {
         effort.most = (effort.spent() + self.patience).min(self.most);
     }
 
-    /// Returns whether the nets have more excess than they may have.
-    pub fn is_broken(&self) -> bool {
-        self.nets.excess() > self.budget
+    /// Returns the nets as charts.
+    pub fn charts(&self) -> Vec<MappedChart> {
+        let nets = self.nets.list.values();
+        nets.filter_map(|net| net.mapped_chart(self.nets.metric))
+            .collect()
     }
 
-    /// Returns the excess beyond the bound, and the [cost](unwrapd_maps::measure::cost) of the nets on a square page. States are
+    /// Returns whether the nets have more excess than they may have, or more of them is stretched.
+    pub fn is_broken(&self) -> bool {
+        self.beyond(self.nets.excess()) > 0.0
+    }
+
+    /// Returns an excess beyond the bound, and the area beyond that which may be stretched.
+    fn beyond(&self, excess: f64) -> f64 {
+        let stretched = self.nets.stretched() - Bound::stretched_budget();
+        (excess - self.budget).max(0.0) + stretched.max(0.0)
+    }
+
+    /// Returns by how much the nets are beyond the bound, and their [cost](unwrapd_maps::measure::cost) on a square page. States are
     /// compared by the first, then by the second.
     pub fn cost(&self) -> [f64; 2] {
-        let beyond = (self.nets.excess() - self.budget).max(0.0);
+        let beyond = self.beyond(self.nets.excess());
+        [beyond, self.nets.cost(self.fill_weight)]
+    }
+
+    /// Like [`Self::cost`], where panels count no more than other parts: nets that keep the bound itself are not beyond it.
+    pub fn cost_unweighted(&self) -> [f64; 2] {
+        let beyond = self.beyond(self.nets.unweighted());
         [beyond, self.nets.cost(self.fill_weight)]
     }
 
@@ -153,16 +175,24 @@ impl<'a> Search<'a> {
         self.known_or(faces, opening, map)
     }
 
-    /// Maps an opening of the union of two nets, or returns what is known of it. Nets that collide count as a prediction.
+    /// Maps an opening of the union of two nets, or returns what is known of it. Nets that collide, or that need no map, count as a
+    /// prediction.
     pub fn map_union(&mut self, nets: [u32; 2], opening: &Opening) -> Option<Net> {
         let [a, b] = nets.map(|net| &self.nets.list[&net]);
         let (metric, options, observer) = (self.nets.metric, self.options, self.observer);
         let faces = union(&a.faces, &b.faces);
         let contact = self.nets.contact(nets[0], nets[1]);
-        let Some(start) = Start::new(metric, [a, b], &contact, opening) else {
-            self.counts.collided += 1;
-            self.counts.effort.predicted_faces += faces.len();
-            return None;
+        let start = match Laid::new(metric, [a, b], &contact, opening) {
+            Laid::Collides => {
+                self.counts.collided += 1;
+                self.counts.effort.predicted_faces += faces.len();
+                return None;
+            }
+            Laid::Best(net) => {
+                self.counts.effort.predicted_faces += faces.len();
+                return Some(*net);
+            }
+            Laid::Start(start) => start,
         };
         let map = || Net::of_union(metric, &faces, start, opening, options, observer);
         self.known_or(&faces, opening, map)

@@ -132,6 +132,21 @@ impl Summary {
             energy_last: next.energy_last,
         }
     }
+
+    /// Returns the summary of this minimization and another one of other elements.
+    #[must_use]
+    pub fn beside(&self, other: &Self) -> Self {
+        Self {
+            status: match self.status {
+                Status::Converged => other.status,
+                status => status,
+            },
+            iterations: self.iterations + other.iterations,
+            factorizations: self.factorizations + other.factorizations,
+            energy_first: self.energy_first + other.energy_first,
+            energy_last: self.energy_last + other.energy_last,
+        }
+    }
 }
 
 // Reports of progress to a watcher, which may end the minimization early.

@@ -11,9 +11,10 @@ use unwrapd_layout::charts::{
     Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, charts, charts_under_bound,
     given_back, map_chart, map_chart_from,
 };
-use unwrapd_layout::search::{Effort, Terms, from_charts};
+use unwrapd_layout::search::{Effort, Terms, from_charts, from_surface, is_paneled};
 use unwrapd_maps::measure::cost::GIVEN_PAGE;
 use unwrapd_maps::mesh::{CornerUvs, Resolution, Surface};
+use unwrapd_method::solver::Control;
 
 /// Texture of UVs for which no texture is known.
 const SQUARE: Resolution = Resolution::square(1);
@@ -77,15 +78,19 @@ fn under_bound(
     let options = &plan.embedding;
     let seam_price = plan.compaction.unwrap_or(1.0);
     let under = |bound: &Bound| {
-        let cut = charts_under_bound(surface, bound, seam_price, options, plan.symmetry, observer);
-        if seam_price < 1.0 {
-            // Cheap seams are there to fill the page, and the search would close them.
-            return cut;
-        }
         let terms = Terms {
             effort,
             fill_weight: GIVEN_PAGE / seam_price,
         };
+        let is_underway = observer.control() != Control::Finish;
+        if is_underway && is_paneled(surface, bound) {
+            return from_surface(surface, bound, &terms, options, plan.symmetry, observer).0;
+        }
+        let cut = charts_under_bound(surface, bound, options, plan.symmetry, observer);
+        if seam_price < 1.0 {
+            // Cheap seams are there to fill the page, and the search would close them.
+            return cut;
+        }
         from_charts(surface, cut, bound, &terms, options, observer).0
     };
     let mut fewest = under(&bound);

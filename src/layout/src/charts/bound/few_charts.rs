@@ -6,17 +6,14 @@ use super::planned::parted_as_simplified;
 use super::quality::{Bound, Bounded};
 use super::rounds::{mean_excess, rounds};
 use crate::charts::chart::{Chart, Cut};
-use crate::charts::creases::hard_components::Divided;
 use crate::charts::give_back::given_back::given_back;
 use crate::charts::mapped::{Folds, MappedChart, map_chart};
 use crate::charts::observer::Observer;
 use crate::charts::opened::{charts, charts_alike, charts_in_ways};
 use crate::charts::rough::smoothed_where_rough;
-use crate::charts::symmetry::exact::exact_mirror_planes;
 use crate::charts::symmetry::search::mirror_plane;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::cell::LazyCell;
 use unwrapd_maps::embed::{self, is_needle};
 use unwrapd_maps::mesh::Surface;
 use unwrapd_method::numerics::vec3::{area_vector, norm};
@@ -53,12 +50,10 @@ pub enum Symmetry {
 /// mean. A surface on which this does not lead below the bound is divided as by [`Cut::Fast`] if that does better. At
 /// last small charts are [given back](given_back). A surface of needles, of which no map keeps the shape, is not slit.
 ///
-/// `seam_price` is what a seam costs, over its usual price: planes are joined along shorter borders where it is higher. With
-/// [`Bounded::Smoothed`] the charts of a rough component are those of the smoothed one, mapped on to the true one.
+/// With [`Bounded::Smoothed`] the charts of a rough component are those of the smoothed one, mapped on to the true one.
 pub fn charts_under_bound(
     surface: &Surface,
     bound: &Bound,
-    seam_price: f64,
     options: &embed::Options,
     symmetry: Symmetry,
     observer: &dyn Observer,
@@ -67,8 +62,7 @@ pub fn charts_under_bound(
         Bounded::Smoothed => smoothed_where_rough(surface),
         Bounded::Surface => None,
     };
-    let under_bound =
-        |surface| charts_of_surface(surface, bound, seam_price, options, symmetry, observer);
+    let under_bound = |surface| charts_of_surface(surface, bound, options, symmetry, observer);
     let Some(smooth) = smooth else {
         return under_bound(surface);
     };
@@ -80,7 +74,6 @@ pub fn charts_under_bound(
 fn charts_of_surface(
     surface: &Surface,
     bound: &Bound,
-    seam_price: f64,
     options: &embed::Options,
     symmetry: Symmetry,
     observer: &dyn Observer,
@@ -90,54 +83,13 @@ fn charts_of_surface(
         options.solver.max_iterations = STEPS_FOR_NEEDLES;
         return map_all(charts(surface, Cut::Disk), &options, observer);
     }
-    let divided = Divided::new(surface);
-    let mirror = LazyCell::new(|| match symmetry {
+    let mirror = match symmetry {
         Symmetry::Auto => mirror_plane(surface),
         Symmetry::Off => None,
-    });
-    let mut planes = match symmetry {
-        Symmetry::Auto if divided.is_hard.contains(&true) => exact_mirror_planes(surface),
-        _ => Vec::new(),
     };
-    if planes.is_empty() && divided.is_hard.contains(&true) {
-        planes.extend(*mirror);
-    }
-    let hard = divided.mapped(bound, seam_price, &planes, options, observer);
-    let mut is_hard = divided.is_hard;
-    let is_laid_out = hard.is_some();
-    let mut hard: Vec<Piece> = hard.into_iter().flatten().map(Piece::of).collect();
-    if !is_laid_out || mean_excess(&hard) > bound.budget() {
-        is_hard.fill(false);
-        hard.clear();
-    }
-    let is_soft = |chart: &Chart| !is_hard[chart.corners[0][0] as usize / 3];
-    let soft = |charts: Vec<Chart>| charts.into_iter().filter(is_soft).collect();
-    let soft = if is_hard.contains(&false) {
-        let is_tried = surface.triangles.len() <= TRIED;
-        let n_ways = if is_tried { MOST_WAYS } else { 1 };
-        let ways = charts_in_ways(surface, *mirror, n_ways).into_iter();
-        let fast = || soft(charts_alike(surface, Cut::Fast, *mirror));
-        soft_charts(
-            surface,
-            (ways.map(soft).collect(), &fast),
-            bound,
-            options,
-            observer,
-        )
-    } else {
-        Vec::new()
-    };
-    Piece::maps(hard).chain(soft).collect()
-}
-
-/// The charts of those components that are not hard: each opened in some ways, or divided by [`Cut::Fast`].
-fn soft_charts(
-    surface: &Surface,
-    (ways, fast): (Vec<Vec<Chart>>, &dyn Fn() -> Vec<Chart>),
-    bound: &Bound,
-    options: &embed::Options,
-    observer: &dyn Observer,
-) -> Vec<MappedChart> {
+    let is_tried = surface.triangles.len() <= TRIED;
+    let n_ways = if is_tried { MOST_WAYS } else { 1 };
+    let ways = charts_in_ways(surface, mirror, n_ways);
     let opened = best_opened(ways, bound, observer);
     if opened.is_empty() {
         return Vec::new();
@@ -155,7 +107,7 @@ fn soft_charts(
     if mean_excess(&slit) <= bound.budget() || observer.control() == Control::Finish {
         return given_back(slit);
     }
-    let divided = map_all(fast(), options, observer);
+    let divided = map_all(charts_alike(surface, Cut::Fast, mirror), options, observer);
     let divided: Vec<Piece> = divided.into_iter().map(Piece::of).collect();
     let better = if mean_excess(&divided) < mean_excess(&slit) {
         divided

@@ -78,7 +78,7 @@ impl Bound {
     }
 
     /// The share of the area that may be stretched more.
-    pub(in crate::charts) fn stretched_budget() -> f64 {
+    pub(crate) fn stretched_budget() -> f64 {
         MARGIN * STRETCHED_SHARE
     }
 }

@@ -37,23 +37,10 @@ pub fn given_back(
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
-    some_given_back(surface, charts, &|_| true, bound, options, observer)
-}
-
-/// The same where only those of which `is_given` holds are laid on others.
-pub fn some_given_back(
-    surface: &Surface,
-    charts: Vec<MappedChart>,
-    is_given: &dyn Fn(&MappedChart) -> bool,
-    bound: &Bound,
-    options: &embed::Options,
-    observer: &dyn Observer,
-) -> Vec<MappedChart> {
     if charts.len() < 2 {
         return charts;
     }
     let mut giving = Giving::new(surface, charts, bound, options, observer);
-    giving.is_given = is_given;
     // What covers nothing costs nothing of the bound: it comes first.
     while giving.pass(0) || giving.pass(MOST_PUSHED) {}
     giving.charts.into_values().collect()
@@ -70,8 +57,6 @@ pub(super) struct Giving<'a> {
     /// What all may cost.
     pub(super) most: Cost,
     pub(super) bound: &'a Bound,
-    /// Whether a chart may be laid on another.
-    is_given: &'a dyn Fn(&MappedChart) -> bool,
     /// The faces of charts on which others were laid.
     pub(super) grounds: BTreeMap<u32, Ground>,
     /// Those that were pushed, once for each.
@@ -108,7 +93,6 @@ impl<'a> Giving<'a> {
             charts,
             costs,
             bound,
-            is_given: &|_| true,
             grounds: BTreeMap::new(),
             were_pushed: BTreeSet::new(),
             in_vain: BTreeSet::new(),
@@ -128,11 +112,7 @@ impl<'a> Giving<'a> {
             && let Some((_, number)) = queue.pop_first()
         {
             // With its mirror image another may have been given back.
-            if self
-                .charts
-                .get(&number)
-                .is_none_or(|map| !(self.is_given)(map))
-            {
+            if !self.charts.contains_key(&number) {
                 continue;
             }
             if let Some(neighbor) = self.give_back(number, most_pushed) {

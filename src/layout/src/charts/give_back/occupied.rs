@@ -31,24 +31,6 @@ impl Ground {
         self.corners.len()
     }
 
-    /// Both together.
-    pub fn and(&self, other: &Self) -> Self {
-        Self::of([&*self.corners, &other.corners].concat())
-    }
-
-    /// Returns whether one of these counter-clockwise faces overlaps a face here, decided exactly. Adds the number of compared
-    /// pairs to `work`.
-    pub fn meets(&self, faces: &[CornerUvs], work: &mut u64) -> bool {
-        faces.iter().any(|face| {
-            let mut is_met = false;
-            self.index.meeting(&bounds_of(face), |f| {
-                *work += 1;
-                is_met |= interiors_intersect(face, &self.corners[f as usize]);
-            });
-            is_met
-        })
-    }
-
     /// Counts the pairs of a face here and one of these that overlap, decided exactly. Ends after the first face with which they are
     /// more than `most`; where faces lie in heaps, so that the search exceeds its [budget](search_budget), returns more than `most`.
     pub fn n_overlaps(&self, triangles: &[[u32; 3]], uv: &[[f64; 2]], most: usize) -> usize {

@@ -7,7 +7,6 @@
 pub mod chains;
 pub mod counterpart;
 pub mod edge_images;
-pub mod exact;
 pub mod image;
 pub mod opening;
 pub mod own_image;
