@@ -264,8 +264,8 @@ impl Search<'_> {
             let mut ends = chain.iter().flat_map(|&edge| metric.ends_of_edge(edge));
             ends.any(|v| at_contact.contains(&v))
         };
-        let away = unbranched(metric, &carried).into_iter().filter(ends_there);
-        let away = away.fold(carried.clone(), |away, chain| difference(&away, &chain));
+        let there = unbranched(metric, &carried).into_iter().filter(ends_there);
+        let away = there.fold(carried.clone(), |away, chain| difference(&away, &chain));
         let mut starts = vec![carried.clone(), away];
         if stretches.len() > 1 {
             stretches.sort_by(|a, b| metric.length_of(b).total_cmp(&metric.length_of(a)));

@@ -38,7 +38,7 @@ const GROUND: f64 = 1e9;
 /// Laplacian; grounded vertices get a diagonal so large that they stay at 0.
 pub struct Prediction<'a> {
     mesh: &'a CutMesh<'a>,
-    /// For each vertex its node; 0 is the outer boundary, every other loop is one node, and [saddles](is_saddle) have their own.
+    /// For each vertex its node; 0 is the outer boundary, every other loop is one node, and [saddles](is_saddle) on the outer one have their own.
     node: Vec<u32>,
     /// For each boundary loop its node.
     node_of_loop: Vec<u32>,
@@ -80,10 +80,14 @@ impl<'a> Prediction<'a> {
             return None;
         }
         let outer = outer_loop(mesh);
+        let mut is_charged = mesh.is_inner.clone();
+        for &v in &mesh.loops[outer] {
+            is_charged[v as usize] = is_saddle(mesh, v as usize);
+        }
         let mut node = vec![0; mesh.welded.len()];
         let mut charge = vec![0.0];
         for (vertex, node) in node.iter_mut().enumerate() {
-            if mesh.is_inner[vertex] || is_saddle(mesh, vertex) {
+            if is_charged[vertex] {
                 *node = charge.len() as u32;
                 charge.push(2.0 * std::f64::consts::PI - mesh.angle[vertex]);
             }

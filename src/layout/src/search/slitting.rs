@@ -97,6 +97,7 @@ impl<'a> Slitting<'a> {
         let mut best: Option<(Slit, Grounded)> = None;
         for path in paths(self.mesh, &self.neighbors, &self.prediction) {
             effort.predicted_faces += self.mesh.faces.len();
+            // Saddles at its end count as relieved: what overlaps there is parted later.
             let ends = path.iter().flat_map(|&h| self.mesh.sheet.ends(h));
             let grounded = self.prediction.grounded(&ends.collect::<Vec<u32>>());
             let edges = self.mesh.edges(&path);

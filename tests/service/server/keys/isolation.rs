@@ -51,6 +51,9 @@ async fn ask(server: &Server, method: &str, path: &str, key: Option<&str>) -> Re
     let mut request = server
         .request(method, path)
         .header("accept", "text/event-stream");
+    if method == "PATCH" {
+        request = request.query(&[("metadata", "{}")]);
+    }
     if let Some(key) = key {
         request = request.bearer_auth(key);
     }
