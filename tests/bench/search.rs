@@ -17,7 +17,7 @@ use std::sync::Arc;
 use unwrapd_layout::charts::{
     Bound, Bounded, MappedChart, Symmetry, Unobserved, charts_under_bound, seam_length,
 };
-use unwrapd_layout::search::{Effort, Terms, from_charts, from_surface};
+use unwrapd_layout::search::{CutProblem, Effort, Terms, from_charts, from_surface};
 use unwrapd_maps::embed::Options;
 use unwrapd_maps::mesh::{Surface, canonical_order};
 use unwrapd_method::energy::SymmetricDirichlet;
@@ -71,8 +71,7 @@ fn report(file: &str, bound: &Bound) {
         };
         let clock = Clock::start();
         let (charts, counts) = from_surface(
-            &surface,
-            bound,
+            &CutProblem::new(&surface, bound),
             &terms,
             &options,
             Symmetry::Off,
@@ -86,7 +85,13 @@ fn report(file: &str, bound: &Bound) {
             counts.effort,
         );
         let (cut, clock) = (cut.clone(), Clock::start());
-        let (charts, counts) = from_charts(&surface, cut, bound, &terms, &options, &Unobserved);
+        let (charts, counts) = from_charts(
+            &CutProblem::new(&surface, bound),
+            cut,
+            &terms,
+            &options,
+            &Unobserved,
+        );
         line(
             file,
             &format!("charts{limit}"),

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use unwrapd_layout::charts::{
     Bound, Bounded, MappedChart, Symmetry, Unobserved, charts_under_bound,
 };
-use unwrapd_layout::search::{Effort, Terms, from_surface, is_paneled};
+use unwrapd_layout::search::{CutProblem, Effort, Terms, from_surface};
 use unwrapd_maps::certificate::{Claims, certify};
 use unwrapd_maps::embed::{Options, rest_shapes};
 use unwrapd_maps::mesh::Surface;
@@ -48,14 +48,14 @@ fn unfolded(mesh: &Mesh) -> Vec<MappedChart> {
 
 fn unfolded_under(mesh: &Mesh, bound: &Bound) -> Vec<MappedChart> {
     let surface = surface(mesh);
-    assert!(is_paneled(&surface, bound));
+    let problem = CutProblem::new(&surface, bound);
+    assert!(problem.is_paneled());
     let terms = Terms {
         effort: Effort::for_surface(surface.triangles.len(), surface.triangles.len()),
         fill_weight: 0.0,
     };
     from_surface(
-        &surface,
-        bound,
+        &CutProblem::new(&surface, bound),
         &terms,
         &options(),
         Symmetry::Auto,
@@ -67,7 +67,7 @@ fn unfolded_under(mesh: &Mesh, bound: &Bound) -> Vec<MappedChart> {
 /// Charts of a surface that does not consist of panels, by the cutters.
 fn cut(mesh: &Mesh) -> Vec<MappedChart> {
     let surface = surface(mesh);
-    assert!(!is_paneled(&surface, &BOUND));
+    assert!(!CutProblem::new(&surface, &BOUND).is_paneled());
     charts_under_bound(&surface, &BOUND, &options(), Symmetry::Auto, &Unobserved)
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use unwrapd_layout::charts::{
     Bound, Bounded, Cut, Folds, MappedChart, Symmetry, Unobserved, charts, map_chart, seam_length,
 };
-use unwrapd_layout::search::{Effort, Terms, from_charts, from_surface};
+use unwrapd_layout::search::{CutProblem, Effort, Terms, from_charts, from_surface};
 use unwrapd_maps::certificate::{Claims, certify};
 use unwrapd_maps::embed::Options;
 use unwrapd_maps::mesh::{Surface, canonical_order};
@@ -46,8 +46,7 @@ fn unbounded() -> Terms {
 fn divided(mesh: &Mesh, mean: f64) -> Vec<MappedChart> {
     let surface = surface(mesh);
     let (charts, _) = from_surface(
-        &surface,
-        &bound(mean),
+        &CutProblem::new(&surface, &bound(mean)),
         &unbounded(),
         &options(),
         Symmetry::Auto,
@@ -163,7 +162,13 @@ fn any_charts_are_improved_without_overlaps() {
         println!("{}", mesh.name);
         let surface = surface(mesh);
         let (cut, terms) = (cut(&surface), Terms::default());
-        let (found, _) = from_charts(&surface, cut, &bound(4.1), &terms, &options(), &Unobserved);
+        let (found, _) = from_charts(
+            &CutProblem::new(&surface, &bound(4.1)),
+            cut,
+            &terms,
+            &options(),
+            &Unobserved,
+        );
         check(&surface, &found);
     }
 }
@@ -191,9 +196,8 @@ fn panels_are_slit_open_where_that_is_cheaper() {
         ..Terms::default()
     };
     let (found, counts) = from_charts(
-        &surface,
+        &CutProblem::new(&surface, &bound(4.1)),
         start.clone(),
-        &bound(4.1),
         &terms,
         &options(),
         &Unobserved,
@@ -269,9 +273,8 @@ fn charts_beyond_the_bound_are_slit() {
             ..Terms::default()
         };
         let (found, _) = from_charts(
-            &surface,
+            &CutProblem::new(&surface, &bound(4.1)),
             whole,
-            &bound(4.1),
             &terms,
             &options(),
             &Unobserved,
@@ -316,9 +319,8 @@ fn given_charts_get_shorter_seams() {
     let surface = surface(&mesh);
     let start = cut(&surface);
     let (found, counts) = from_charts(
-        &surface,
+        &CutProblem::new(&surface, &bound(4.1)),
         start.clone(),
-        &bound(4.1),
         &Terms::default(),
         &options(),
         &Unobserved,
@@ -340,9 +342,8 @@ fn parts_that_collide_are_not_mapped() {
         .collect();
     assert_eq!(parts.len(), 2);
     let (found, counts) = from_charts(
-        &surface,
+        &CutProblem::new(&surface, &bound(4.1)),
         parts,
-        &bound(4.1),
         &Terms::default(),
         &options(),
         &Unobserved,
@@ -369,9 +370,8 @@ fn charts_stay_without_effort_and_at_the_bound() {
     };
     for (terms, mean) in [(idle, 4.1), (usual, 4.0 + (energy(&cut) - 4.0) * 1.000_001)] {
         let (found, counts) = from_charts(
-            &surface,
+            &CutProblem::new(&surface, &bound(mean)),
             cut.clone(),
-            &bound(mean),
             &terms,
             &options(),
             &Unobserved,
@@ -390,8 +390,7 @@ fn pose_and_order_do_not_change_the_cut() {
             let surface = surface(mesh);
             let surface = surface.reordered(&canonical_order(&surface));
             let (charts, _) = from_surface(
-                &surface,
-                &bound(4.1),
+                &CutProblem::new(&surface, &bound(4.1)),
                 &unbounded(),
                 &options(),
                 Symmetry::Auto,

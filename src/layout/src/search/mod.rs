@@ -99,27 +99,73 @@ impl Default for Terms {
     }
 }
 
+/// A surface to divide under a bound on the distortion, measured.
+pub struct CutProblem<'a> {
+    /// Lengths, angles and areas; the excess on panels counts [several times](PANEL_FACTOR).
+    metric: Metric<'a>,
+    bound: Bound,
+    /// Share of the area that lies on panels.
+    panels: f64,
+    /// `true` if the bound is on the surface itself, not on what a rough one is a sample of, whose distortion the search does not measure.
+    is_measured: bool,
+}
+
+impl<'a> CutProblem<'a> {
+    /// Measures a surface.
+    pub fn new(surface: &'a Surface, bound: &Bound) -> Self {
+        let mut metric = Metric::new(surface);
+        metric.most_stretch = bound.stretch.unwrap_or(f64::INFINITY);
+        let mut panels = 0.0;
+        let is_panel = self::panels(&metric);
+        let faces = metric.weight.iter_mut().zip(&metric.area).zip(is_panel);
+        for ((weight, area), _) in faces.filter(|(_, is_panel)| *is_panel) {
+            *weight *= PANEL_FACTOR;
+            panels += area;
+        }
+        let is_of_smoothed =
+            bound.of == Bounded::Smoothed && smoothed_where_rough(surface).is_some();
+        Self {
+            metric,
+            bound: *bound,
+            panels,
+            is_measured: !is_of_smoothed,
+        }
+    }
+
+    /// Returns whether the surface consists of panels, which [`from_surface`] keeps straight and no cutter does.
+    pub fn is_paneled(&self) -> bool {
+        self.is_measured && self.panels >= PANELED
+    }
+
+    fn search<'b>(
+        &'b self,
+        terms: &Terms,
+        options: &'b embed::Options,
+        observer: &'b dyn Observer,
+    ) -> Search<'b> {
+        Search::new(&self.metric, self.bound.budget(), terms, options, observer)
+    }
+}
+
 /// Divides a surface into charts that keep a bound on the mean energy, from pieces that are nearly developable or from components slit
 /// open.
 ///
 /// Returns the charts and the work that it took. The bound is exceeded only if both starts exceed it: then nothing is glued that adds to
 /// the excess. Symmetry does not decide where the search cuts; the charts carry the mirror plane, so that later cuts are made alike.
 pub fn from_surface(
-    surface: &Surface,
-    bound: &Bound,
+    problem: &CutProblem,
     terms: &Terms,
     options: &embed::Options,
     symmetry: Symmetry,
     observer: &dyn Observer,
 ) -> (Vec<MappedChart>, Counts) {
-    let mut metric = weighted(surface);
-    metric.most_stretch = bound.stretch.unwrap_or(f64::INFINITY);
-    let mut search = Search::new(&metric, bound.budget(), terms, options, observer);
+    let metric = &problem.metric;
+    let mut search = problem.search(terms, options, observer);
     let most = terms.effort.most;
     search.start_from_pieces(STRICT[0]);
     search.run(&STRICT, most / 2.0);
     let cost = search.cost();
-    let pieces = std::mem::replace(&mut search.nets, Nets::new(&metric, Vec::new()));
+    let pieces = std::mem::replace(&mut search.nets, Nets::new(metric, Vec::new()));
     search.counts.effort.most = f64::midpoint(search.counts.effort.spent(), most);
     if is_slit_open_below(&mut search, cost) {
         search.run(&LOOSE, most);
@@ -128,7 +174,7 @@ pub fn from_surface(
         search.run(&LOOSE[1..], most);
     }
     let mirror = match symmetry {
-        Symmetry::Auto => mirror_plane(surface),
+        Symmetry::Auto => mirror_plane(metric.surface),
         Symmetry::Off => None,
     };
     let mut charts = search.charts();
@@ -149,33 +195,34 @@ pub fn from_surface(
 /// Returns the charts, and the work that the search took. If the given charts kept the bound, so do those returned. Charts that no move
 /// changed stay as they are; so do all if the stretch is bounded.
 pub fn from_charts(
-    surface: &Surface,
-    charts: Vec<MappedChart>,
-    bound: &Bound,
+    problem: &CutProblem,
+    mut charts: Vec<MappedChart>,
     terms: &Terms,
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> (Vec<MappedChart>, Counts) {
-    if bound.stretch.is_some() || observer.control() == Control::Finish {
+    if problem.bound.stretch.is_some() || observer.control() == Control::Finish {
         return (charts, Counts::new(terms.effort.share(0.0)));
     }
-    let metric = weighted(surface);
-    let mut search = Search::new(&metric, bound.budget(), terms, options, observer);
-    search.nets = nets_of(&metric, &charts);
-    let mut charts = charts;
-    let is_measured = !is_of_smoothed(bound, surface);
-    let panels = share_of_panels(&metric);
-    if is_measured && terms.effort.share(panels).most >= metric.corners.len() as f64 {
+    let CutProblem {
+        metric,
+        bound,
+        panels,
+        is_measured,
+    } = problem;
+    let mut search = problem.search(terms, options, observer);
+    search.nets = nets_of(metric, &charts);
+    if *is_measured && terms.effort.share(*panels).most >= metric.corners.len() as f64 {
         let [beyond, cost] = search.cost_unweighted();
         let bonus = if is_symmetric(&charts) { SYMMETRY } else { 0.0 };
         if is_slit_open_below(&mut search, [beyond, cost - bonus]) {
             charts = search.charts();
         }
-        search.nets = nets_of(&metric, &charts);
+        search.nets = nets_of(metric, &charts);
     }
     let unspent = 1.0 - search.nets.excess() / bound.budget().max(f64::MIN_POSITIVE);
-    let is_broken = is_measured && search.cost_unweighted()[0] > 0.0;
-    let share = if is_broken { 1.0 } else { unspent.max(panels) };
+    let is_broken = *is_measured && search.cost_unweighted()[0] > 0.0;
+    let share = if is_broken { 1.0 } else { unspent.max(*panels) };
     let effort = search.counts.effort.left().share(share);
     let smallest = charts.iter().map(|map| map.chart.corners.len()).min();
     if smallest.is_none_or(|faces| effort.most < faces as f64) {
@@ -187,7 +234,7 @@ pub fn from_charts(
     let found = search.nets.list.iter();
     let found = found.filter_map(|(&number, net)| match charts.get(number as usize) {
         Some(chart) => Some(chart.clone()),
-        None => net.mapped_chart(&metric),
+        None => net.mapped_chart(metric),
     });
     (found.collect(), search.counts)
 }
@@ -206,18 +253,6 @@ fn nets_of<'a>(metric: &'a Metric<'a>, charts: &[MappedChart]) -> Nets<'a> {
     Nets::new(metric, nets.collect())
 }
 
-/// Returns whether a surface consists of panels, which [`from_surface`] keeps straight and no cutter does.
-pub fn is_paneled(surface: &Surface, bound: &Bound) -> bool {
-    !is_of_smoothed(bound, surface) && share_of_panels(&weighted(surface)) >= PANELED
-}
-
-/// Returns the share of the area that lies on panels.
-fn share_of_panels(metric: &Metric) -> f64 {
-    let faces = metric.weight.iter().zip(&metric.area);
-    let panels = faces.filter(|(weight, area)| weight > area);
-    panels.map(|(_, area)| area).sum()
-}
-
 /// Returns whether most of the area of some charts is cut alike on both sides of a plane.
 fn is_symmetric(charts: &[MappedChart]) -> bool {
     let (mut symmetric, mut area) = (0.0, 0.0);
@@ -229,19 +264,4 @@ fn is_symmetric(charts: &[MappedChart]) -> bool {
         }
     }
     symmetric > 0.5 * area
-}
-
-/// Returns whether a bound is on the surface that a rough one is a sample of, whose distortion the search does not measure.
-fn is_of_smoothed(bound: &Bound, surface: &Surface) -> bool {
-    bound.of == Bounded::Smoothed && smoothed_where_rough(surface).is_some()
-}
-
-/// Measures a surface; the excess on its panels counts [several times](PANEL_FACTOR).
-fn weighted(surface: &Surface) -> Metric<'_> {
-    let mut metric = Metric::new(surface);
-    let is_panel = panels(&metric);
-    for (weight, _) in metric.weight.iter_mut().zip(is_panel).filter(|(_, it)| *it) {
-        *weight *= PANEL_FACTOR;
-    }
-    metric
 }

@@ -11,7 +11,7 @@ use unwrapd_layout::charts::{
     Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, charts, charts_under_bound,
     given_back, map_chart, map_chart_from,
 };
-use unwrapd_layout::search::{Effort, Terms, from_charts, from_surface, is_paneled};
+use unwrapd_layout::search::{CutProblem, Effort, Terms, from_charts, from_surface};
 use unwrapd_maps::measure::cost::GIVEN_PAGE;
 use unwrapd_maps::mesh::{CornerUvs, Resolution, Surface};
 use unwrapd_method::solver::Control;
@@ -82,16 +82,19 @@ fn under_bound(
             effort,
             fill_weight: GIVEN_PAGE / seam_price,
         };
-        let is_underway = observer.control() != Control::Finish;
-        if is_underway && is_paneled(surface, bound) {
-            return from_surface(surface, bound, &terms, options, plan.symmetry, observer).0;
+        let cut = || charts_under_bound(surface, bound, options, plan.symmetry, observer);
+        if observer.control() == Control::Finish {
+            return cut();
         }
-        let cut = charts_under_bound(surface, bound, options, plan.symmetry, observer);
+        let problem = CutProblem::new(surface, bound);
+        if problem.is_paneled() {
+            return from_surface(&problem, &terms, options, plan.symmetry, observer).0;
+        }
         if seam_price < 1.0 {
             // Cheap seams are there to fill the page, and the search would close them.
-            return cut;
+            return cut();
         }
-        from_charts(surface, cut, bound, &terms, options, observer).0
+        from_charts(&problem, cut(), &terms, options, observer).0
     };
     let mut fewest = under(&bound);
     while fewest.len() > most {
