@@ -71,7 +71,7 @@ fn report(file: &str, bound: &Bound) {
         };
         let clock = Clock::start();
         let (charts, counts) = from_surface(
-            &CutProblem::new(&surface, bound),
+            &CutProblem::new(&surface, bound, &Unobserved),
             &terms,
             &options,
             Symmetry::Off,
@@ -86,7 +86,7 @@ fn report(file: &str, bound: &Bound) {
         );
         let (cut, clock) = (cut.clone(), Clock::start());
         let (charts, counts) = from_charts(
-            &CutProblem::new(&surface, bound),
+            &CutProblem::new(&surface, bound, &Unobserved),
             cut,
             &terms,
             &options,

@@ -48,14 +48,14 @@ fn unfolded(mesh: &Mesh) -> Vec<MappedChart> {
 
 fn unfolded_under(mesh: &Mesh, bound: &Bound) -> Vec<MappedChart> {
     let surface = surface(mesh);
-    let problem = CutProblem::new(&surface, bound);
+    let problem = CutProblem::new(&surface, bound, &Unobserved);
     assert!(problem.is_paneled());
     let terms = Terms {
         effort: Effort::for_surface(surface.triangles.len(), surface.triangles.len()),
         fill_weight: 0.0,
     };
     from_surface(
-        &CutProblem::new(&surface, bound),
+        &CutProblem::new(&surface, bound, &Unobserved),
         &terms,
         &options(),
         Symmetry::Auto,
@@ -67,7 +67,7 @@ fn unfolded_under(mesh: &Mesh, bound: &Bound) -> Vec<MappedChart> {
 /// Charts of a surface that does not consist of panels, by the cutters.
 fn cut(mesh: &Mesh) -> Vec<MappedChart> {
     let surface = surface(mesh);
-    assert!(!CutProblem::new(&surface, &BOUND).is_paneled());
+    assert!(!CutProblem::new(&surface, &BOUND, &Unobserved).is_paneled());
     charts_under_bound(&surface, &BOUND, &options(), Symmetry::Auto, &Unobserved)
 }
 

@@ -46,7 +46,7 @@ fn unbounded() -> Terms {
 fn divided(mesh: &Mesh, mean: f64) -> Vec<MappedChart> {
     let surface = surface(mesh);
     let (charts, _) = from_surface(
-        &CutProblem::new(&surface, &bound(mean)),
+        &CutProblem::new(&surface, &bound(mean), &Unobserved),
         &unbounded(),
         &options(),
         Symmetry::Auto,
@@ -163,7 +163,7 @@ fn any_charts_are_improved_without_overlaps() {
         let surface = surface(mesh);
         let (cut, terms) = (cut(&surface), Terms::default());
         let (found, _) = from_charts(
-            &CutProblem::new(&surface, &bound(4.1)),
+            &CutProblem::new(&surface, &bound(4.1), &Unobserved),
             cut,
             &terms,
             &options(),
@@ -196,7 +196,7 @@ fn panels_are_slit_open_where_that_is_cheaper() {
         ..Terms::default()
     };
     let (found, counts) = from_charts(
-        &CutProblem::new(&surface, &bound(4.1)),
+        &CutProblem::new(&surface, &bound(4.1), &Unobserved),
         start.clone(),
         &terms,
         &options(),
@@ -273,7 +273,7 @@ fn charts_beyond_the_bound_are_slit() {
             ..Terms::default()
         };
         let (found, _) = from_charts(
-            &CutProblem::new(&surface, &bound(4.1)),
+            &CutProblem::new(&surface, &bound(4.1), &Unobserved),
             whole,
             &terms,
             &options(),
@@ -319,7 +319,7 @@ fn given_charts_get_shorter_seams() {
     let surface = surface(&mesh);
     let start = cut(&surface);
     let (found, counts) = from_charts(
-        &CutProblem::new(&surface, &bound(4.1)),
+        &CutProblem::new(&surface, &bound(4.1), &Unobserved),
         start.clone(),
         &Terms::default(),
         &options(),
@@ -342,7 +342,7 @@ fn parts_that_collide_are_not_mapped() {
         .collect();
     assert_eq!(parts.len(), 2);
     let (found, counts) = from_charts(
-        &CutProblem::new(&surface, &bound(4.1)),
+        &CutProblem::new(&surface, &bound(4.1), &Unobserved),
         parts,
         &Terms::default(),
         &options(),
@@ -370,7 +370,7 @@ fn charts_stay_without_effort_and_at_the_bound() {
     };
     for (terms, mean) in [(idle, 4.1), (usual, 4.0 + (energy(&cut) - 4.0) * 1.000_001)] {
         let (found, counts) = from_charts(
-            &CutProblem::new(&surface, &bound(mean)),
+            &CutProblem::new(&surface, &bound(mean), &Unobserved),
             cut.clone(),
             &terms,
             &options(),
@@ -390,7 +390,7 @@ fn pose_and_order_do_not_change_the_cut() {
             let surface = surface(mesh);
             let surface = surface.reordered(&canonical_order(&surface));
             let (charts, _) = from_surface(
-                &CutProblem::new(&surface, &bound(4.1)),
+                &CutProblem::new(&surface, &bound(4.1), &Unobserved),
                 &unbounded(),
                 &options(),
                 Symmetry::Auto,

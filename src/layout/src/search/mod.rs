@@ -111,12 +111,12 @@ pub struct CutProblem<'a> {
 }
 
 impl<'a> CutProblem<'a> {
-    /// Measures a surface.
-    pub fn new(surface: &'a Surface, bound: &Bound) -> Self {
+    /// Measures a surface. If the observer ends that early, some of its panels are not known.
+    pub fn new(surface: &'a Surface, bound: &Bound, observer: &dyn Observer) -> Self {
         let mut metric = Metric::new(surface);
         metric.most_stretch = bound.stretch.unwrap_or(f64::INFINITY);
         let mut panels = 0.0;
-        let is_panel = self::panels(&metric);
+        let is_panel = self::panels(&metric, observer);
         let faces = metric.weight.iter_mut().zip(&metric.area).zip(is_panel);
         for ((weight, area), _) in faces.filter(|(_, is_panel)| *is_panel) {
             *weight *= PANEL_FACTOR;

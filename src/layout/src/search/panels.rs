@@ -2,6 +2,7 @@
 
 use super::metric::Metric;
 use super::pieces::Pieces;
+use crate::charts::Observer;
 use unwrapd_maps::mesh::CUT;
 
 /// Times that the excess on a panel counts: bevels, fillets and round parts take the distortion instead. With 16, a study of
@@ -45,18 +46,19 @@ impl Part {
 ///
 /// A panel is a facet of some size that sharp folds or much smaller neighbors set apart, or a large wall, such as that of a tube: other
 /// facets, gently folded, that are developable together, with sharp folds around.
-pub fn panels(metric: &Metric) -> Vec<bool> {
+pub fn panels(metric: &Metric, observer: &dyn Observer) -> Vec<bool> {
     let mut pieces = Pieces::of_facets(metric);
     let facets = parts(metric, &pieces.label);
     let is_flat = |part: &Part| part.area > LEAST && (part.is_set_apart() || part.is_larger());
     let mut is_panel: Vec<bool> = (pieces.label.iter())
         .map(|&facet| is_flat(&facets[facet as usize]))
         .collect();
-    pieces.join(STRAIGHT, |edge| {
+    let may_be_inside = |edge: u32| {
         let h = metric.halfedge[edge as usize];
         let mut sides = [h, metric.twin[h as usize]].into_iter();
         metric.fold[edge as usize] < SET_APART && sides.all(|h| !is_panel[h as usize / 3])
-    });
+    };
+    pieces.join(STRAIGHT, may_be_inside, observer);
     let walls = parts(metric, &pieces.label);
     for (is_panel, &wall) in is_panel.iter_mut().zip(&pieces.label) {
         let wall = &walls[wall as usize];

@@ -4,16 +4,20 @@ use super::metric::Metric;
 use super::net::Net;
 use super::opening::Ways;
 use super::state::Search;
+use crate::charts::Observer;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use unwrapd_maps::measure::cost::PER_CHART;
 use unwrapd_maps::mesh::{CUT, UnionFind};
+use unwrapd_method::solver::Control;
 
 /// Fold of an edge, in radians, below which its faces lie in one facet.
 const FLAT: f64 = 1e-3;
 /// Largest sum of the angle defects inside a piece, in radians; its excess is then below 3e-4. Half and double of it give
 /// the same seams.
 const DEVELOPABLE: f64 = 0.25;
+/// Number of joints after which the observer is asked whether to go on: some ten milliseconds of work.
+const UNWATCHED: usize = 1_000;
 /// Share of the smaller perimeter that a piece keeps: one without boundary could not be laid flat.
 const OPEN: f64 = 1e-9;
 
@@ -145,15 +149,25 @@ impl<'a> Pieces<'a> {
     }
 
     /// Joins pieces, the longest contact by perimeter first, while the sum of the angle defects inside is at most `most_bent` and
-    /// the edges between them may be inside.
-    pub fn join(&mut self, most_bent: f64, may_be_inside: impl Fn(u32) -> bool) {
+    /// the edges between them may be inside. Ends early if the observer says so.
+    pub fn join(
+        &mut self,
+        most_bent: f64,
+        may_be_inside: impl Fn(u32) -> bool,
+        observer: &dyn Observer,
+    ) {
         let mut heap = BinaryHeap::new();
         for a in 0..self.list.len() as u32 {
             for &b in self.list[a as usize].contacts.keys().filter(|&&b| a < b) {
                 heap.push(self.joint(a, b));
             }
         }
+        let mut n_seen = 0;
         while let Some(Joint { pieces: [a, b], .. }) = heap.pop() {
+            n_seen += 1;
+            if n_seen % UNWATCHED == 0 && observer.control() == Control::Finish {
+                return;
+            }
             let [first, second] = [a, b].map(|piece| &self.list[piece as usize]);
             if !(first.is_current && second.is_current) {
                 continue;
@@ -252,7 +266,7 @@ impl Search<'_> {
     /// excess cost more than the border between them.
     pub fn start_from_pieces(&mut self, lambda: f64) {
         let mut pieces = Pieces::of_facets(self.nets.metric);
-        pieces.join(DEVELOPABLE, |_| true);
+        pieces.join(DEVELOPABLE, |_| true, self.observer);
         let mut pending: Vec<u32> = (0..pieces.list.len() as u32)
             .rev()
             .filter(|&piece| pieces.list[piece as usize].is_current)

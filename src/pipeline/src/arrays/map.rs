@@ -86,7 +86,7 @@ fn under_bound(
         if observer.control() == Control::Finish {
             return cut();
         }
-        let problem = CutProblem::new(surface, bound);
+        let problem = CutProblem::new(surface, bound, observer);
         if problem.is_paneled() {
             return from_surface(&problem, &terms, options, plan.symmetry, observer).0;
         }

@@ -48,12 +48,14 @@ fn filled(path: &str, id: &str) -> String {
 }
 
 async fn ask(server: &Server, method: &str, path: &str, key: Option<&str>) -> Response {
+    let query = if method == "PATCH" {
+        "?metadata=%7B%7D"
+    } else {
+        ""
+    };
     let mut request = server
-        .request(method, path)
+        .request(method, &format!("{path}{query}"))
         .header("accept", "text/event-stream");
-    if method == "PATCH" {
-        request = request.query(&[("metadata", "{}")]);
-    }
     if let Some(key) = key {
         request = request.bearer_auth(key);
     }
