@@ -8,7 +8,7 @@
 //!
 //! S is the length of the seams, n the number of nets and E the symmetric Dirichlet energy of their maps, in units in which
 //! the surface has area 1. F estimates the fill of a square page, less than usual if one net alone sets the scale; w is its
-//! weight. This is the [cost of a layout](unwrapd_maps::measure::cost) as far as it is known before packing. The search knows
+//! weight. This is the [cost of a layout](unwrapd_maps::measure::cost) as far as it is known before packing. The moves know
 //! no classes of surfaces. Distortion has a price λ that falls from strict to loose, so what the bound allows is spent where it
 //! saves the most seam.
 //!
@@ -240,7 +240,7 @@ pub fn from_charts(
 }
 
 /// Slits the components of the surface open; returns whether these nets cost less than some others, compared as by [`Search::cost`].
-/// Otherwise its nets are of no use.
+/// If not, it leaves nets that the caller must replace.
 fn is_slit_open_below(search: &mut Search, others: [f64; 2]) -> bool {
     let [beyond, cost] = others;
     let most = if beyond > 0.0 { f64::INFINITY } else { cost };

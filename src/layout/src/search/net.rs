@@ -24,7 +24,7 @@ pub struct Net {
     pub length: f64,
     /// Sum of the excess over 4 times the weight of each face.
     pub excess: f64,
-    /// The same by the area of each face, not its weight: what the bound is on.
+    /// Sum of the excess times the area of each face, on which the user sets the bound.
     pub unweighted: f64,
     /// Area of the faces that are [stretched](Metric::most_stretch).
     pub stretched: f64,

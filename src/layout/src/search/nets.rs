@@ -112,7 +112,7 @@ impl<'a> Nets<'a> {
         self.seam_and_charts().ln() - fill_weight * Self::fill(self.list.values())
     }
 
-    /// Returns the cost of nets of which none is so long that it sets the scale, by the length of their seams and their number.
+    /// Returns the cost of `n` nets by the length of their seams, if no single net sets the scale of the page.
     pub fn least_cost(seam: f64, n: usize, fill_weight: f64) -> f64 {
         seam_and_charts(seam, n).ln() - fill_weight * USUAL_FILL
     }

@@ -97,7 +97,7 @@ fn apart(document: &GltfDocument, material: usize, reason: String) -> ApartMater
     }
 }
 
-/// Returns the materials of surfaces that have several, of which an application chooses.
+/// Returns the materials that variants can give to a surface.
 fn materials_of_variants(document: &GltfDocument) -> Result<BTreeSet<usize>, DocumentError> {
     let mut found = BTreeSet::new();
     for mesh in items(&document.body.json, "meshes")? {

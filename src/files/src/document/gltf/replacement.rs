@@ -253,7 +253,7 @@ impl Replacement {
         let drawn: Vec<Drawn> = (members.iter())
             .map(|member| {
                 let share = (scale(member) / largest) as f32;
-                // White stands for (1, 1, 1), of which only the part along the normal stays.
+                // A missing texture is white, (1, 1, 1); only its third component is kept: a flat normal.
                 let plain = Tint::factor([0.0, 0.0, 1.0, 1.0]);
                 member.drawn(NORMAL, Tint::factor([share, share, 1.0, 1.0]), plain)
             })

@@ -77,7 +77,7 @@ export class Setup {
     const meshes = files.filter(({ path }) => MESHES.includes(extension(path))).sort((one, other) => one.path.localeCompare(other.path));
     const others = files.filter((file) => !meshes.includes(file));
     if (!meshes.length) {
-      this.told.failed(new Error(`${files.length === 1 ? "This file is no mesh" : `None of these ${files.length} files is a mesh`}. Choose GLB, glTF, OBJ, PLY, STL or OFF, a folder of them, or a ZIP.`));
+      this.told.failed(new Error(`${files.length === 1 ? "This file is no mesh" : `These ${files.length} files include no mesh`}. Choose GLB, glTF, OBJ, PLY, STL or OFF, a folder of them, or a ZIP.`));
       return;
     }
     const source = nameOfAll(given);
@@ -195,8 +195,8 @@ export class Setup {
     }
   }
 
-  /** Uploads files one after the other, and shows how far it is. Jobs of several files have a batch in common. A file
-   * that the service refuses keeps none of the others; throws at the end if it refused all. */
+  /** Uploads files one after the other, and shows how far it is. Jobs of several files have a batch in common. If the
+   * service refuses a file, the others are still sent; throws at the end if it refused all. */
   async #upload(files: Chosen[], each: (file: Chosen, metadata: Record<string, unknown>, sending: Upload) => Promise<Job>): Promise<void> {
     const abort = new AbortController();
     const [bar, said] = [byId<HTMLProgressElement>("sent"), byId("sent-text")];
