@@ -50,7 +50,7 @@ pub fn pack_within(
     let maps: Vec<ChartMap> = groups.iter().map(Group::map).collect();
     let regions: Vec<Option<Region>> = groups.iter().map(|group| group.region).collect();
     let obstacles: Vec<&Obstacle> = staying.iter().map(|it| &it.obstacle).collect();
-    let plan = Plan::largest_first(&outlines(&maps)?, options);
+    let plan = Plan::of(&maps, options)?;
     let problem = Problem {
         plan: &plan,
         regions: &regions,
@@ -61,7 +61,7 @@ pub fn pack_within(
     let coarse = if problem.is_constrained() {
         None
     } else {
-        CoarseLayout::new(&maps, options)?
+        CoarseLayout::of(&plan, options)
     };
     let exact = fullest(&problem, coarse.as_ref());
     let mut atlas = packed(&problem, &maps, exact).ok_or(ConstraintError::NoRoom)?;

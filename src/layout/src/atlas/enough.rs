@@ -4,7 +4,6 @@ use std::fmt;
 use super::coarse::CoarseLayout;
 use super::effort::UNHEARD;
 use super::layout::{Problem, SLACK};
-use super::outline::outlines;
 use super::pack::fullest;
 use super::page::Texture;
 use super::plan::Plan;
@@ -50,15 +49,9 @@ pub fn enough(charts: &[ChartMap], options: &AtlasOptions) -> Result<Enough, Atl
         scale: Scale::Largest,
         ..options.clone()
     };
-    let first = Plan::largest_first(&outlines(charts)?, options);
-    let coarse = CoarseLayout::new(charts, &largest)?;
-    let problem = Problem {
-        plan: &first,
-        regions: &[],
-        obstacles: &[],
-        options: &largest,
-        on_read: UNHEARD,
-    };
+    let plan = Plan::of(charts, options)?;
+    let coarse = CoarseLayout::of(&plan, &largest);
+    let problem = Problem::free(&plan, &largest, UNHEARD);
     let slack = vec![SLACK; charts.len()];
     let found =
         fullest(&problem, coarse.as_ref()).or_else(|| problem.layout(&slack, options.most_cells));

@@ -5,12 +5,13 @@
 use rayon::prelude::*;
 use std::sync::Arc;
 
+use super::coarse::{FINE, raster_side};
 use super::effort::OnRead;
-use super::layout::{Layout, Place, stretch};
+use super::layout::{Layout, Place, Problem, stretch};
 use super::outline::Outline;
 use super::page::Region;
 use super::problem::{AtlasOptions, Scale};
-use super::squeeze::{Body, Squeezed};
+use super::squeeze::{Body, End, FixedBody, Pose, Squeezed};
 use unwrapd_maps::plane::{BoxIndex, Segment, Visit, search_budget, segment_distance};
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of};
 
@@ -53,25 +54,20 @@ pub(super) enum Border {
 }
 
 impl Squeezing<'_> {
-    /// Squeezes the charts, then places them as [`layout`](Self::layout) does. Reads at most half of the word budget.
-    pub(super) fn settled_layout(&self, mut squeezed: Squeezed) -> Option<Layout> {
-        let bodies = self.bodies(squeezed.padding);
-        squeezed
-            .settle(&bodies, self.options.budget_words / 2, self.on_read)
-            .then(|| self.layout(squeezed))
-            .flatten()
-    }
-
-    /// Returns a layout near squeezed charts in which they keep the padding. Returns `None` if they could not be brought far enough
-    /// apart, or if they do not fit at a prescribed scale.
-    pub(super) fn layout(&self, mut squeezed: Squeezed) -> Option<Layout> {
-        let kept = self.padding(squeezed.side);
-        squeezed.padding = kept + 2.0 * ROUNDED;
-        let bodies = self.bodies(kept);
-        let (mut room, mut best) = (0.0, None);
+    /// Returns a layout near squeezed charts in which they keep the padding. The bodies keep a distance of `kept` cells. Returns `None`
+    /// if charts could not be brought far enough apart, or if they do not fit at a prescribed scale.
+    pub(super) fn layout(
+        &self,
+        mut squeezed: Squeezed,
+        bodies: &[Arc<Body>],
+        kept: f64,
+    ) -> Option<Layout> {
+        let padding = self.padding(squeezed.side);
+        squeezed.padding = padding + 2.0 * ROUNDED;
+        let (mut room, mut best) = (padding - kept, None);
         for _ in 0..ROUNDS {
             let words = self.options.budget_words / SHARE;
-            if !squeezed.loosen(&bodies, room, (words, self.on_read)) {
+            if !squeezed.loosen(bodies, room, (words, self.on_read)) {
                 break;
             }
             let (places, missing) = self.measured(&squeezed);
@@ -94,7 +90,8 @@ impl Squeezing<'_> {
         self.on_grid(best.or_else(spread)?)
     }
 
-    fn bodies(&self, kept: f64) -> Vec<Arc<Body>> {
+    /// Returns the charts as bodies that keep a distance of `kept` cells.
+    pub(super) fn bodies(&self, kept: f64) -> Vec<Arc<Body>> {
         let charts = self.charts.par_iter();
         charts
             .map(|&chart| Arc::new(Body::new(&self.level[chart], self.scale, kept)))
@@ -190,6 +187,68 @@ impl Squeezing<'_> {
             charts,
         })
     }
+}
+
+/// Squeezes a layout on the raster, and brings charts exactly as near as permitted. Returns `None` if that fails, or if the layout has
+/// no room for the padding.
+pub(super) fn squeezed(problem: &Problem, found: &Layout) -> Option<Layout> {
+    let Problem {
+        plan,
+        options,
+        on_read,
+        ..
+    } = *problem;
+    let texture = options.texture;
+    if found.padding_texels < f64::from(options.padding_texels) {
+        return None;
+    }
+    let page = FINE * f64::from(texture.raster(raster_side(plan.order.len(), texture)));
+    let padding = options.padding_share() * page;
+    let obstacles = problem.obstacles.iter();
+    let fixed = obstacles.map(|it| FixedBody::new(&it.outline, page, padding));
+    let stays: Vec<Outline> = (problem.obstacles.iter())
+        .map(|it| it.outline.clone())
+        .collect();
+    let squeezing = Squeezing {
+        level: &plan.outlines,
+        charts: &plan.order,
+        scale: found.scale * page / texture.grid_side(),
+        border: if problem.is_constrained() {
+            Border::Fixed
+        } else {
+            Border::Cropped
+        },
+        stays: &stays,
+        options,
+        on_read,
+    };
+    let mut squeezed = poses(problem, found, page, fixed.collect());
+    let bodies = squeezing.bodies(padding);
+    match squeezed.settle(&bodies, options.budget_words / 2, on_read) {
+        End::Overlapping => None,
+        End::OutOfWords | End::Stuck => squeezing.layout(squeezed, &bodies, padding),
+    }
+}
+
+/// Returns the poses of a layout on pages with `page` cells along the longer side, in the order of the plan.
+pub(super) fn poses(
+    problem: &Problem,
+    found: &Layout,
+    page: f64,
+    fixed: Arc<[FixedBody]>,
+) -> Squeezed {
+    let texture = problem.options.texture;
+    let padding = problem.options.padding_share() * page;
+    let cell = page / texture.grid_side();
+    let posed = problem.plan.order.iter().map(|&chart| {
+        let place = &found.charts[chart];
+        let region = problem.regions.get(chart).copied().flatten();
+        let frame = texture.frame(region.unwrap_or(Region::page(place.page)));
+        let [x, y] = (place.middle(found.scale)).map(|x| x * cell - padding / 2.0);
+        let angle = problem.plan.outlines[chart].angle_to(&place.outline);
+        (Pose::new([x + frame.left * page, y], angle), frame)
+    });
+    Squeezed::new(posed, fixed, page, padding)
 }
 
 /// Places of squeezed charts in cells, without borders.

@@ -1,17 +1,13 @@
 //! The layout that maps form where they lie, squeezed.
 //!
 //! Charts that are packed again often come from a full page. No search is sure to find its order again, but squeezing keeps it.
-use std::sync::Arc;
-
-use super::coarse::{FINE, raster_side};
 use super::effort::OnRead;
-use super::gap::{Border, Squeezing, smallest_gap};
-use super::layout::Layout;
+use super::gap::{smallest_gap, squeezed};
+use super::layout::{Layout, Place, Problem};
 use super::outline::{Outline, outlines};
 use super::page::Region;
-use super::plan::{MOST_CHARTS, by_size, mark_copies};
-use super::problem::{AtlasError, AtlasOptions, ChartMap};
-use super::squeeze::{Pose, Squeezed};
+use super::plan::{MOST_CHARTS, Plan};
+use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation};
 use unwrapd_maps::plane::Straightness;
 use unwrapd_method::numerics::bounds::bounds_of;
 
@@ -42,42 +38,42 @@ pub(super) fn given(
 ) -> Result<Option<Given>, AtlasError> {
     let texture = options.texture;
     let limited = outlines(charts)?.into_iter();
-    let mut outlines: Vec<Outline> = limited
-        .map(|outline| outline.limited_to(options.rotation))
-        .collect();
-    mark_copies(&mut outlines);
-    let order = by_size(&outlines.iter().collect::<Vec<_>>());
-    let is_one_page = (1..=MOST_CHARTS).contains(&order.len()) && texture.pages == 1;
-    if !is_one_page || do_meet(&outlines) {
+    let limited = limited.map(|outline| outline.limited_to(options.rotation));
+    let plan = Plan::largest_first(limited.collect(), Rotation::None);
+    let outlines = &plan.outlines;
+    let is_one_page = (1..=MOST_CHARTS).contains(&plan.order.len()) && texture.pages == 1;
+    if !is_one_page || do_meet(outlines) {
         return Ok(None);
     }
     // The smallest page around all charts.
     let corners = outlines.iter().flat_map(Outline::corners);
     let [low, high] = bounds_of(&corners.collect::<Vec<_>>());
-    let frame = texture.frame(Region::page(0));
-    let longer = frame.side([high[0] - low[0], high[1] - low[1]], [0.0; 2]);
-    let page = FINE * f64::from(texture.raster(raster_side(order.len(), texture)));
-    let padding = options.padding_share() * page;
-    let scale = (page - padding) / longer;
+    let around = texture.frame(Region::page(0));
+    let longer = around.side([high[0] - low[0], high[1] - low[1]], [0.0; 2]);
+    let grid = texture.grid_side();
+    let padding = options.padding_share() * grid;
+    let scale = (grid - padding) / longer;
     if !scale.is_normal() {
         return Ok(None);
     }
-    let pose = |&chart: &usize| {
-        let middle = outlines[chart].middle();
-        Pose::new([0, 1].map(|k| (middle[k] - low[k]) * scale), 0.0)
+    let place = |outline: &Outline| {
+        let middle = outline.middle();
+        let corner = |k: usize| (middle[k] - outline.extent[k] / 2.0 - low[k]) * scale;
+        Place {
+            outline: outline.clone(),
+            page: 0,
+            corner: [0, 1].map(|k| corner(k) + padding / 2.0),
+            stretch: 1.0,
+            room: 0.0,
+        }
     };
-    let posed = order.iter().map(|chart| (pose(chart), frame));
-    let squeezed = Squeezed::new(posed, Arc::default(), page, padding);
-    let squeezing = Squeezing {
-        level: &outlines,
-        charts: &order,
+    let found = Layout {
         scale,
-        border: Border::Cropped,
-        stays: &[],
-        options,
-        on_read,
+        cell: 1.0,
+        padding_texels: f64::from(options.padding_texels),
+        charts: outlines.iter().map(place).collect(),
     };
-    let layout = squeezing.settled_layout(squeezed);
+    let layout = squeezed(&Problem::free(&plan, options, on_read), &found);
     let lean = |outline: &Outline| match outline.straightness {
         Straightness::Upright(axis) => axis[0].abs().min(axis[1].abs()) > ACROSS,
         Straightness::Leaning(_) | Straightness::Round => false,

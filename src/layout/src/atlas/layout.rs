@@ -12,7 +12,7 @@ use super::mask::{Distances, Mask, Rounding, Run, Turned};
 use super::occupancy::{Corner, Occupancy, Spot, Window};
 use super::outline::Outline;
 use super::page::{Form, Region, Texture};
-use super::plan::{HOPE, MOST_CHARTS, Plan, QuarterTurns, SLIVERS};
+use super::plan::{HOPE, MOST_CHARTS, Plan, SLIVERS};
 use super::problem::{AtlasOptions, Rotation, Scale};
 
 use unwrapd_method::numerics::bounds::bounds_of;
@@ -149,7 +149,18 @@ pub(super) struct Problem<'a> {
     pub on_read: &'a OnRead<'a>,
 }
 
-impl Problem<'_> {
+impl<'a> Problem<'a> {
+    /// Creates the problem of charts that have the pages for themselves.
+    pub(super) fn free(plan: &'a Plan, options: &'a AtlasOptions, on_read: &'a OnRead<'a>) -> Self {
+        Self {
+            plan,
+            regions: &[],
+            obstacles: &[],
+            options,
+            on_read,
+        }
+    }
+
     /// Returns whether charts have regions or keep clear of islands.
     pub(super) fn is_constrained(&self) -> bool {
         !self.obstacles.is_empty() || self.regions.iter().any(Option::is_some)
@@ -293,7 +304,7 @@ fn fuller(packing: &Packing, (mut scale, mut best): (f64, Attempt)) -> (f64, Att
                     Rotation::Any | Rotation::Quarter => random.below(4) as u32,
                     Rotation::None => 0,
                 };
-                trial.turns[trial.order[i]] = QuarterTurns::Only(turns);
+                trial.turns[trial.order[i]] = Some(turns);
             }
         }
         let problem = Problem {
@@ -609,11 +620,9 @@ impl<'a> Packing<'a> {
         fits.then(|| {
             let mask = Mask::new(outline, scale * stretch, distances);
             let turned = match self.plan().turns[chart] {
-                QuarterTurns::Only(turns) => vec![Turned::new(&mask, turns)],
-                QuarterTurns::Any if self.is_alike && outline.has_copies => {
-                    vec![Turned::new(&mask, 0)]
-                }
-                QuarterTurns::Any => Turned::all(mask),
+                Some(turns) => vec![Turned::new(&mask, turns)],
+                None if self.is_alike && outline.has_copies => vec![Turned::new(&mask, 0)],
+                None => Turned::all(mask),
             };
             (turned, stretch)
         })

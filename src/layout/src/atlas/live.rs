@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 use super::coarse::{FINE, RASTER};
 use super::effort::UNHEARD;
+use super::gap::poses;
 use super::layout::{Obstacle, Problem, SLACK};
 use super::outline::{Outline, outlines};
-use super::pack::poses;
 use super::page::{Region, Texture};
 use super::plan::Plan;
 use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation, Scale};
@@ -96,7 +96,7 @@ impl LiveLayout {
         let texture = options.texture;
         let page = FINE * f64::from(texture.raster(RASTER));
         let padding = options.padding_share() * page;
-        let plan = Plan::largest_first(&outlines(around)?, &options);
+        let plan = Plan::of(around, &options)?;
         let held = outlines(held)?;
         let chart = |&chart: &usize| &plan.outlines[chart];
         let bodies = plan.order.iter().map(chart);

@@ -1,20 +1,18 @@
 //! Packing: from chart maps to places on the grid.
 use rayon::prelude::*;
-use std::sync::Arc;
 
-use super::coarse::{CoarseLayout, FINE, raster_side};
+use super::coarse::CoarseLayout;
 use super::effort::{Effort, OnRead, UNHEARD};
-use super::gap::{Border, Squeezing};
+use super::gap::squeezed;
 use super::given::{Given, Tidiness, given};
 use super::grid::{Repair, Snapped, aligned, doubled_area, snapped};
 use super::layout::{Layout, Problem, SLACK};
-use super::outline::{Outline, outlines};
-use super::page::{GRID_SIDE, Region};
+use super::outline::Outline;
+use super::page::GRID_SIDE;
 use super::plan::{MOST_CHARTS, Plan};
 use super::problem::{
     Atlas, AtlasError, AtlasOptions, Borders, ChartMap, Limit, Placed, Positions, Scale,
 };
-use super::squeeze::{FixedBody, Pose, Squeezed};
 
 /// Maximum number of layouts, each with more room for vertices that had to move farther than the last one allowed.
 const ROUNDS: usize = 6;
@@ -47,9 +45,12 @@ pub fn pack_coarse(
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Result<Atlas, AtlasError> {
-    let first = Plan::largest_first(&outlines(charts)?, options);
-    let atlas = pack_plan(charts, &first, coarse, options, on_read)?;
-    let limit = limit(&atlas, &first.outlines, options);
+    let plan = match coarse {
+        Some(coarse) => coarse.plan.clone(),
+        None => Plan::of(charts, options)?,
+    };
+    let atlas = pack_plan(charts, &plan, coarse, options, on_read)?;
+    let limit = limit(&atlas, &plan.outlines, options);
     Ok(Atlas { limit, ..atlas })
 }
 
@@ -60,13 +61,7 @@ fn pack_plan(
     options: &AtlasOptions,
     on_read: &OnRead,
 ) -> Result<Atlas, AtlasError> {
-    let problem = Problem {
-        plan,
-        regions: &[],
-        obstacles: &[],
-        options,
-        on_read,
-    };
+    let problem = Problem::free(plan, options, on_read);
     let is_placed = options.scale != Scale::Largest
         && (problem.layout(&vec![SLACK; charts.len()], options.most_cells)).is_some();
     let exact = match options.positions {
@@ -159,63 +154,6 @@ pub(super) fn packed(
     Some(atlas(charts, &layout, rounded, options))
 }
 
-/// Squeezes a layout on the raster, and brings charts exactly as near as permitted. Returns `None` if that fails, or if the layout has
-/// no room for the padding.
-fn squeezed(problem: &Problem, found: &Layout) -> Option<Layout> {
-    let Problem {
-        plan,
-        options,
-        on_read,
-        ..
-    } = *problem;
-    let texture = options.texture;
-    if found.padding_texels < f64::from(options.padding_texels) {
-        return None;
-    }
-    let page = FINE * f64::from(texture.raster(raster_side(plan.order.len(), texture)));
-    let padding = options.padding_share() * page;
-    let obstacles = problem.obstacles.iter();
-    let fixed = obstacles.map(|it| FixedBody::new(&it.outline, page, padding));
-    let stays: Vec<Outline> = (problem.obstacles.iter())
-        .map(|it| it.outline.clone())
-        .collect();
-    let squeezing = Squeezing {
-        level: &plan.outlines,
-        charts: &plan.order,
-        scale: found.scale * page / texture.grid_side(),
-        border: if problem.is_constrained() {
-            Border::Fixed
-        } else {
-            Border::Cropped
-        },
-        stays: &stays,
-        options,
-        on_read,
-    };
-    squeezing.settled_layout(poses(problem, found, page, fixed.collect()))
-}
-
-/// Returns the poses of a layout on pages with `page` cells along the longer side, in the order of the plan.
-pub(super) fn poses(
-    problem: &Problem,
-    found: &Layout,
-    page: f64,
-    fixed: Arc<[FixedBody]>,
-) -> Squeezed {
-    let texture = problem.options.texture;
-    let padding = problem.options.padding_share() * page;
-    let cell = page / texture.grid_side();
-    let posed = problem.plan.order.iter().map(|&chart| {
-        let place = &found.charts[chart];
-        let region = problem.regions.get(chart).copied().flatten();
-        let frame = texture.frame(region.unwrap_or(Region::page(place.page)));
-        let [x, y] = (place.middle(found.scale)).map(|x| x * cell - padding / 2.0);
-        let angle = problem.plan.outlines[chart].angle_to(&place.outline);
-        (Pose::new([x + frame.left * page, y], angle), frame)
-    });
-    Squeezed::new(posed, fixed, page, padding)
-}
-
 /// Returns the fuller of a layout that was searched and the given one, which has to be fuller by [`STRAIGHT`] if straight charts lean.
 fn fuller(exact: Option<Layout>, given: Option<Given>, options: &AtlasOptions) -> Option<Layout> {
     let Some(Given { layout, tidiness }) = given else {
@@ -247,13 +185,8 @@ fn give_room(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) {
 
 /// Returns whether charts fit at the prescribed scale if each is placed once, the largest first.
 pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasError> {
-    let problem = Problem {
-        plan: &Plan::largest_first(&outlines(charts)?, options),
-        regions: &[],
-        obstacles: &[],
-        options,
-        on_read: UNHEARD,
-    };
+    let plan = Plan::of(charts, options)?;
+    let problem = Problem::free(&plan, options, UNHEARD);
     let slack = vec![SLACK; charts.len()];
     Ok(options.scale != Scale::Largest && problem.layout(&slack, options.most_cells).is_some())
 }

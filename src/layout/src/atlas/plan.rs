@@ -1,10 +1,11 @@
 //! Plan of a layout: the order in which charts are placed, and the angle of each.
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use super::copies::{Moments, copies};
-use super::outline::{Enclosure, Outline, direction};
+use super::outline::{Enclosure, Outline, direction, outlines};
 use super::page::Texture;
-use super::problem::{AtlasOptions, Rotation};
+use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation};
 use unwrapd_method::numerics::hull::convex_hull;
 
 /// Share of a page that charts are expected to fill.
@@ -22,47 +23,58 @@ pub(super) const MOST_CHARTS: usize = 512;
 /// Charts whose area is a smaller share of their room than this count as lines: the difference of roots would be rounding.
 pub(super) const SLIVERS: f64 = 1e-9;
 
-/// Input of a layout.
+/// Charts of a layout, each turned to an angle, and the order in which they are placed.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
-    /// Outlines of the charts, each turned to an angle.
     pub outlines: Vec<Outline>,
-    /// Quarter turns of each chart beyond that: a fixed number, or the one that the layout finds best.
-    pub turns: Vec<QuarterTurns>,
-    /// Indices of the charts that have triangles, in the order in which they are placed.
+    /// Quarter turns of each chart beyond that, or `None` where the layout finds the best number.
+    pub turns: Vec<Option<u32>>,
+    /// Indices of the charts that have triangles, the largest first.
     pub order: Vec<usize>,
-}
-
-/// Quarter turns with which a chart may be placed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum QuarterTurns {
-    Any,
-    Only(u32),
+    /// First chart of its kind for each chart, possibly itself.
+    pub kind: Arc<[usize]>,
 }
 
 impl Plan {
-    /// Plans to place the largest charts first. If any angle is permitted, copies lie alike, a chart that is alone is turned
-    /// upright if it is straight, and other charts are turned by [`level`].
-    pub(super) fn largest_first(outlines: &[Outline], options: &AtlasOptions) -> Self {
-        let texture = options.texture;
-        let total: f64 = outlines.iter().map(|o| o.size * o.size).sum();
+    /// Plans to place the largest charts first.
+    pub(super) fn of(charts: &[ChartMap], options: &AtlasOptions) -> Result<Self, AtlasError> {
+        let outlines = outlines(charts)?;
+        let (rotation, texture) = (options.rotation, options.texture);
+        Ok(Self::leveled(outlines, 0, rotation, texture))
+    }
+
+    /// Turns the charts from index `n_level` on, which have yet to be turned. If any angle is permitted, copies lie alike, a chart that
+    /// is alone is turned upright if it is straight, and other charts are turned by [`level`].
+    pub(super) fn leveled(
+        mut outlines: Vec<Outline>,
+        n_level: usize,
+        rotation: Rotation,
+        texture: Texture,
+    ) -> Self {
         let is_alone = outlines.iter().filter(|o| o.n_triangles > 0).count() == 1;
-        let page = total / f64::from(texture.pages);
-        let level = |outline: &Outline| match options.rotation {
-            Rotation::Any => outline
-                .upright()
-                .filter(|_| is_alone)
-                .unwrap_or_else(|| level(outline, page, texture)),
-            rotation => outline.clone().limited_to(rotation),
-        };
-        let mut outlines = alike(outlines.to_vec(), 0, options.rotation, level);
-        mark_copies(&mut outlines);
-        let turns = match options.rotation {
-            Rotation::Any | Rotation::Quarter => QuarterTurns::Any,
-            Rotation::None => QuarterTurns::Only(0),
+        let page = area(&outlines) / f64::from(texture.pages);
+        let shapes: Vec<Moments> = outlines.iter().map(|outline| outline.moments).collect();
+        for (i, (first, angle)) in copies(&shapes).into_iter().enumerate().skip(n_level) {
+            let outline = &outlines[i];
+            outlines[i] = match rotation {
+                Rotation::Any if first < i => outline.turned_like(&outlines[first], angle),
+                Rotation::Any => (outline.upright().filter(|_| is_alone))
+                    .unwrap_or_else(|| level(outline, page, texture)),
+                _ => outline.clone().limited_to(rotation),
+            };
+        }
+        Self::largest_first(outlines, rotation)
+    }
+
+    /// Plans to place charts at their angles, the largest first.
+    pub(super) fn largest_first(mut outlines: Vec<Outline>, rotation: Rotation) -> Self {
+        let turns = match rotation {
+            Rotation::Any | Rotation::Quarter => None,
+            Rotation::None => Some(0),
         };
         Self {
-            order: by_size(&outlines.iter().collect::<Vec<_>>()),
+            kind: mark_copies(&mut outlines).into(),
+            order: by_size(&outlines),
             turns: vec![turns; outlines.len()],
             outlines,
         }
@@ -74,12 +86,9 @@ impl Plan {
             self.outlines.iter().map(Outline::straightened).collect();
         straight.iter().any(Option::is_some).then_some(())?;
         let straight = straight.into_iter().zip(&self.outlines);
-        Some(Self {
-            outlines: straight
-                .map(|(it, level)| it.unwrap_or_else(|| level.clone()))
-                .collect(),
-            ..self.clone()
-        })
+        let outlines = straight.map(|(it, level)| it.unwrap_or_else(|| level.clone()));
+        // Only charts that may lie at any angle lean.
+        Some(Self::largest_first(outlines.collect(), Rotation::Any))
     }
 
     /// Returns the longest side of all bounding rectangles, in mesh units.
@@ -95,31 +104,16 @@ impl Plan {
 
     /// Returns the sum of the charts' areas, in square mesh units.
     pub(super) fn area(&self) -> f64 {
-        self.outlines.iter().map(|o| o.size * o.size).sum()
+        area(&self.outlines)
     }
 }
 
-/// Turns the charts from index `n_level` on: copies like the first of their kind if any angle is permitted, other charts by
-/// `level`.
-pub(super) fn alike(
-    mut outlines: Vec<Outline>,
-    n_level: usize,
-    rotation: Rotation,
-    level: impl Fn(&Outline) -> Outline,
-) -> Vec<Outline> {
-    let shapes: Vec<Moments> = outlines.iter().map(|outline| outline.moments).collect();
-    for (i, (first, angle)) in copies(&shapes).into_iter().enumerate().skip(n_level) {
-        outlines[i] = if first < i && rotation == Rotation::Any {
-            outlines[i].turned_like(&outlines[first], angle)
-        } else {
-            level(&outlines[i])
-        };
-    }
-    outlines
+fn area(outlines: &[Outline]) -> f64 {
+    outlines.iter().map(|o| o.size * o.size).sum()
 }
 
 /// Marks the charts that have enough copies. Returns the first chart of each kind for each chart, possibly itself.
-pub(super) fn mark_copies(outlines: &mut [Outline]) -> Vec<usize> {
+fn mark_copies(outlines: &mut [Outline]) -> Vec<usize> {
     let kinds = kinds(outlines);
     let mut n_alike = vec![0; outlines.len()];
     for &first in &kinds {
@@ -153,7 +147,7 @@ fn kinds(outlines: &[Outline]) -> Vec<usize> {
 /// Turns a straight chart upright if it is then no longer than the side of a square page for charts with a total area of `total`.
 /// Turns other charts to their smallest enclosing rectangle, so that a longer chart may lie across the page. A chart with more than
 /// half of the area decides the size of the page, and is turned to its smallest enclosing page.
-pub(super) fn level(outline: &Outline, total: f64, texture: Texture) -> Outline {
+fn level(outline: &Outline, total: f64, texture: Texture) -> Outline {
     let is_most = 2.0 * outline.size * outline.size > total;
     let outline = outline.upright_within((total / HOPE).sqrt());
     if outline.rotation() != Rotation::Any {
@@ -175,7 +169,7 @@ fn turned(outline: &Outline, enclosure: Enclosure) -> Outline {
 }
 
 /// Returns the indices of the charts that have triangles, in descending order of the half perimeters of their rectangles.
-pub(super) fn by_size(outlines: &[&Outline]) -> Vec<usize> {
+fn by_size(outlines: &[Outline]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..outlines.len())
         .filter(|&i| outlines[i].n_triangles > 0)
         .collect();

@@ -11,7 +11,7 @@ use super::mask::{Distances, Rounding};
 use super::occupancy::{Corner, Occupancy};
 use super::outline::{Outline, outlines};
 use super::page::{Form, Region, Texture, page_side};
-use super::plan::{HOPE, MOST_CHARTS, Plan, alike, by_size, level, mark_copies};
+use super::plan::{HOPE, MOST_CHARTS, Plan};
 use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation};
 use super::squeeze::{Pose, Squeezed};
 use arrangement::{Arrangement, Poses};
@@ -50,8 +50,8 @@ const REACHED: f64 = 1.001;
 /// The cost of the search is counted in words read, so the result is the same on every machine and for any number of threads.
 #[derive(Clone)]
 pub struct CoarseLayout {
-    /// Outlines of the charts, turned as in their first pose.
-    level: Vec<Outline>,
+    /// Charts, turned as in their first pose.
+    pub(super) plan: Plan,
     /// Poses of each chart, which copies share.
     poses: Vec<Arc<Poses>>,
     raster: CoarseRaster,
@@ -65,10 +65,13 @@ pub struct CoarseLayout {
     n_searches: u64,
     /// `true` once a search has nothing left to try.
     is_exhausted: bool,
+    /// Least cost of an arrangement so far, and the number of starts that reached it.
+    least_cost: f64,
+    n_agreed: usize,
+    /// Arrangements that were squeezed as far as possible.
+    squeezed_to_the_end: Vec<Arrangement>,
     /// Number of large charts, the first ones by size.
     n_large: usize,
-    /// Index, for each chart, of the first chart that it is a copy of, possibly itself.
-    kind: Arc<[usize]>,
 }
 
 /// Raster on which charts become cells.
@@ -88,15 +91,13 @@ impl CoarseLayout {
     /// Places the charts in the order of their sizes. Returns `None` if there are too many charts or no words for a search, if a
     /// needle is longer than the raster, if the charts have no area, or if they do not fit on the largest raster.
     pub fn new(charts: &[ChartMap], options: &AtlasOptions) -> Result<Option<Self>, AtlasError> {
-        let outlines = outlines(charts)?;
-        if outlines.len() > MOST_CHARTS || options.budget_words == 0 {
-            return Ok(None);
-        }
-        Ok(Self::of(&Plan::largest_first(&outlines, options), options))
+        Ok(Self::of(&Plan::of(charts, options)?, options))
     }
 
-    fn of(plan: &Plan, options: &AtlasOptions) -> Option<Self> {
-        if !plan.has_area() {
+    /// Like [`new`](Self::new), for charts that are already turned.
+    pub(super) fn of(plan: &Plan, options: &AtlasOptions) -> Option<Self> {
+        let n_charts = plan.outlines.len();
+        if n_charts > MOST_CHARTS || options.budget_words == 0 || !plan.has_area() {
             return None;
         }
         let area = plan.area();
@@ -116,58 +117,47 @@ impl CoarseLayout {
         if longest > f64::from(raster.largest(largest)) {
             return None;
         }
-        let mut coarse = Self::largest_first(plan.outlines.clone(), &[], raster);
+        let mut coarse = Self::at_first(plan.clone(), &[], raster);
         coarse.lay_out().then_some(coarse)
     }
 
     /// Returns the layout with `parts` in place of one chart; they come last among the charts. It is laid out only when it is
     /// [improved](Self::improve), and its fill is 0 until then.
     pub fn replaced(&self, chart: usize, parts: &[ChartMap]) -> Result<Self, AtlasError> {
-        let (mut charts, mut poses) = (self.level.clone(), self.poses.clone());
+        let (mut charts, mut poses) = (self.plan.outlines.clone(), self.poses.clone());
         charts.remove(chart);
         poses.remove(chart);
         let n_others = charts.len();
         charts.extend(outlines(parts)?);
-        let page = HOPE * (self.raster.cells() / self.raster.scale).powi(2);
         let (rotation, texture) = (self.raster.rotation, self.raster.texture);
-        let level = alike(charts, n_others, rotation, |outline| match rotation {
-            Rotation::Any => level(outline, page * texture.share(), texture),
-            _ => outline.clone().limited_to(rotation),
-        });
-        Ok(Self::largest_first(level, &poses, self.raster))
+        let plan = Plan::leveled(charts, n_others, rotation, texture);
+        Ok(Self::at_first(plan, &poses, self.raster))
     }
 
     /// Returns a layout with the leaning charts turned upright, which has yet to be laid out; `None` if no chart leans.
     pub(super) fn straightened(&self) -> Option<Self> {
-        let straight: Vec<Option<Outline>> = self.level.iter().map(Outline::straightened).collect();
-        straight.iter().any(Option::is_some).then_some(())?;
-        let straight = straight.into_iter().zip(&self.level);
-        let level = straight.map(|(straight, level)| straight.unwrap_or_else(|| level.clone()));
-        Some(Self::largest_first(level.collect(), &[], self.raster))
+        let straight = self.plan.straightened()?;
+        Some(Self::at_first(straight, &[], self.raster))
     }
 
-    /// Sorts the charts by size without placing them. `known` are poses of the first charts, which are reused where they still
-    /// apply.
-    fn largest_first(mut level: Vec<Outline>, known: &[Arc<Poses>], raster: CoarseRaster) -> Self {
-        let kind = mark_copies(&mut level);
-        let mut poses: Vec<Arc<Poses>> = Vec::with_capacity(level.len());
-        for (chart, &first) in kind.iter().enumerate() {
-            let holds =
-                |known: &&Arc<Poses>| known.outline(0).has_copies == level[chart].has_copies;
+    /// Creates a layout that has yet to be laid out. `known` are poses of the first charts, which are reused where they still apply.
+    fn at_first(plan: Plan, known: &[Arc<Poses>], raster: CoarseRaster) -> Self {
+        let mut poses: Vec<Arc<Poses>> = Vec::with_capacity(plan.outlines.len());
+        for (chart, (outline, &first)) in plan.outlines.iter().zip(&*plan.kind).enumerate() {
+            let holds = |known: &&Arc<Poses>| known.outline(0).has_copies == outline.has_copies;
             poses.push(match known.get(chart).filter(holds) {
                 _ if first < chart => poses[first].clone(),
                 Some(known) => known.clone(),
-                None => raster.poses(&level[chart]),
+                None => raster.poses(outline),
             });
         }
-        let by_size = by_size(&level.iter().collect::<Vec<_>>());
         let is_large = |&&chart: &&usize| {
-            let [width, height] = level[chart].extent;
+            let [width, height] = plan.outlines[chart].extent;
             (width + height) * raster.scale > SMALL * raster.cells()
         };
-        let n_large = by_size.iter().take_while(is_large).count().max(1);
+        let n_large = plan.order.iter().take_while(is_large).count().max(1);
         let first = Arrangement {
-            order: by_size,
+            order: plan.order.clone(),
             pose: vec![0; poses.len()],
             corners: vec![Corner::default(); poses.len()],
             side: 0,
@@ -175,15 +165,17 @@ impl CoarseLayout {
         };
         Self {
             n_large,
-            kind: kind.into(),
             state: first.clone(),
             first,
-            level,
+            plan,
             poses,
             raster,
             squeezed: None,
             n_searches: 0,
             is_exhausted: false,
+            least_cost: f64::INFINITY,
+            n_agreed: 0,
+            squeezed_to_the_end: Vec::new(),
         }
     }
 
@@ -250,7 +242,11 @@ impl CoarseLayout {
 
     /// Returns the number of triangles of all charts.
     pub(super) fn n_triangles(&self) -> usize {
-        self.level.iter().map(|outline| outline.n_triangles).sum()
+        self.plan
+            .outlines
+            .iter()
+            .map(|outline| outline.n_triangles)
+            .sum()
     }
 
     /// Returns `true` if a search has squeezed the layout.
@@ -320,12 +316,12 @@ impl CoarseRaster {
 pub(in crate::atlas) const FINE: f64 = 2.0;
 
 impl CoarseLayout {
-    /// Returns the arrangement as poses of charts.
-    fn loose(&self) -> Squeezed {
+    /// Returns an arrangement as poses of charts.
+    fn loose(&self, state: &Arrangement) -> Squeezed {
         let texture = self.raster.texture;
-        let page = f64::from(self.state.side) + self.raster.padding;
+        let page = f64::from(state.side) + self.raster.padding;
         let posed = self.first.order.iter().map(|&chart| {
-            let (poses, pose) = (&self.poses[chart], self.state.pose[chart]);
+            let (poses, pose) = (&self.poses[chart], state.pose[chart]);
             let middle = poses.outline(pose).place(poses.outline(0).middle());
             let [i, j] = middle.map(|x| x * self.raster.scale);
             let [width, height] = poses.mask(pose).size.map(f64::from);
@@ -335,7 +331,7 @@ impl CoarseLayout {
                 2 => [width - i, height - j],
                 _ => [j, height - i],
             };
-            let Corner { page: number, x, y } = self.state.corners[chart];
+            let Corner { page: number, x, y } = state.corners[chart];
             let frame = texture.frame(Region::page(number));
             let middle = [f64::from(x) + i + frame.left * page, f64::from(y) + j];
             (Pose::new(middle, Poses::angle(pose)), frame)
@@ -355,7 +351,7 @@ impl CoarseLayout {
             return None;
         }
         let squeezing = Squeezing {
-            level: &self.level,
+            level: &self.plan.outlines,
             charts: &self.first.order,
             scale: FINE * self.raster.scale,
             border: Border::Cropped,
@@ -363,6 +359,8 @@ impl CoarseLayout {
             options,
             on_read,
         };
-        squeezing.layout(self.squeezed.as_ref()?.refined(FINE))
+        let squeezed = self.squeezed.as_ref()?.refined(FINE);
+        let kept = squeezed.padding;
+        squeezing.layout(squeezed, &squeezing.bodies(kept), kept)
     }
 }

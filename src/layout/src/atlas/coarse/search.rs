@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::CoarseLayout;
 use super::arrangement::{Arrangement, Prefixes};
 use crate::atlas::effort::{Effort, OnRead, ReadLimit, Schedule};
-use crate::atlas::squeeze::Body;
+use crate::atlas::squeeze::{Body, End, Squeezed};
 use unwrapd_method::numerics::random::Random;
 
 /// Temperatures at the start and the end of annealing: the mean increase in cost, in cells, up to which a trial is accepted.
@@ -22,6 +22,11 @@ const STUCK: usize = 4;
 const IN_VAIN: usize = 20;
 /// Distance between the seeds of two searches, at least the number of starts of one.
 const SEEDS_PER_SEARCH: u64 = 100;
+/// Number of starts that run together, after which a search may end.
+const STARTS_AT_A_TIME: usize = 2;
+/// Number of starts that ended with the best arrangement of all, at which a search ends: almost surely nothing is better. None of 90
+/// sets of charts is emptier by .008 for it (`tests/bench/stable.rs`).
+const AGREED: usize = 3;
 /// Number of small charts that cost as much as a large one.
 const SMALL_PER_LARGE: usize = 4;
 
@@ -55,20 +60,23 @@ impl CoarseLayout {
         {
             return;
         }
-        let schedule = effort.schedule();
         let annealing = Schedule::ANNEALING * words as f64;
-        let (found, is_exhausted) = self.arrangements(&schedule, annealing, on_read);
-        let n_searches = self.n_searches + 1;
+        let found = self.arrangements(&effort.schedule(), annealing, on_read);
         let each = ((words as f64 - annealing) / found.len() as f64) as u64;
-        let settled: Vec<Option<Self>> = (found.par_iter().with_max_len(1))
-            .map(|state| self.settled(state.clone(), each, on_read))
+        let squeezed: Vec<(Option<Squeezed>, End)> = (found.par_iter().with_max_len(1))
+            .map(|state| self.squeezed(state, each, on_read))
             .collect();
-        for coarse in settled.into_iter().flatten() {
-            if !self.is_searched() || coarse.side() < self.side() {
-                *self = coarse;
+        for (state, (squeezed, end)) in found.into_iter().zip(squeezed) {
+            if end == End::Stuck {
+                self.squeezed_to_the_end.push(state.clone());
+            }
+            if let Some(squeezed) =
+                squeezed.filter(|it| !self.is_searched() || it.side < self.side())
+            {
+                (self.state, self.squeezed) = (state, Some(squeezed));
             }
         }
-        (self.n_searches, self.is_exhausted) = (n_searches, is_exhausted);
+        self.n_searches += 1;
     }
 
     /// Returns the least side of an arrangement, in cells: a mask covers each cell that its rectangle reaches.
@@ -76,41 +84,65 @@ impl CoarseLayout {
         self.least_side() as u32 + 1
     }
 
-    /// Anneals from several seeds, and reads about `words` words in all. Returns the best arrangements, the best first, and whether
-    /// nothing is left to try.
+    /// Anneals from several seeds, and reads about `words` words in all. Returns the best arrangements that have not been squeezed
+    /// before, the best first.
     fn arrangements(
-        &self,
+        &mut self,
         schedule: &Schedule,
         words: f64,
         on_read: &OnRead,
-    ) -> (Vec<Arrangement>, bool) {
+    ) -> Vec<Arrangement> {
         let each = (words / f64::from(schedule.starts)) as u64;
-        let starts = (0..schedule.starts).into_par_iter().with_max_len(1);
-        let seed = SEEDS_PER_SEARCH * self.n_searches;
-        let (mut found, is_exhausted): (Vec<Arrangement>, Vec<bool>) = starts
-            .map(|start| self.annealed(each, &mut Random::new(seed + u64::from(start)), on_read))
-            .unzip();
+        let first_seed = SEEDS_PER_SEARCH * self.n_searches;
+        let seeds: Vec<u64> = (first_seed..).take(schedule.starts as usize).collect();
+        let mut found: Vec<Arrangement> = Vec::new();
+        for seeds in seeds.chunks(STARTS_AT_A_TIME) {
+            let starts = seeds.par_iter().with_max_len(1);
+            let of_starts: Vec<(Arrangement, bool)> = starts
+                .map(|&seed| self.annealed(each, &mut Random::new(seed), on_read))
+                .collect();
+            for (state, is_exhausted) in of_starts {
+                self.is_exhausted |= is_exhausted;
+                if state.cost < self.least_cost {
+                    (self.least_cost, self.n_agreed) = (state.cost, 0);
+                }
+                self.n_agreed += usize::from(state.cost <= self.least_cost);
+                found.push(state);
+            }
+            self.is_exhausted |= self.n_agreed >= AGREED;
+            if self.is_exhausted {
+                break;
+            }
+        }
         found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        found.dedup_by_key(|state| state.key(&self.kind));
-        found.truncate(Schedule::SQUEEZED);
-        (found, is_exhausted.into_iter().all(|is| is))
+        let mut best: Vec<Arrangement> = Vec::new();
+        for state in found {
+            if best.iter().all(|better| !better.lies_like(&state)) {
+                best.push(state);
+            }
+        }
+        best.truncate(Schedule::SQUEEZED);
+        best.retain(|state| {
+            self.squeezed_to_the_end
+                .iter()
+                .all(|it| !it.lies_like(state))
+        });
+        best
     }
 
-    /// Returns the layout with another arrangement, squeezed; `None` if its charts could not be separated.
-    fn settled(&self, state: Arrangement, words: u64, on_read: &OnRead) -> Option<Self> {
-        let mut coarse = Self {
-            state,
-            ..self.clone()
-        };
-        let mut squeezed = coarse.loose();
-        let bodies: Vec<Arc<Body>> = (coarse.first.order.iter())
-            .map(|&chart| coarse.poses[chart].body())
+    /// Returns the charts of an arrangement, squeezed, and how squeezing ended; `None` if they could not be separated.
+    fn squeezed(
+        &self,
+        state: &Arrangement,
+        words: u64,
+        on_read: &OnRead,
+    ) -> (Option<Squeezed>, End) {
+        let mut squeezed = self.loose(state);
+        let bodies: Vec<Arc<Body>> = (self.first.order.iter())
+            .map(|&chart| self.poses[chart].body())
             .collect();
-        if !squeezed.settle(&bodies, words, on_read) {
-            return None;
-        }
-        coarse.squeezed = Some(squeezed);
-        Some(coarse)
+        let end = squeezed.settle(&bodies, words, on_read);
+        (Some(squeezed).filter(|_| end != End::Overlapping), end)
     }
 
     /// Returns the best arrangement found while about `words` words are read, and whether nothing is left to try. Starts with the
@@ -132,7 +164,7 @@ impl CoarseLayout {
             return (state, true);
         }
         let mut best = state.clone();
-        let mut known = HashSet::from([state.key(&self.kind)]);
+        let mut known = HashSet::from([state.key(&self.plan.kind)]);
         let [first, last] = TEMPERATURES;
         let mut limit = ReadLimit::new(words, on_read);
         // Number of trials in a row that were made before.
@@ -155,8 +187,8 @@ impl CoarseLayout {
                 occupancy.capacity = most;
                 trial.fit(place, &self.poses, &mut occupancy, random);
             }
-            let first = trial.copy_pose(place, &self.kind);
-            if known.insert(trial.key(&self.kind)) {
+            let first = trial.copy_pose(place, &self.plan.kind);
+            if known.insert(trial.key(&self.plan.kind)) {
                 known_in_row = 0;
             } else {
                 known_in_row += 1;

@@ -34,6 +34,17 @@ const STUCK: f64 = 0.9;
 /// of charts could not be separated.
 const MOST_GROWTHS: usize = 48;
 
+/// State in which squeezing ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    /// Charts overlap.
+    Overlapping,
+    /// The page may shrink further.
+    OutOfWords,
+    /// Charts leave no room for a smaller page.
+    Stuck,
+}
+
 /// Poses of charts on a page, or on several pages with islands that stay.
 #[derive(Clone)]
 pub(super) struct Squeezed {
@@ -108,15 +119,27 @@ impl Squeezed {
     }
 
     /// Separates overlapping charts, growing the page if needed, then shrinks the page as far as charts make room for each other
-    /// where they are. Stops shrinking once about `words` words are read. Returns whether no overlap remains.
-    pub(super) fn settle(&mut self, bodies: &[Arc<Body>], words: u64, on_read: &OnRead) -> bool {
-        let limit = ReadLimit::new(words, on_read);
-        let mut scene = Scene::new(bodies, self, 0.0, limit);
-        let is_apart = self.grow(&mut scene);
-        if is_apart {
-            self.shrink(&mut scene, SHRINKS[0]);
+    /// where they are. Stops shrinking once about `words` words are read.
+    pub(super) fn settle(&mut self, bodies: &[Arc<Body>], words: u64, on_read: &OnRead) -> End {
+        self.squeeze(bodies, 0.0, SHRINKS[0], ReadLimit::new(words, on_read))
+    }
+
+    /// Separates charts by `room` more cells than their bodies keep, then shrinks the page, at first by the share `first`.
+    fn squeeze(&mut self, bodies: &[Arc<Body>], room: f64, first: f64, limit: ReadLimit) -> End {
+        let mut scene = Scene::new(bodies, self, room, limit);
+        if !self.grow(&mut scene) {
+            return End::Overlapping;
         }
-        is_apart
+        let mut by = first;
+        while by > SHRINKS[1] {
+            if !scene.may_read() {
+                return End::OutOfWords;
+            }
+            if !self.shrink_once(&mut scene, by) {
+                by /= 2.0;
+            }
+        }
+        End::Stuck
     }
 
     /// Returns the bounds of each chart, in cells.
@@ -157,12 +180,7 @@ impl Squeezed {
         (words, on_read): (u64, &OnRead),
     ) -> bool {
         let limit = ReadLimit::new(words, on_read);
-        let mut scene = Scene::new(bodies, self, room, limit);
-        let is_apart = self.grow(&mut scene);
-        if is_apart {
-            self.shrink(&mut scene, LEAP);
-        }
-        is_apart
+        self.squeeze(bodies, room, LEAP, limit) != End::Overlapping
     }
 
     /// Separates charts after an island has moved, growing the page if needed, then shrinks it to `side` as far as they make room. Returns
@@ -199,16 +217,6 @@ impl Squeezed {
         self.side *= by;
         for pose in &mut self.poses {
             pose.middle = pose.middle.map(|x| x * by);
-        }
-    }
-
-    /// Shrinks the page, at first by the share `first`, which is halved whenever charts cannot be separated where they are.
-    fn shrink(&mut self, scene: &mut Scene, first: f64) {
-        let mut by = first;
-        while by > SHRINKS[1] && scene.may_read() {
-            if !self.shrink_once(scene, by) {
-                by /= 2.0;
-            }
         }
     }
 
