@@ -8,6 +8,7 @@ use super::state::Search;
 use crate::charts::Bound;
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap};
+use std::sync::Arc;
 use unwrapd_maps::measure::cost::PER_CHART;
 
 /// Least defect of a vertex, in radians, at which a contact is divided into stretches that may be hinges: ten times the fold
@@ -22,7 +23,7 @@ struct Move {
     gain: f64,
     /// Numbers of the nets, in ascending order.
     nets: Vec<u32>,
-    faces: Vec<u32>,
+    faces: Arc<[u32]>,
     /// Length of the border between them.
     contact: f64,
     stage: Stage,
@@ -153,7 +154,7 @@ impl Search<'_> {
         Move {
             gain: most / faces.len() as f64,
             nets,
-            faces,
+            faces: faces.into(),
             contact,
             stage: Stage::Met,
         }
@@ -176,7 +177,7 @@ impl Search<'_> {
         let way = match n_left {
             0 => None,
             _ => ways.cheapest(
-                self.nets.metric,
+                &mut self.plans,
                 &it.faces,
                 lambda,
                 bar,

@@ -5,7 +5,8 @@ use super::effort::Effort;
 use super::metric::Metric;
 use super::prediction::{Grounded, Prediction, is_saddle};
 use super::sets::union;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
+use std::sync::Arc;
 use unwrapd_maps::cut::Neighbors;
 use unwrapd_method::numerics::ties::tied;
 use unwrapd_method::numerics::vec3::distance;
@@ -70,8 +71,8 @@ impl Ways {
     /// Returns the cheapest opening that is left, if its price is below `most`.
     pub fn cheapest(
         &mut self,
-        metric: &Metric,
-        faces: &[u32],
+        plans: &mut Plans,
+        faces: &Arc<[u32]>,
         lambda: f64,
         most: f64,
         effort: &mut Effort,
@@ -80,7 +81,8 @@ impl Ways {
         while let Some((_, slits)) =
             (self.starts).pop_if(|(length, _)| *length < bar(&self.openings))
         {
-            let opening = opened_further(metric, faces, slits, lambda, most, effort);
+            let faces = faces.clone();
+            let opening = plans.opening(&Start { faces, slits }, lambda, most, effort);
             if let Some(opening) = opening.filter(|opening| opening.price(lambda) < most)
                 && self.openings.iter().all(|it| it.slits != opening.slits)
             {
@@ -100,15 +102,106 @@ impl Ways {
     }
 }
 
-/// Adds slits while they pay; returns `None` if the faces cannot be laid flat so.
-fn opened_further(
-    metric: &Metric,
-    faces: &[u32],
-    mut slits: Vec<u32>,
+/// Plans of slits by their starts, `None` where the faces cannot be laid flat. Prices of the excess fall, and at a lower price fewer slits of
+/// a plan pay, so each is made once.
+pub struct Plans<'a> {
+    metric: &'a Metric<'a>,
+    known: HashMap<Start, Option<Plan>>,
+}
+
+/// Faces to open, and the slits that are there.
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct Start {
+    faces: Arc<[u32]>,
+    slits: Vec<u32>,
+}
+
+/// Slits to add one by one, each the one that relieves most for its length.
+struct Plan {
+    /// Price of the excess at which no further slit pays.
     lambda: f64,
-    most_length: f64,
+    /// Starting slits, which open the faces to a disk.
+    start: Opening,
+    slits: Vec<Slit>,
+}
+
+/// A slit of a plan.
+pub struct Slit {
+    /// Edges in ascending order.
+    pub edges: Vec<u32>,
+    /// Length of the edges.
+    pub length: f64,
+    /// Predicted excess that it relieves for its length.
+    pub rate: f64,
+    /// Predicted excess with it.
+    pub excess: f64,
+}
+
+impl<'a> Plans<'a> {
+    pub fn new(metric: &'a Metric<'a>) -> Self {
+        Self {
+            metric,
+            known: HashMap::new(),
+        }
+    }
+
+    /// Returns the opening that follows from a start at some price of the excess; `None` if the faces cannot be laid flat so, or if it is
+    /// longer than `most`.
+    fn opening(
+        &mut self,
+        start: &Start,
+        lambda: f64,
+        most: f64,
+        effort: &mut Effort,
+    ) -> Option<Opening> {
+        let is_known = match self.known.get(start) {
+            Some(Some(plan)) => lambda <= plan.lambda,
+            Some(None) => true,
+            None => false,
+        };
+        if !is_known {
+            let plan = planned(self.metric, start, lambda, most, effort);
+            if effort.is_spent() {
+                return None;
+            }
+            self.known.insert(start.clone(), plan);
+        }
+        self.known[start].as_ref()?.opening(lambda, most)
+    }
+}
+
+impl Plan {
+    /// Returns the cheapest opening with the first slits of the plan.
+    fn opening(&self, lambda: f64, most: f64) -> Option<Opening> {
+        let (mut length, mut best) = (self.start.length, (self.start.price(lambda), 0));
+        for (place, slit) in self.slits.iter().enumerate() {
+            length += slit.length;
+            let price = price(length, slit.excess, lambda);
+            if price < best.0 - GAIN {
+                best = (price, place + 1);
+            }
+        }
+        let mut opening = self.start.clone();
+        for slit in &self.slits[..best.1] {
+            opening.slits = union(&opening.slits, &slit.edges);
+            opening.length += slit.length;
+            opening.excess = slit.excess;
+        }
+        (opening.length <= most).then_some(opening)
+    }
+}
+
+/// Plans slits while they pay at some price of the excess. Returns `None` if the faces cannot be laid flat.
+///
+/// The plan may end where the opening is longer than `most`: a longer one is not wanted at this price, and at a lower one less is.
+fn planned(
+    metric: &Metric,
+    start: &Start,
+    lambda: f64,
+    most: f64,
     effort: &mut Effort,
-) -> Option<Opening> {
+) -> Option<Plan> {
+    let (faces, mut slits) = (&start.faces, start.slits.clone());
     let mut mesh = CutMesh::new(metric, faces, &slits);
     if mesh.loops.is_empty() {
         let first = first_slit(&mesh)?;
@@ -118,37 +211,70 @@ fn opened_further(
     effort.predicted_faces += faces.len();
     let mut prediction = Prediction::new(&mesh)?;
     let neighbors = Neighbors::new(&mesh.sheet);
-    loop {
-        let length = metric.length_of(&slits);
-        if length > most_length || effort.is_spent() {
-            return None;
-        }
-        let mut best: Option<(Vec<u32>, Grounded)> = None;
-        let mut cost = price(0.0, prediction.excess(), lambda);
-        for path in paths(&mesh, &neighbors, &prediction) {
-            let edges = mesh.edges(&path);
-            let added = metric.length_of(&edges);
-            if added >= cost {
-                continue;
-            }
-            effort.predicted_faces += faces.len();
-            let trial = prediction.grounded(&relieved(&mesh, &path));
-            let slit = price(added, trial.excess, lambda);
-            if slit < cost - GAIN {
-                cost = slit;
-                best = Some((edges, trial));
-            }
-        }
-        let Some((edges, grounded)) = best else {
-            return Some(Opening {
-                length,
-                excess: prediction.excess(),
-                slits,
-            });
+    let mut length = metric.length_of(&slits);
+    let mut plan = Plan {
+        lambda,
+        start: Opening {
+            length,
+            excess: prediction.excess(),
+            slits,
+        },
+        slits: Vec::new(),
+    };
+    while length <= most && !effort.is_spent() {
+        let before = price(0.0, prediction.excess(), lambda);
+        let mut paths = paths(&mesh, &neighbors, &prediction);
+        paths.retain(|path| metric.length_of(&mesh.edges(path)) < before);
+        let relieved = |path: &[u32]| relieved(&mesh, path);
+        let pays = |slit: &Slit| price(slit.length, slit.excess, lambda) < before - GAIN;
+        let mut slits = slits_along(paths, &mesh, &mut prediction, relieved, effort);
+        slits.retain(|(slit, _)| pays(slit));
+        let Some((slit, grounded)) = best(slits) else {
+            break;
         };
-        slits = union(&slits, &edges);
         prediction.accept(grounded);
+        length += slit.length;
+        plan.slits.push(slit);
     }
+    Some(plan)
+}
+
+/// Predicts a slit along each of some paths, given as halfedges; `relieved` returns the vertices that it relieves.
+pub fn slits_along(
+    paths: Vec<Vec<u32>>,
+    mesh: &CutMesh,
+    prediction: &mut Prediction,
+    relieved: impl Fn(&[u32]) -> Vec<u32>,
+    effort: &mut Effort,
+) -> Vec<(Slit, Grounded)> {
+    let before = prediction.excess();
+    let mut slits = Vec::with_capacity(paths.len());
+    for path in paths {
+        effort.predicted_faces += mesh.faces.len();
+        let grounded = prediction.grounded(&relieved(&path));
+        let edges = mesh.edges(&path);
+        let (length, excess) = (mesh.metric.length_of(&edges), grounded.excess);
+        let slit = Slit {
+            rate: tied((before - excess).max(0.0) / length),
+            edges,
+            length,
+            excess,
+        };
+        slits.push((slit, grounded));
+    }
+    slits
+}
+
+/// Returns the slit that relieves most for its length, the first of equals.
+pub fn best(slits: Vec<(Slit, Grounded)>) -> Option<(Slit, Grounded)> {
+    let better = |best: (Slit, Grounded), other: (Slit, Grounded)| {
+        if other.0.rate > best.0.rate {
+            other
+        } else {
+            best
+        }
+    };
+    slits.into_iter().reduce(better)
 }
 
 /// Returns the vertices of a path that a slit along it relieves: not a saddle at its end.

@@ -299,8 +299,8 @@ impl Search<'_> {
         let metric = self.nets.metric;
         let mut ways = Ways::new(metric, [Vec::new()]);
         ways.cheapest(
-            metric,
-            faces,
+            &mut self.plans,
+            &faces.into(),
             lambda,
             f64::INFINITY,
             &mut self.counts.effort,

@@ -10,7 +10,7 @@ use super::effort::Effort;
 use super::metric::Metric;
 use super::net::{Net, chart, weighted};
 use super::nets::Nets;
-use super::opening::{first_slit, paths};
+use super::opening::{Slit, best, first_slit, paths, slits_along};
 use super::prediction::{Grounded, Prediction};
 use super::sets::union;
 use super::state::Search;
@@ -28,15 +28,6 @@ const MOST_ROUNDS: i32 = 8;
 const PROMISE: f64 = 0.95;
 /// Share of the budget that may be left unspent; with more, slits are taken back. Not tuned.
 const UNSPENT: f64 = 0.3;
-
-/// A slit of a plan.
-struct Slit {
-    edges: Vec<u32>,
-    /// Predicted excess that it relieves for its length.
-    rate: f64,
-    /// Predicted excess with it.
-    excess: f64,
-}
 
 /// A component, with slits that are planned one by one.
 struct Slitting<'a> {
@@ -93,26 +84,14 @@ impl<'a> Slitting<'a> {
     }
 
     fn best_slit(&mut self, effort: &mut Effort) -> Option<(Slit, Grounded)> {
-        let before = self.prediction.excess();
-        let mut best: Option<(Slit, Grounded)> = None;
-        for path in paths(self.mesh, &self.neighbors, &self.prediction) {
-            effort.predicted_faces += self.mesh.faces.len();
-            // Saddles at its end count as relieved: what overlaps there is parted later.
+        let paths = paths(self.mesh, &self.neighbors, &self.prediction);
+        // Saddles at its end count as relieved: what overlaps there is parted later.
+        let relieved = |path: &[u32]| {
             let ends = path.iter().flat_map(|&h| self.mesh.sheet.ends(h));
-            let grounded = self.prediction.grounded(&ends.collect::<Vec<u32>>());
-            let edges = self.mesh.edges(&path);
-            let excess = grounded.excess;
-            let rate = tied((before - excess).max(0.0) / self.mesh.metric.length_of(&edges));
-            if best.as_ref().is_none_or(|(slit, _)| rate > slit.rate) {
-                let slit = Slit {
-                    edges,
-                    rate,
-                    excess,
-                };
-                best = Some((slit, grounded));
-            }
-        }
-        best
+            ends.collect()
+        };
+        let prediction = &mut self.prediction;
+        best(slits_along(paths, self.mesh, prediction, relieved, effort))
     }
 
     /// Returns the slits that are made, with those that open the component.

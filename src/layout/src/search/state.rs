@@ -6,7 +6,7 @@ use super::laid_together::Laid;
 use super::metric::Metric;
 use super::net::Net;
 use super::nets::Nets;
-use super::opening::Opening;
+use super::opening::{Opening, Plans};
 use super::sets::union;
 use crate::charts::{Bound, MappedChart, Observer};
 use std::collections::HashMap;
@@ -30,6 +30,8 @@ pub struct Search<'a> {
     patience: f64,
     pub options: &'a embed::Options,
     pub observer: &'a dyn Observer,
+    /// Plans of slits.
+    pub plans: Plans<'a>,
     /// Maps by their faces and slits, `None` where there is none: each is looked for once.
     known: HashMap<(Vec<u32>, Vec<u32>), Option<Net>>,
     pub counts: Counts,
@@ -89,6 +91,7 @@ impl<'a> Search<'a> {
             patience: f64::INFINITY,
             options,
             observer,
+            plans: Plans::new(metric),
             known: HashMap::new(),
             counts: Counts::new(terms.effort),
         }
