@@ -96,24 +96,25 @@ impl CoarseLayout {
         let first_seed = SEEDS_PER_SEARCH * self.n_searches;
         let seeds: Vec<u64> = (first_seed..).take(schedule.starts as usize).collect();
         let mut found: Vec<Arrangement> = Vec::new();
+        let mut are_exhausted = true;
         for seeds in seeds.chunks(STARTS_AT_A_TIME) {
             let starts = seeds.par_iter().with_max_len(1);
             let of_starts: Vec<(Arrangement, bool)> = starts
                 .map(|&seed| self.annealed(each, &mut Random::new(seed), on_read))
                 .collect();
             for (state, is_exhausted) in of_starts {
-                self.is_exhausted |= is_exhausted;
+                are_exhausted &= is_exhausted;
                 if state.cost < self.least_cost {
                     (self.least_cost, self.n_agreed) = (state.cost, 0);
                 }
                 self.n_agreed += usize::from(state.cost <= self.least_cost);
                 found.push(state);
             }
-            self.is_exhausted |= self.n_agreed >= AGREED;
-            if self.is_exhausted {
+            if self.n_agreed >= AGREED {
                 break;
             }
         }
+        self.is_exhausted = are_exhausted || self.n_agreed >= AGREED;
         found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         let mut best: Vec<Arrangement> = Vec::new();
         for state in found {
