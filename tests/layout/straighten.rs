@@ -4,7 +4,8 @@ use crate::zoo::{self, Mesh};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 use unwrapd_layout::charts::{
-    Bound, Bounded, Cut, Folds, MappedChart, Unobserved, charts, map_chart, straightened,
+    Bound, Bounded, Cut, Folds, MappedChart, Straighten, Unobserved, charts, map_chart,
+    straightened,
 };
 use unwrapd_maps::certificate::{Claims, certify};
 use unwrapd_maps::embed::Options;
@@ -34,18 +35,26 @@ fn disks(mesh: &Mesh) -> (Surface, Vec<MappedChart>) {
     (surface, mapped)
 }
 
-fn straight_under(mesh: &Mesh, bound: &Bound) -> (Vec<MappedChart>, Vec<MappedChart>) {
+fn straight_where(
+    condition: Straighten,
+    mesh: &Mesh,
+    bound: &Bound,
+) -> (Vec<MappedChart>, Vec<MappedChart>) {
     let (surface, before) = disks(mesh);
     let weights = vec![1.0; surface.triangles.len()];
     let after = straightened(
         before.clone(),
-        &|_| true,
+        &|_| condition,
         &weights,
         bound,
         &options(),
         &Unobserved,
     );
     (before, after)
+}
+
+fn straight_under(mesh: &Mesh, bound: &Bound) -> (Vec<MappedChart>, Vec<MappedChart>) {
+    straight_where(Straighten::WhereBounded, mesh, bound)
 }
 
 /// Share of the outer border within 0.1 degrees of the axes.
@@ -119,6 +128,23 @@ fn a_belt_beyond_the_bound_stays() {
     assert_eq!(before[0].embedding.uv, after[0].embedding.uv);
 }
 
+/// A belt alone on its page would become longer, and the page with it: it stays an arc. Where other charts need as large a page, it
+/// becomes a rectangle, which has no gaps.
+#[test]
+fn a_belt_that_would_enlarge_the_page_stays() {
+    let arc = belt(40, 4.0, 0.8, FRAC_PI_2, 0.5);
+    let (before, after) = straight_where(Straighten::WhereCompact, &arc, &BOUND);
+    assert_eq!(before[0].embedding.uv, after[0].embedding.uv);
+    let many = (1..8).fold(arc.clone(), |all, k| {
+        all.with(&arc.clone().moved([0.0, 0.0, 3.0 * k as f32]))
+    });
+    let (_, after) = straight_where(Straighten::WhereCompact, &many, &BOUND);
+    assert_eq!(after.len(), 8);
+    for map in &after {
+        assert!(aligned_share(map) > 0.999, "{}", aligned_share(map));
+    }
+}
+
 /// The border of a disc is nowhere straight.
 #[test]
 fn a_disc_stays_round() {
@@ -128,14 +154,31 @@ fn a_disc_stays_round() {
     }
 }
 
-/// A hexagon has sides that are straight already; none of them turns.
+/// A right angle at the corners of a hexagon would exceed the bound: it may turn as a whole, and keeps its shape.
 #[test]
 fn a_hexagon_keeps_its_angles() {
     let mut mesh = zoo::cone(6);
     for p in &mut mesh.positions {
         p[2] = 0.0;
     }
-    let (before, after) = straight_under(&mesh, &BOUND);
+    let (_, after) = straight_under(&mesh, &BOUND);
+    let map = &after[0];
+    for triangle in &map.chart.disk.triangles {
+        for (k, l) in [(0, 1), (1, 2), (2, 0)] {
+            let [p, q] = [k, l].map(|corner| map.embedding.uv[triangle[corner] as usize]);
+            assert!(((q[0] - p[0]).hypot(q[1] - p[1]) - 1.0).abs() < 1e-5);
+        }
+    }
+}
+
+/// What is flat has its shape in the texture: a trapezoid stays one.
+#[test]
+fn a_flat_chart_keeps_its_shape() {
+    let mut mesh = zoo::grid(4, 4);
+    for p in &mut mesh.positions {
+        *p = [p[0] * (1.0 + 0.05 * p[1]), p[1], 0.0];
+    }
+    let (before, after) = straight_where(Straighten::WhereCompact, &mesh, &BOUND);
     assert_eq!(before[0].embedding.uv, after[0].embedding.uv);
 }
 

@@ -3,13 +3,13 @@
 use rayon::prelude::*;
 use std::cmp::Reverse;
 
-use super::plan::{Plan, Refinement, Start, Straighten};
+use super::plan::{Plan, Refinement, Start, StraightCharts};
 use super::seams::Seams;
 use crate::portion::Portion;
 use crate::tracker::Tracker;
 use unwrapd_layout::charts::{
-    Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, charts, charts_under_bound,
-    given_back, map_chart, map_chart_from, straightened,
+    Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, Straighten, charts,
+    charts_under_bound, given_back, map_chart, map_chart_from, straightened,
 };
 use unwrapd_layout::search::{CutProblem, Effort, Terms, from_charts, from_surface};
 use unwrapd_maps::measure::cost::GIVEN_PAGE;
@@ -74,23 +74,24 @@ fn straight(
     plan: &Plan,
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
-    let is_selected = |chart: &MappedChart| match plan.straighten {
-        Straighten::All => true,
-        Straighten::None => false,
-        Straighten::Selected => {
-            let corner = chart.chart.corners.first().map(|[corner, ..]| *corner);
-            let face = corner.map(|corner| surface.input_corner(corner)[0]);
-            let control = seams.control.as_ref().zip(face);
-            control.is_some_and(|(control, face)| control.of(face).straightens)
-        }
+    let is_selected = |chart: &MappedChart| {
+        let corner = chart.chart.corners.first().map(|[corner, ..]| *corner);
+        let face = corner.map(|corner| surface.input_corner(corner)[0]);
+        let control = seams.control.as_ref().zip(face);
+        control.is_some_and(|(control, face)| control.of(face).straightens)
     };
-    if plan.straighten == Straighten::None {
+    let condition = |chart: &MappedChart| match plan.straighten {
+        StraightCharts::All => Straighten::WhereCompact,
+        StraightCharts::Selected if is_selected(chart) => Straighten::WhereBounded,
+        StraightCharts::Selected | StraightCharts::None => Straighten::Never,
+    };
+    if plan.straighten == StraightCharts::None {
         return charts;
     }
     let weights = CutProblem::new(surface, bound, observer).weights();
     straightened(
         charts,
-        &is_selected,
+        &condition,
         &weights,
         bound,
         &plan.embedding,

@@ -31,7 +31,7 @@ pub struct Plan {
     /// Treatment of charts after their first cut.
     pub refinement: Refinement,
     /// Charts whose nearly straight borders become straight.
-    pub straighten: Straighten,
+    pub straighten: StraightCharts,
     /// Maximum number of charts in one atlas.
     pub most_charts: Option<u32>,
     /// `true` if seams are moved off the diagonals of polygons: not where a caller says where to cut.
@@ -78,9 +78,10 @@ pub enum Refinement {
 
 /// Charts whose nearly straight borders become straight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Straighten {
+pub enum StraightCharts {
+    /// Those that take no more room on the page then.
     All,
-    /// Those whose faces are [selected](super::control::FaceRules::straightens).
+    /// Those whose faces are [selected](super::control::FaceRules::straightens), on any page.
     Selected,
     None,
 }
@@ -131,11 +132,11 @@ impl Plan {
                 _ => Refinement::None,
             },
             straighten: match &settings.straighten {
-                _ if !has_barrier => Straighten::None,
-                None if start == Start::New => Straighten::All,
-                None | Some(Straightening::Off) => Straighten::None,
-                Some(Straightening::Auto) => Straighten::All,
-                Some(Straightening::Selected(_)) => Straighten::Selected,
+                _ if !has_barrier => StraightCharts::None,
+                None if start == Start::New => StraightCharts::All,
+                None | Some(Straightening::Off) => StraightCharts::None,
+                Some(Straightening::Auto) => StraightCharts::All,
+                Some(Straightening::Selected(_)) => StraightCharts::Selected,
             },
             most_charts: cutting.max_charts,
             keeps_polygons: is_promised && !matches!(cut, Cut::Keep | Cut::Seams),

@@ -10,6 +10,9 @@
 //! A chart keeps the bound by itself, and all charts of a surface together keep it. If they cannot, those come first whose sides
 //! cost least for their length. Faces may count more than others: panels do, which are straight already.
 //!
+//! An arc that becomes straight is longer, and a chart that alone sets the scale of a page would leave more of it empty. By
+//! default such a chart stays as it is ([`Straighten::WhereCompact`]), and so does a flat one, which is mapped without distortion.
+//!
 //! Not done here: seams stay where they are.
 
 mod sides;
@@ -22,24 +25,48 @@ use super::unfold::overlaps::overlaps;
 use rayon::prelude::*;
 use sides::{Side, Sides};
 use unwrapd_maps::embed::{self, RestShapes, aligned};
+use unwrapd_method::numerics::hull::{convex_hull, smallest_page};
+use unwrapd_method::numerics::vec3::{add_scaled, area_vector, norm};
 use unwrapd_method::solver::Control;
 
 /// Mean squared deviation of a side, in radians, from which on it is bent: a texel in a thousand.
 const BENT: f64 = 1e-6;
 
-/// Straightens the sides of selected charts of a surface under a bound, which those charts then keep together if they kept it before.
+/// Additional room for a straight chart, as a share of its area. What it loses is far less than what the luck of a packing changes, and
+/// far more than rounding adds to the hull of a rectangle. Not tuned.
+const MORE_ROOM: f64 = 1e-3;
+
+/// Condition on which the sides of a chart become straight, besides the bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Straighten {
+    /// They stay as they are.
+    Never,
+    /// They do where the chart is not flat and takes no more room on the page.
+    WhereCompact,
+    /// They do on any page.
+    WhereBounded,
+}
+
+/// Straightens the sides of some charts of a surface under a bound, which those charts then keep together if they kept it before.
 /// `weights` says for each face of the surface how often its distortion counts. Maps keep their sizes.
 pub fn straightened(
     charts: Vec<MappedChart>,
-    is_selected: &(dyn Fn(&MappedChart) -> bool + Sync),
+    condition: &(dyn Fn(&MappedChart) -> Straighten + Sync),
     weights: &[f64],
     bound: &Bound,
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
+    let all_area: f64 = charts.iter().map(MappedChart::surface_area).sum();
     let mut attempts: Vec<Option<Attempt>> = (charts.par_iter().with_max_len(1))
         .map(|chart| {
-            is_selected(chart).then(|| Attempt::new(chart, weights, bound, options, observer))
+            let page = match condition(chart) {
+                Straighten::Never => return None,
+                Straighten::WhereCompact if is_flat(chart) => return None,
+                Straighten::WhereCompact => Some(all_area),
+                Straighten::WhereBounded => None,
+            };
+            Attempt::new(chart, weights, page, bound, options, observer)
         })
         .collect();
     // Spend what the bound leaves where a length of straight border costs least.
@@ -76,6 +103,8 @@ struct Attempt {
     factors: Vec<f64>,
     area: f64,
     excess: f64,
+    /// Area of the charts of the surface, and the largest [page](page_around) that is allowed; `None` if any is.
+    page: Option<[f64; 2]>,
     straight: Option<Straight>,
 }
 
@@ -89,32 +118,43 @@ struct Straight {
 }
 
 impl Attempt {
+    /// Returns the attempt at one chart; `None` if its map has no area. `all_area` is the area of the charts of the surface, if its room on
+    /// a page counts.
     fn new(
         mapped: &MappedChart,
         weights: &[f64],
+        all_area: Option<f64>,
         bound: &Bound,
         options: &embed::Options,
         observer: &dyn Observer,
-    ) -> Self {
+    ) -> Option<Self> {
         let corners = mapped.chart.corners.iter();
         let factors: Vec<f64> = corners.map(|[c, ..]| weights[*c as usize / 3]).collect();
         let rest = mapped.rest_shapes();
         // Given maps may have any size.
         let size = (mapped.surface_area() / mapped.area()).sqrt();
+        if !size.is_normal() {
+            return None;
+        }
         let mut sized = mapped.clone();
         for p in &mut sized.embedding.uv {
             *p = p.map(|x| size * x);
         }
         let [excess, area] = weighted_excess(&sized, &rest, &factors);
+        let page = all_area.map(|all| {
+            let most = page_around(&sized, all) + MORE_ROOM * sized.area();
+            [all, most]
+        });
         let mut attempt = Self {
             rest,
             factors,
             area,
             excess,
+            page,
             straight: None,
         };
         attempt.straighten(&sized, bound, options, observer);
-        attempt
+        Some(attempt)
     }
 
     /// Finds the map with the most straight sides that keeps the bound, the least bent first.
@@ -157,7 +197,7 @@ impl Attempt {
         }
     }
 
-    /// Returns the excess of a map of the chart that keeps the bound, has no flip and does not overlap itself.
+    /// Returns the excess of a map of the chart that keeps the bound and the page, has no flip and does not overlap itself.
     fn excess_within(&self, mapped: &MappedChart, bound: &Bound) -> Option<f64> {
         let uv = &mapped.embedding.uv;
         let disk = &mapped.chart.disk;
@@ -172,7 +212,8 @@ impl Attempt {
             ];
             stretched <= most_stretched
         });
-        let is_within = excess <= bound.budget() * area && keeps_stretch;
+        let keeps_page = (self.page).is_none_or(|[all, most]| page_around(mapped, all) <= most);
+        let is_within = excess <= bound.budget() * area && keeps_stretch && keeps_page;
         (is_within && overlaps(disk, uv).is_empty()).then_some(excess)
     }
 
@@ -180,6 +221,29 @@ impl Attempt {
     fn price(&self) -> Option<f64> {
         self.straight.as_ref().map(|map| map.cost / map.length)
     }
+}
+
+/// Returns whether a chart lies in a plane: its normals deviate from their mean by at most [`BENT`].
+fn is_flat(mapped: &MappedChart) -> bool {
+    let corners = |t: &[u32; 3]| t.map(|v| mapped.chart.positions[v as usize]);
+    let triangles = mapped.chart.disk.triangles.iter().map(corners);
+    let sum = triangles.fold([0.0; 3], |sum, [a, b, c]| {
+        add_scaled(sum, 0.5, area_vector(a, b, c))
+    });
+    2.0 * (1.0 - norm(sum) / mapped.surface_area()) <= BENT
+}
+
+/// Returns the least area of a square page for a chart among others: it holds the charts of the surface, whose area is `all_area`, with the
+/// gaps between this one and its convex hull, and the smallest square around it.
+fn page_around(mapped: &MappedChart, all_area: f64) -> f64 {
+    let hull = convex_hull(mapped.embedding.uv.iter().copied());
+    let next = hull.iter().cycle().skip(1);
+    let doubled = hull
+        .iter()
+        .zip(next)
+        .map(|(p, q)| p[0] * q[1] - p[1] * q[0]);
+    let gaps = doubled.sum::<f64>() / 2.0 - mapped.area();
+    (all_area + gaps).max(smallest_page(&hull, 1.0))
 }
 
 /// Returns the chart with these sides along the axes, the first of which is now along a unit vector; `None` if they do not get there.
