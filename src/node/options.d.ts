@@ -18,6 +18,8 @@ interface Layout {
   control?: string[];
   /** Rectangles that rules can name, `NAME=U,V,U,V`. */
   rectangle?: string[];
+  /** Islands whose nearly straight borders become straight: `auto`, `off`, or selectors as in `control`, separated by semicolons. */
+  straighten?: string;
   threads?: number;
 }
 

@@ -23,6 +23,7 @@ mod panels;
 mod places;
 mod redrawn;
 mod search;
+mod straighten;
 mod unfolding;
 #[path = "../support/uv_meshes.rs"]
 #[allow(dead_code)]

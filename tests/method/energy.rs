@@ -4,9 +4,9 @@ use faer::{Mat, Side};
 use proptest::prelude::*;
 use unwrapd_method::barrier::{Barrier, BarrierKind, NoBarrier};
 use unwrapd_method::energy::{
-    Amips, Arap, Density, FoldoverFree, FrozenArap, Green, Lscm, Mips, Modes, NeoHookean,
-    Positional, RestShape, StVenantKirchhoff, SymmetricDirichlet, Term, Tetrahedra, Triangles,
-    Zero, biharmonic, dirichlet, uniform_biharmonic, voronoi_areas,
+    AlignedEdge, Alignment, Amips, Arap, Density, FoldoverFree, FrozenArap, Green, Lscm, Mips,
+    Modes, NeoHookean, Positional, RestShape, StVenantKirchhoff, SymmetricDirichlet, Term,
+    Tetrahedra, Triangles, Zero, biharmonic, dirichlet, uniform_biharmonic, voronoi_areas,
 };
 use unwrapd_method::numerics::square::{Matrix, Square, times, transposed};
 
@@ -79,6 +79,28 @@ fn taylor_positional() {
         alpha: 1.7,
     };
     assert_term_taylor(&points, &PLANE, &PLANE_WAY);
+}
+
+#[test]
+fn taylor_alignment() {
+    let edge = |vertices: [u32; 2], coordinate, length| AlignedEdge {
+        vertices,
+        coordinate,
+        length,
+    };
+    let aligned = Alignment {
+        edges: vec![edge([0, 1], 0, 0.7), edge([1, 3], 1, 1.3)],
+        alpha: 1.7,
+    };
+    assert_term_taylor(&aligned, &PLANE, &PLANE_WAY);
+    // An edge of length 2 at 30 degrees to the first axis adds 2 sin² 30°.
+    let one = Alignment {
+        edges: vec![edge([0, 1], 1, 2.0)],
+        alpha: 1.0,
+    };
+    let turned = [0.0, 0.0, 3.0_f64.sqrt(), 1.0];
+    assert!((one.value(&turned) - 0.5).abs() < 1e-15);
+    assert_eq!(one.value(&[5.0, 7.0, 6.0, 7.0]), 0.0);
 }
 
 #[test]

@@ -85,6 +85,7 @@ fn control(rules: &[&str], rectangles: &[&str]) -> IslandControl {
             .iter()
             .map(|text| text.parse().expect("a rectangle"))
             .collect(),
+        straighten: None,
     }
 }
 

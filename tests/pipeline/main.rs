@@ -33,6 +33,7 @@ mod rough;
 #[allow(dead_code)]
 mod simple_polygons;
 mod stacks;
+mod straighten;
 mod symmetry;
 mod untangle;
 mod unwrapped_polygons;

@@ -74,8 +74,8 @@ pub use options::{
     Action, Baking, BodyFormat, Budget, Caller, CommandOptions, Course, Cutting, DeformOptions,
     EditOptions, Editing, GivenSeams, ImageFormat, Island, IslandControl, IslandRule, KeptMaps,
     Layout, Mapping, MeasureOptions, NamedRectangle, NamedSeams, Options, PackingMode, Preset,
-    Pulling, RepackOptions, Selector, Sets, SolveOptions, Stacking, TexelWeight, VerifyOptions,
-    WarpOptions, Workers,
+    Pulling, RepackOptions, Selector, Sets, SolveOptions, Stacking, Straightening, TexelWeight,
+    VerifyOptions, WarpOptions, Workers,
 };
 pub use start::{start_file, start_file_of_text};
 pub use unwrapd_api::{Limits, START, Stage};

@@ -309,9 +309,9 @@ fn add_rules(
     options: &Options,
     plan: &Plan,
 ) -> Result<(), PipelineError> {
-    let rules = &options.control.control;
+    let rules = options.control.rules();
     let n_faces: Vec<usize> = meshes.iter().map(|mesh| mesh.triangles.len()).collect();
-    check_faces(rules, &n_faces)?;
+    check_faces(&rules, &n_faces)?;
     let faces = n_faces.iter().enumerate();
     let faces = faces.flat_map(|(mesh, &n)| (0..n as u32).map(move |face| [mesh as u32, face]));
     let n_all = merged.triangles.len();
@@ -320,7 +320,7 @@ fn add_rules(
         materials: vec![None; n_all],
         colors: vec![None; n_all],
     };
-    let materials = rule_materials(rules, |_| None)?;
+    let materials = rule_materials(&rules, |_| None)?;
     let control = &options.control;
     if let Some(control) = face_control(
         control,
@@ -332,7 +332,7 @@ fn add_rules(
     )? {
         add_control(&mut merged.seams, control);
     }
-    Ok(check_selections(rules, &[&merged.seams])?)
+    Ok(check_selections(&rules, &[&merged.seams])?)
 }
 
 /// Returns the UVs of an atlas, with the given UVs for islands that stay in place.

@@ -21,6 +21,7 @@ class Layout(TypedDict, total=False):
     rotate: Literal["any", "quarter", "none"] | None
     control: Sequence[str] | None
     rectangle: Sequence[str] | None
+    straighten: str | None
     threads: int | None
 
 class UnwrapOptions(Layout, total=False):

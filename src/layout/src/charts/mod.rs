@@ -34,6 +34,8 @@
 //! A seam that is cut because of one overlap is often not needed along all of its length: at last small charts are laid back on
 //! their neighbors wherever they find room along a common border ([`given_back()`]).
 //!
+//! Borders that are straight on the surface, or nearly so, become straight along the axes ([`straightened`]).
+//!
 //! Where a mesh has polygons, seams along their diagonals are moved to their sides at last ([`with_whole_polygons`]).
 
 mod bound;
@@ -53,6 +55,7 @@ mod parts;
 mod polygons;
 mod regions;
 mod rough;
+mod straighten;
 mod symmetry;
 mod unfold;
 mod up;
@@ -71,6 +74,7 @@ pub use observer::{MapUnderway, Observer, Unobserved};
 pub use opened::charts;
 pub use polygons::{PolygonHome, with_whole_polygons};
 pub use rough::smoothed_where_rough;
+pub use straighten::{Straighten, straightened};
 pub use symmetry::plane::MirrorPlane;
 
 pub(crate) use observer::Watching;

@@ -132,6 +132,13 @@ impl<'a> CutProblem<'a> {
         }
     }
 
+    /// Returns for each face how often its excess counts: more on panels.
+    pub fn weights(&self) -> Vec<f64> {
+        let faces = self.metric.weight.iter().zip(&self.metric.area);
+        let factor = |(weight, area): (&f64, &f64)| if *area > 0.0 { weight / area } else { 1.0 };
+        faces.map(factor).collect()
+    }
+
     /// Returns whether the surface consists of panels, which [`from_surface`] keeps straight and no cutter does.
     pub fn is_paneled(&self) -> bool {
         self.is_measured && self.panels >= PANELED

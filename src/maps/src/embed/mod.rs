@@ -13,6 +13,7 @@
 //! Invariant: every map that leaves this module is positive in every triangle by
 //! [`orient2d_sign`](unwrapd_method::numerics::predicates::orient2d_sign), unless the caller asked for no barrier. Maps
 //! may still overlap themselves globally; that is not checked here.
+mod aligned;
 mod decimate;
 mod hierarchy;
 mod parameterize;
@@ -22,6 +23,7 @@ mod star;
 mod triangulation;
 mod tutte;
 
+pub use aligned::aligned;
 pub use decimate::Simplification;
 pub use parameterize::{
     InvalidStart, hierarchical_start, optimize, parameterize, start, tutte_start,

@@ -28,7 +28,7 @@ pub(super) struct MapProblem<'a> {
 
 impl MapProblem<'_> {
     /// Returns the energy with the ε that this start requires.
-    fn term(&self, start: &[[f64; 2]]) -> Box<dyn Term> {
+    pub fn term(&self, start: &[[f64; 2]]) -> Box<dyn Term> {
         map_term(&self.disk.triangles, &self.rest.shapes, start, self.options)
     }
 
@@ -132,11 +132,7 @@ impl MapProblem<'_> {
         watch: &dyn Watch,
     ) -> (Vec<[f64; 2]>, Summary) {
         objective.fix(pinned);
-        let affordable = (STEP_BUDGET / self.rest.shapes.len()).max(LEAST_STEPS);
-        let settings = Settings {
-            max_iterations: self.options.solver.max_iterations.min(affordable),
-            ..self.options.solver
-        };
+        let settings = self.settings();
         let mut x: Vec<f64> = start.as_flattened().to_vec();
         let mut summary = minimize(&mut objective, &mut x, &settings, watch);
         // Weaken the barrier while the energy without it falls.
@@ -171,8 +167,17 @@ impl MapProblem<'_> {
         (uv, summary)
     }
 
+    /// Returns the solver's settings, with at most as many steps as the size of the disk allows.
+    pub fn settings(&self) -> Settings {
+        let affordable = (STEP_BUDGET / self.rest.shapes.len()).max(LEAST_STEPS);
+        Settings {
+            max_iterations: self.options.solver.max_iterations.min(affordable),
+            ..self.options.solver
+        }
+    }
+
     /// Scales the map so that its area is that of the surface.
-    fn in_mesh_unit(&self, uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    pub fn in_mesh_unit(&self, uv: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let wanted = if self.rest.true_area > 0.0 {
             self.rest.true_area
         } else {

@@ -14,6 +14,7 @@
 //! and Hessian block of a stencil: the solver sees a [`Term`] and knows no energy by name. This module does not know
 //! where a map comes from or how it is improved.
 
+mod alignment;
 mod conformal;
 mod density;
 mod formula;
@@ -24,6 +25,7 @@ mod rest;
 mod simplices;
 mod term;
 
+pub use alignment::{AlignedEdge, Alignment};
 pub use conformal::{Amips, FoldoverFree, Lscm, Mips};
 pub use density::{Density, DensityBatch, Guard, Zero, prefers_a_size};
 pub use formula::{Batched, Formula, FormulaError, Jet, OwnEnergy};

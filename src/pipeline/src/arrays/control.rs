@@ -35,6 +35,8 @@ pub struct FaceRules {
     pub density: Option<DensityRule>,
     /// Factor of their size beside the others.
     pub scale: f64,
+    /// Whether their nearly straight borders become straight.
+    pub straightens: bool,
 }
 
 /// Texel density of islands.
@@ -56,6 +58,7 @@ impl Default for FaceRules {
             region: None,
             density: None,
             scale: 1.0,
+            straightens: false,
         }
     }
 }
@@ -96,6 +99,7 @@ impl FaceRules {
             Action::KeepDensity => self.density = Some(DensityRule::Kept),
             Action::EqualizeDensity => self.density = Some(DensityRule::Equal(number)),
             Action::Scale(scale) => self.scale = *scale,
+            Action::Straighten => self.straightens = true,
         }
         Ok(())
     }

@@ -3,13 +3,13 @@
 use rayon::prelude::*;
 use std::cmp::Reverse;
 
-use super::plan::{Plan, Refinement, Start};
+use super::plan::{Plan, Refinement, Start, StraightCharts};
 use super::seams::Seams;
 use crate::portion::Portion;
 use crate::tracker::Tracker;
 use unwrapd_layout::charts::{
-    Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, charts, charts_under_bound,
-    given_back, map_chart, map_chart_from,
+    Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, Straighten, charts,
+    charts_under_bound, given_back, map_chart, map_chart_from, straightened,
 };
 use unwrapd_layout::search::{CutProblem, Effort, Terms, from_charts, from_surface};
 use unwrapd_maps::measure::cost::GIVEN_PAGE;
@@ -34,7 +34,7 @@ pub fn mapped_charts(
                 let faces = surface.triangles.len();
                 let portion = Portion::of_surface(tracker, index, faces);
                 let effort = Effort::for_surface(faces, of_all);
-                let charts = under_bound(surface, plan, effort, &portion);
+                let charts = under_bound(surface, seams[index], plan, effort, &portion);
                 portion.all_mapped(charts.len());
                 charts
             })
@@ -51,15 +51,52 @@ pub fn mapped_charts(
         Some(uvs_of(chart, &surfaces[mesh], (uvs.flatten()?, texture)))
     };
     let maps = map_charts(charts, kept, plan, tracker);
-    if plan.refinement != Refinement::GivenBack {
-        return maps;
-    }
     (surfaces.par_iter().zip(maps).enumerate())
         .map(|(index, (surface, maps))| {
             let portion = Portion::of_chart(tracker, index, surface.triangles.len());
-            given_back(surface, maps, &plan.bound, &plan.embedding, &portion)
+            let maps = match plan.refinement {
+                Refinement::GivenBack => {
+                    given_back(surface, maps, &plan.bound, &plan.embedding, &portion)
+                }
+                Refinement::UnderBound | Refinement::None => maps,
+            };
+            straight(maps, surface, seams[index], &plan.bound, plan, &portion)
         })
         .collect()
+}
+
+/// Straightens the borders of the charts that the plan names.
+fn straight(
+    charts: Vec<MappedChart>,
+    surface: &Surface,
+    seams: &Seams,
+    bound: &Bound,
+    plan: &Plan,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
+    let is_selected = |chart: &MappedChart| {
+        let corner = chart.chart.corners.first().map(|[corner, ..]| *corner);
+        let face = corner.map(|corner| surface.input_corner(corner)[0]);
+        let control = seams.control.as_ref().zip(face);
+        control.is_some_and(|(control, face)| control.of(face).straightens)
+    };
+    let condition = |chart: &MappedChart| match plan.straighten {
+        StraightCharts::All => Straighten::WhereCompact,
+        StraightCharts::Selected if is_selected(chart) => Straighten::WhereBounded,
+        StraightCharts::Selected | StraightCharts::None => Straighten::Never,
+    };
+    if plan.straighten == StraightCharts::None {
+        return charts;
+    }
+    let weights = CutProblem::new(surface, bound, observer).weights();
+    straightened(
+        charts,
+        &condition,
+        &weights,
+        bound,
+        &plan.embedding,
+        observer,
+    )
 }
 
 /// Returns the charts of a surface under the bound, or under a looser one if they exceed the maximum number of
@@ -69,6 +106,7 @@ pub fn mapped_charts(
 /// stretch gives the same charts as none.
 fn under_bound(
     surface: &Surface,
+    seams: &Seams,
     plan: &Plan,
     effort: Effort,
     observer: &dyn Observer,
@@ -123,7 +161,7 @@ fn under_bound(
             break;
         }
     }
-    fewest
+    straight(fewest, surface, seams, &bound, plan, observer)
 }
 
 /// Returns the given UVs at the vertices of a chart, along both axes in longer sides of the texture. Corners whose

@@ -3,7 +3,7 @@
 use super::compact::CutTerms;
 use super::settings::Settings;
 use crate::PipelineError;
-use crate::options::{KeptMaps, Mapping, Stacking};
+use crate::options::{KeptMaps, Mapping, Stacking, Straightening};
 use unwrapd_layout::atlas::{GRID_BITS, Rotation};
 use unwrapd_layout::charts::{Bound, Cut, Folds, Symmetry};
 use unwrapd_maps::embed::{self, Pins};
@@ -30,6 +30,8 @@ pub struct Plan {
     pub symmetry: Symmetry,
     /// Treatment of charts after their first cut.
     pub refinement: Refinement,
+    /// Charts whose nearly straight borders become straight.
+    pub straighten: StraightCharts,
     /// Maximum number of charts in one atlas.
     pub most_charts: Option<u32>,
     /// `true` if seams are moved off the diagonals of polygons: not where a caller says where to cut.
@@ -71,6 +73,16 @@ pub enum Refinement {
     /// Small ones are given back once all are mapped.
     GivenBack,
     /// Nothing.
+    None,
+}
+
+/// Charts whose nearly straight borders become straight.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StraightCharts {
+    /// Those that take no more room on the page then.
+    All,
+    /// Those whose faces are [selected](super::control::FaceRules::straightens), on any page.
+    Selected,
     None,
 }
 
@@ -118,6 +130,13 @@ impl Plan {
                 Cut::Auto if has_barrier => Refinement::UnderBound,
                 Cut::Keep | Cut::Seams if may_cut_again => Refinement::GivenBack,
                 _ => Refinement::None,
+            },
+            straighten: match &settings.straighten {
+                _ if !has_barrier => StraightCharts::None,
+                None if start == Start::New => StraightCharts::All,
+                None | Some(Straightening::Off) => StraightCharts::None,
+                Some(Straightening::Auto) => StraightCharts::All,
+                Some(Straightening::Selected(_)) => StraightCharts::Selected,
             },
             most_charts: cutting.max_charts,
             keeps_polygons: is_promised && !matches!(cut, Cut::Keep | Cut::Seams),

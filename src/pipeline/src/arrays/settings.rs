@@ -1,6 +1,8 @@
 //! Settings for unwrapping a mesh given as arrays.
 
-use crate::options::{Budget, Cutting, KeptMaps, Layout, Mapping, Stacking, Workers};
+use crate::options::{
+    Budget, Cutting, KeptMaps, Layout, Mapping, Stacking, Straightening, Workers,
+};
 use unwrapd_api::options::OptionSet;
 use unwrapd_layout::atlas::Borders;
 use unwrapd_layout::charts::Cut;
@@ -17,6 +19,8 @@ pub struct Settings {
     /// Where charts may end; on borders of texels only where the sides of the texture are powers of
     /// two.
     pub borders: Borders,
+    /// Charts whose nearly straight borders become straight; by default all new ones.
+    pub straighten: Option<Straightening>,
     /// Number of threads.
     pub workers: Workers,
     /// Time limit.

@@ -250,13 +250,19 @@ impl Merged {
             let weights = face_weights(document, group, &options.texel_weight);
             merged.seams.weights = Some(weights?);
         }
-        let rules = &options.control;
-        if !rules.control.is_empty() {
+        let rules = options.control.rules();
+        if !rules.is_empty() {
             let attributes = FaceAttributes::of_group(document, group)?;
-            let materials = rule_materials(&rules.control, |name| document.material(name))?;
+            let materials = rule_materials(&rules, |name| document.material(name))?;
             let v_axis = document.v_axis();
-            let control =
-                face_control(rules, &attributes, &materials, &merged.soup(), plan, v_axis)?;
+            let control = face_control(
+                &options.control,
+                &attributes,
+                &materials,
+                &merged.soup(),
+                plan,
+                v_axis,
+            )?;
             if let Some(control) = control {
                 add_control(&mut merged.seams, control);
             }

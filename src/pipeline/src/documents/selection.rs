@@ -98,25 +98,22 @@ pub fn face_control(
     plan: &Plan,
     v_axis: VAxis,
 ) -> Result<Option<FaceControl>, PipelineError> {
-    if control.control.is_empty() {
+    let rules = control.rules();
+    if rules.is_empty() {
         return Ok(None);
     }
     let islands = (mesh.seams.uvs.as_deref()).map(|uvs| islands(mesh, uvs, plan.stacking));
-    let selected = control
-        .control
-        .iter()
-        .zip(materials)
-        .map(|(rule, material)| {
-            let mut is_selected = attributes.selected(&rule.selector, *material);
-            if let Some(islands) = &islands {
-                extend(&mut is_selected, islands);
-            }
-            let faces = 0..is_selected.len() as u32;
-            faces.filter(|&face| is_selected[face as usize]).collect()
-        });
+    let selected = rules.iter().zip(materials).map(|(rule, material)| {
+        let mut is_selected = attributes.selected(&rule.selector, *material);
+        if let Some(islands) = &islands {
+            extend(&mut is_selected, islands);
+        }
+        let faces = 0..is_selected.len() as u32;
+        faces.filter(|&face| is_selected[face as usize]).collect()
+    });
     let selected: Vec<Vec<u32>> = selected.collect();
     let region = |name: &str| control.region(name, v_axis);
-    FaceControl::new(mesh.triangles.len(), &control.control, selected, region).map(Some)
+    FaceControl::new(mesh.triangles.len(), &rules, selected, region).map(Some)
 }
 
 /// Returns the island of each face; those of a stack that stays together are one.

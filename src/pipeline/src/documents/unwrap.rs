@@ -104,9 +104,10 @@ fn unwrap_in_pool(
     let meshes: Vec<Merged> =
         (groups.iter().zip(placed).map(merged)).collect::<Result<_, PipelineError>>()?;
     let n_faces = document.primitives().iter().map(|it| it.triangles.len());
-    check_faces(&options.control.control, &n_faces.collect::<Vec<_>>())?;
+    let rules = options.control.rules();
+    check_faces(&rules, &n_faces.collect::<Vec<_>>())?;
     let all_seams: Vec<&Seams> = meshes.iter().map(|mesh| &mesh.seams).collect();
-    check_selections(&options.control.control, &all_seams)?;
+    check_selections(&rules, &all_seams)?;
     seconds.read = watch.lap();
 
     // Unwrap.

@@ -30,6 +30,14 @@ options! {
         /// Islands keep half of the padding to its sides. Repeat the option for several rectangles;
         /// JSON takes a list.
         pub rectangle: Vec<NamedRectangle>, value "NAME=U,V,U,V", also "rectangles", schema(value_type = Vec<String>);
+        /// Turn nearly straight borders of islands to the axes and straighten them, as far as the bound on
+        /// the distortion allows: auto, off, or a list of selectors as in `control`, separated by
+        /// semicolons.
+        ///
+        /// Strips, belts and open tubes become rectangles. No face flips, and `max_distortion` and
+        /// `max_stretch` hold as without. With auto, an island that would make the page larger stays
+        /// as it is. The default is off for `repack` and `cut` keep, otherwise auto.
+        pub straighten: Option<Straightening>, value "auto|off|SELECTOR;…", schema(value_type = Option<String>);
     }
 }
 
@@ -56,6 +64,18 @@ pub enum Selector {
     Faces(Vec<[u32; 2]>),
 }
 
+/// Islands whose nearly straight borders become straight.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub enum Straightening {
+    /// All.
+    Auto,
+    /// None.
+    Off,
+    /// Those that one of these selects.
+    Selected(Vec<Selector>),
+}
+
 /// An action on islands.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
@@ -73,6 +93,8 @@ pub enum Action {
     EqualizeDensity,
     /// They become this many times as large.
     Scale(f64),
+    /// Their nearly straight borders become straight; the option `straighten` says so, and no rule.
+    Straighten,
 }
 
 /// A rectangle with a name, in the UVs of the result.
@@ -114,6 +136,18 @@ impl IslandControl {
         })
     }
 
+    /// Returns the rules, those of `straighten` last.
+    pub(crate) fn rules(&self) -> Vec<IslandRule> {
+        let mut rules = self.control.clone();
+        if let Some(Straightening::Selected(selectors)) = &self.straighten {
+            rules.extend(selectors.iter().map(|selector| IslandRule {
+                selector: selector.clone(),
+                action: Action::Straighten,
+            }));
+        }
+        rules
+    }
+
     /// Checks the rules for `pages` pages. The error names the option.
     pub(crate) fn check(&self, pages: u32) -> Result<(), String> {
         for (index, rectangle) in self.rectangle.iter().enumerate() {
@@ -140,7 +174,11 @@ impl IslandControl {
                 }
                 Action::Density(texels) => within("density", *texels, 1e-9, 1e9).map_err(named)?,
                 Action::Scale(scale) => within("scale", *scale, 1e-3, 1e3).map_err(named)?,
-                Action::Lock | Action::Group | Action::KeepDensity | Action::EqualizeDensity => {}
+                Action::Lock
+                | Action::Group
+                | Action::KeepDensity
+                | Action::EqualizeDensity
+                | Action::Straighten => {}
             }
         }
         Ok(())
@@ -266,17 +304,23 @@ impl FromStr for NamedRectangle {
     }
 }
 
-impl fmt::Display for IslandRule {
+impl fmt::Display for Selector {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.selector {
-            Selector::All => write!(f, "all")?,
-            Selector::Material(name) => write!(f, "material={name}")?,
-            Selector::Color([r, g, b]) => write!(f, "color={r:02x}{g:02x}{b:02x}")?,
-            Selector::Faces(faces) => {
+        match self {
+            Self::All => write!(f, "all"),
+            Self::Material(name) => write!(f, "material={name}"),
+            Self::Color([r, g, b]) => write!(f, "color={r:02x}{g:02x}{b:02x}"),
+            Self::Faces(faces) => {
                 let faces = faces.iter().map(|[p, face]| format!("{p}/{face}"));
-                write!(f, "faces={}", faces.collect::<Vec<_>>().join(","))?;
+                write!(f, "faces={}", faces.collect::<Vec<_>>().join(","))
             }
         }
+    }
+}
+
+impl fmt::Display for IslandRule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.selector)?;
         match &self.action {
             Action::Lock => write!(f, ": lock"),
             Action::Group => write!(f, ": group"),
@@ -285,6 +329,7 @@ impl fmt::Display for IslandRule {
             Action::KeepDensity => write!(f, ": density keep"),
             Action::EqualizeDensity => write!(f, ": density equal"),
             Action::Scale(scale) => write!(f, ": scale {scale}"),
+            Action::Straighten => write!(f, ": straighten"),
         }
     }
 }
@@ -293,6 +338,51 @@ impl fmt::Display for NamedRectangle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([u, v], [s, t]) = (self.low, self.high);
         write!(f, "{}={u},{v},{s},{t}", self.name)
+    }
+}
+
+impl FromStr for Straightening {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "auto" => Ok(Self::Auto),
+            "off" => Ok(Self::Off),
+            list => {
+                let selectors = list.split(';').map(|text| text.trim().parse());
+                selectors
+                    .collect::<Result<_, String>>()
+                    .map(Self::Selected)
+                    .map_err(|error| format!("{error}; or auto, or off"))
+            }
+        }
+    }
+}
+
+impl fmt::Display for Straightening {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Auto => write!(f, "auto"),
+            Self::Off => write!(f, "off"),
+            Self::Selected(selectors) => {
+                let texts: Vec<String> = selectors.iter().map(ToString::to_string).collect();
+                write!(f, "{}", texts.join(";"))
+            }
+        }
+    }
+}
+
+impl TryFrom<String> for Straightening {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<Straightening> for String {
+    fn from(straightening: Straightening) -> Self {
+        straightening.to_string()
     }
 }
 

@@ -16,7 +16,7 @@ pub use crate::settings::{
 };
 pub use caller::{Caller, CommandOptions};
 pub(super) use checks::check_grouping;
-pub use control::{Action, IslandControl, IslandRule, NamedRectangle, Selector};
+pub use control::{Action, IslandControl, IslandRule, NamedRectangle, Selector, Straightening};
 pub use deform::{BodyFormat, Course, DeformOptions, Pulling, SolveOptions};
 pub(crate) use deform::{SolutionPlan, TRIANGLES};
 pub use edit::{EditOptions, Editing, WarpOptions};

@@ -155,6 +155,7 @@ impl Options {
                 Preset::Material => Borders::Free,
                 Preset::Lightmap => Borders::OnTexels,
             },
+            straighten: self.control.straighten.clone(),
             workers: self.caller.workers(self.workers),
             budget: self.caller.budget(self.budget),
         }

@@ -17,6 +17,15 @@ pub fn excess_and_area(mapped: &MappedChart, rest: &RestShapes) -> [f64; 2] {
     })
 }
 
+/// Like [`excess_and_area`], with a factor by which the excess of each face counts.
+pub fn weighted_excess(mapped: &MappedChart, rest: &RestShapes, factors: &[f64]) -> [f64; 2] {
+    let mut factors = factors.iter();
+    summed(mapped, rest, |sigma| {
+        let excess = (SymmetricDirichlet.value(&sigma) - 4.0).clamp(0.0, LARGEST);
+        factors.next().map_or(excess, |factor| factor * excess)
+    })
+}
+
 /// The area of the faces whose stretch, max(σ₁, 1/σ₂), is more than this.
 pub fn stretched_area(mapped: &MappedChart, rest: &RestShapes, most: f64) -> f64 {
     summed(mapped, rest, |[first, second]| {
@@ -26,7 +35,11 @@ pub fn stretched_area(mapped: &MappedChart, rest: &RestShapes, most: f64) -> f64
 }
 
 /// The sum over the area of a function of the singular values σ₁ ≥ σ₂, and that area.
-fn summed(mapped: &MappedChart, rest: &RestShapes, of: impl Fn([f64; 2]) -> f64) -> [f64; 2] {
+fn summed(
+    mapped: &MappedChart,
+    rest: &RestShapes,
+    mut of: impl FnMut([f64; 2]) -> f64,
+) -> [f64; 2] {
     let triangles = &mapped.chart.disk.triangles;
     let (mut sum, mut weight) = (0.0, 0.0);
     for (triangle, shape) in triangles.iter().zip(&rest.shapes) {
