@@ -133,7 +133,6 @@ impl Plan {
             },
             straighten: match &settings.straighten {
                 _ if !has_barrier => StraightCharts::None,
-                None if start == Start::New => StraightCharts::All,
                 None | Some(Straightening::Off) => StraightCharts::None,
                 Some(Straightening::Auto) => StraightCharts::All,
                 Some(Straightening::Selected(_)) => StraightCharts::Selected,

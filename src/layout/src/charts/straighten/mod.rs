@@ -10,8 +10,8 @@
 //! A chart keeps the bound by itself, and all charts of a surface together keep it. If they cannot, those come first whose sides
 //! cost least for their length. Faces may count more than others: panels do, which are straight already.
 //!
-//! An arc that becomes straight is longer, and a chart that alone sets the scale of a page would leave more of it empty. By
-//! default such a chart stays as it is ([`Straighten::WhereCompact`]), and so does a flat one, which is mapped without distortion.
+//! An arc that becomes straight is longer, and a chart that alone sets the scale of a page would leave more of it empty. With
+//! [`Straighten::WhereCompact`] such a chart stays as it is, and so does a flat one, which is mapped without distortion.
 //!
 //! Not done here: seams stay where they are.
 
