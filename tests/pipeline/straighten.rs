@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt::Write;
 use unwrapd_files::document::{OutputFormat, Upload};
+use unwrapd_layout::atlas::Rotation;
 use unwrapd_layout::charts::Cut;
 use unwrapd_maps::mesh::CornerUvs;
 use unwrapd_pipeline::{
-    Cutting, IslandControl, KeptMaps, Options, Outcome, RepackOptions, Straightening, Unobserved,
-    repack_document, unwrap_document,
+    Cutting, IslandControl, KeptMaps, Layout, Options, Outcome, RepackOptions, Straightening,
+    Unobserved, repack_document, unwrap_document,
 };
 
 /// An open tube that bends by a right angle: 6 rings of 8 quads.
@@ -81,7 +82,7 @@ fn aligned_share(faces: &[CornerUvs]) -> f64 {
     let bits = |p: [f64; 2]| p.map(f64::to_bits);
     let edges = || {
         let ends = |face: &CornerUvs| [0, 1, 2].map(|k| [face[k], face[(k + 1) % 3]]);
-        faces.iter().flat_map(move |face| ends(face))
+        faces.iter().flat_map(ends)
     };
     let key = |[p, q]: [[f64; 2]; 2]| [bits(p).min(bits(q)), bits(p).max(bits(q))];
     let mut sides: BTreeMap<[[u64; 2]; 2], usize> = BTreeMap::new();
@@ -168,4 +169,30 @@ fn values_survive_a_round_trip() {
         let again: Straightening = value.to_string().parse().expect(text);
         assert_eq!(value, again, "{text}");
     }
+}
+
+/// A list names islands by any of their faces; all others stay.
+#[test]
+fn a_list_names_islands() {
+    let options = |straighten| RepackOptions {
+        control: control(straighten),
+        format: OutputFormat::Obj,
+        layout: Layout {
+            rotate: Rotation::Quarter,
+            ..Layout::default()
+        },
+        ..RepackOptions::default()
+    };
+    let repacked = |straighten| {
+        let outcome = repack_document(&belts(12), &options(straighten), &Unobserved);
+        let faces = uvs(&written(&outcome.expect("it fits")));
+        [0, 1, 2].map(|belt| aligned_share(&faces[24 * belt..24 * (belt + 1)]))
+    };
+    let straight = |straighten| repacked(straighten).map(|share| share > 0.99);
+    assert_eq!(straight(None), [false; 3]);
+    assert_eq!(
+        straight(Some("faces=0/0; faces=0/40,0/41")),
+        [true, true, false]
+    );
+    assert_eq!(straight(Some("all")), [true; 3]);
 }
