@@ -47,21 +47,23 @@ fn unfolded(mesh: &Mesh) -> Vec<MappedChart> {
 }
 
 fn unfolded_under(mesh: &Mesh, bound: &Bound) -> Vec<MappedChart> {
+    unfolded_with(mesh, bound, Effort::for_surface)
+}
+
+fn unfolded_with(
+    mesh: &Mesh,
+    bound: &Bound,
+    effort: impl Fn(usize, usize) -> Effort,
+) -> Vec<MappedChart> {
     let surface = surface(mesh);
     let problem = CutProblem::new(&surface, bound, &Unobserved);
     assert!(problem.is_paneled());
+    let n = surface.triangles.len();
     let terms = Terms {
-        effort: Effort::for_surface(surface.triangles.len(), surface.triangles.len()),
+        effort: effort(n, n),
         fill_weight: 0.0,
     };
-    from_surface(
-        &CutProblem::new(&surface, bound, &Unobserved),
-        &terms,
-        &options(),
-        Symmetry::Auto,
-        &Unobserved,
-    )
-    .0
+    from_surface(&problem, &terms, &options(), Symmetry::Auto, &Unobserved).0
 }
 
 /// Charts of a surface that does not consist of panels, by the cutters.
@@ -235,6 +237,16 @@ fn walls_of_many_steps_are_not_stretched() {
     let charts = unfolded(&zoo::voxels(&staircase));
     assert_unfolded(&charts);
     assert!(charts.len() <= 3, "{} charts", charts.len());
+}
+
+/// Without any effort for the search, facets stay whole.
+#[test]
+fn no_effort_makes_no_charts_of_single_faces() {
+    let bar = zoo::voxels(&[[0, 0, 0], [1, 0, 0], [2, 0, 0]]);
+    let charts = unfolded_with(&bar, &BOUND, |n, of_all| {
+        Effort::for_surface(n, of_all).share(0.0)
+    });
+    assert_planes_whole(&charts);
 }
 
 /// Asserts that some charts are few and stretched, as those of a round surface are.

@@ -263,8 +263,9 @@ impl<'a> Pieces<'a> {
 
 impl Search<'_> {
     /// Starts from pieces that are nearly developable. One falls into those that it was joined from if it has no map, or if its slits and
-    /// excess cost more than the border between them.
+    /// excess cost more than the border between them. The effort is counted but not limited: what is not mapped would fall into its faces.
     pub fn start_from_pieces(&mut self, lambda: f64) {
+        let most = std::mem::replace(&mut self.counts.effort.most, f64::INFINITY);
         let mut pieces = Pieces::of_facets(self.nets.metric);
         pieces.join(DEVELOPABLE, |_| true, self.observer);
         let mut pending: Vec<u32> = (0..pieces.list.len() as u32)
@@ -292,6 +293,7 @@ impl Search<'_> {
                 }
             }
         }
+        self.counts.effort.most = most;
     }
 
     /// Returns the cheapest net of some faces that have no slits yet.
