@@ -81,7 +81,7 @@ fn bars_and_combs_are_cut_until_they_fill_the_page() {
         );
         assert!(certificate.is_bijective(), "{certificate:?}");
         assert!(
-            cut.scale > 1.1 * whole.scale,
+            cut.scale > 1.05 * whole.scale,
             "{} {}",
             whole.scale,
             cut.scale
