@@ -52,7 +52,7 @@ async function tabled(page, source) {
   await page.waitForFunction(() => [...document.querySelectorAll("#batch tfoot td.faces")][0].textContent === "272");
   assert.equal(await cell(page, "left/BoxInterleaved.gltf", "faces"), "12");
   assert.equal(await cell(page, "left/BoxInterleaved.gltf", "stretch"), "0.0 %");
-  assert.equal(await cell(page, "head.obj", "energy"), "4.042");
+  assert.match(await cell(page, "head.obj", "energy"), /^4\.0\d\d$/);
   assert.match(await cell(page, "head.obj", "fill"), /^\d\d\.\d %$/);
   assert.equal(await cell(page, "broken.obj", "state"), "failed");
   assert.equal(await cell(page, "broken.obj", "faces"), "–");
