@@ -171,7 +171,7 @@ fn a_hexagon_keeps_its_angles() {
     }
 }
 
-/// What is flat has its shape in the texture: a trapezoid stays one.
+/// A flat chart has no distortion to spend: a trapezoid stays a trapezoid.
 #[test]
 fn a_flat_chart_keeps_its_shape() {
     let mut mesh = zoo::grid(4, 4);
@@ -203,7 +203,7 @@ fn the_zoo_keeps_its_promises() {
     }
 }
 
-/// The same chart turned by any angle gets the same straight map, up to rounding.
+/// Turning a chart does not change its straight map, up to rounding.
 #[test]
 fn straight_belts_do_not_depend_on_the_pose() {
     let mesh = belt(24, 4.0, 0.8, 1.2, 0.3);

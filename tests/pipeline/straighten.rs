@@ -146,7 +146,7 @@ fn kept_islands_stay_as_they_are() {
     assert!(share_of(&auto) > 0.99, "{}", share_of(&auto));
 }
 
-/// What cannot be read or selects nothing is an error that says what is possible.
+/// A list that cannot be read, or selects no island, is refused with the reason.
 #[test]
 fn a_bad_list_is_refused() {
     for text in ["", "straight", "auto;off", "faces=0/0;;all", "all: lock"] {

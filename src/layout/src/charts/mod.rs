@@ -34,7 +34,7 @@
 //! A seam that is cut because of one overlap is often not needed along all of its length: at last small charts are laid back on
 //! their neighbors wherever they find room along a common border ([`given_back()`]).
 //!
-//! Borders that are straight on the surface, or nearly so, become straight along the axes ([`straightened`]).
+//! Where a caller asks for it, borders that are straight on the surface, or nearly so, become straight along the axes ([`straightened`]).
 //!
 //! Where a mesh has polygons, seams along their diagonals are moved to their sides at last ([`with_whole_polygons`]).
 

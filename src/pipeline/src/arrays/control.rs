@@ -35,7 +35,7 @@ pub struct FaceRules {
     pub density: Option<DensityRule>,
     /// Factor of their size beside the others.
     pub scale: f64,
-    /// Whether their nearly straight borders become straight.
+    /// `true` if their nearly straight borders become straight.
     pub straightens: bool,
 }
 

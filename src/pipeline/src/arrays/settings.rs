@@ -19,7 +19,7 @@ pub struct Settings {
     /// Where charts may end; on borders of texels only where the sides of the texture are powers of
     /// two.
     pub borders: Borders,
-    /// Charts whose nearly straight borders become straight; by default all new ones.
+    /// Charts whose nearly straight borders become straight; by default no chart's do.
     pub straighten: Option<Straightening>,
     /// Number of threads.
     pub workers: Workers,

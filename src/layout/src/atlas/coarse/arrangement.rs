@@ -150,7 +150,7 @@ impl Arrangement {
         (i.min(j), false)
     }
 
-    /// Returns whether all charts lie alike.
+    /// Returns whether every chart has the same pose and place in both.
     pub(super) fn lies_like(&self, other: &Self) -> bool {
         self.pose == other.pose && self.corners == other.corners
     }

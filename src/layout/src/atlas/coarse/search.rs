@@ -24,8 +24,8 @@ const IN_VAIN: usize = 20;
 const SEEDS_PER_SEARCH: u64 = 100;
 /// Number of starts that run together, after which a search may end.
 const STARTS_AT_A_TIME: usize = 2;
-/// Number of starts that ended with the best arrangement of all, at which a search ends: almost surely nothing is better. None of 90
-/// sets of charts is emptier by .008 for it (`tests/bench/stable.rs`).
+/// Number of starts that must end with the best arrangement for a search to end: a better one is then unlikely. The fill of 90 sets of
+/// charts falls by less than .008 each (`tests/bench/stable.rs`).
 const AGREED: usize = 3;
 /// Number of small charts that cost as much as a large one.
 const SMALL_PER_LARGE: usize = 4;

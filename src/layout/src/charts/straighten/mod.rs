@@ -246,7 +246,7 @@ fn page_around(mapped: &MappedChart, all_area: f64) -> f64 {
     (all_area + gaps).max(smallest_page(&hull, 1.0))
 }
 
-/// Returns the chart with these sides along the axes, the first of which is now along a unit vector; `None` if they do not get there.
+/// Straightens some sides of a chart whose first axis is given as a unit vector. Returns `None` if a side stays bent.
 fn straight(
     mapped: &MappedChart,
     [c, s]: [f64; 2],

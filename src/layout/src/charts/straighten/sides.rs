@@ -54,9 +54,9 @@ pub struct Sides {
 impl Sides {
     /// Finds the sides of a map; `None` if it has no border.
     ///
-    /// A *strip* has four corners, at each of which its border turns by about a right angle, and by less everywhere else. What lies
-    /// between is a side, however much it bends as a whole: a belt may be an arc. Any other chart has the axes along which most of
-    /// its border runs, and as sides those parts of it that run along them and are straight on the surface.
+    /// The border of a *strip* turns by about a right angle at four corners, and by less everywhere else. Each part between two corners
+    /// is a side, even if it is an arc, as on a belt. The axes of any other chart follow most of its border, and its sides are the parts
+    /// that run along them and are straight on the surface.
     pub fn of(chart: &Chart, uv: &[[f64; 2]]) -> Option<Self> {
         let disk = &chart.disk;
         let around = angle_sums(chart);
@@ -182,7 +182,7 @@ impl Border {
         self.vertices.len()
     }
 
-    /// Returns the quarter turn in which each edge of a strip is to run; `None` if the border is none of a strip.
+    /// Returns the quarter turn in which each edge of a strip is to run; `None` if the chart is not a strip.
     fn strip_directions(&self) -> Option<Vec<u8>> {
         let n = self.n();
         let turn = |i: usize| wrapped(self.angle[i] - self.angle[(i + n - 1) % n]);
