@@ -1,8 +1,7 @@
 //! Maps some of whose edges run along the axes.
 
-use super::parameterize::InvalidStart;
-use super::problem::{Embedding, MapProblem, Options};
-use super::rest::rest_shapes;
+use super::parameterize::{InvalidStart, from_given};
+use super::problem::{Embedding, Options};
 use super::tutte::first_bad_triangle;
 use crate::mesh::Disk;
 use unwrapd_method::energy::{AlignedEdge, Alignment, Term};
@@ -30,18 +29,7 @@ pub fn aligned(
     options: &Options,
     watch: &dyn Watch,
 ) -> Result<Embedding, InvalidStart> {
-    if start.len() != disk.n_vertices {
-        return Err(InvalidStart::Length(start.len(), disk.n_vertices));
-    }
-    if let Some(triangle) = first_bad_triangle(&disk.triangles, start) {
-        return Err(InvalidStart::NotPositive(triangle));
-    }
-    let problem = MapProblem {
-        disk,
-        rest: rest_shapes(positions, &disk.triangles).weighted(&options.weights),
-        options,
-    };
-    let start = problem.at_best_size(start);
+    let (problem, start) = from_given(disk, positions, start, options)?;
     let edges: Vec<AlignedEdge> = (edges.iter())
         .map(|&([a, b], coordinate)| {
             let [p, q] = [a, b].map(|v| start[v as usize]);

@@ -161,6 +161,20 @@ pub fn optimize(
     options: &Options,
     watch: &dyn Watch,
 ) -> Result<Embedding, InvalidStart> {
+    let (problem, start) = from_given(disk, positions, start, options)?;
+    Ok(problem.minimized(problem.objective(&start), start, &[], watch))
+}
+
+/// Returns the problem of a disk with a given map, and this map at its best size.
+///
+/// # Errors
+/// As [`optimize`].
+pub(super) fn from_given<'a>(
+    disk: &'a Disk,
+    positions: &[[f64; 3]],
+    start: &[[f64; 2]],
+    options: &'a Options,
+) -> Result<(MapProblem<'a>, Vec<[f64; 2]>), InvalidStart> {
     if start.len() != disk.n_vertices {
         return Err(InvalidStart::Length(start.len(), disk.n_vertices));
     }
@@ -173,7 +187,7 @@ pub fn optimize(
         options,
     };
     let start = problem.at_best_size(start);
-    Ok(problem.minimized(problem.objective(&start), start, &[], watch))
+    Ok((problem, start))
 }
 
 // The map of a disk that lies in a plane.
