@@ -12,39 +12,38 @@ const LARGEST: f64 = 1e6;
 
 /// By how much the symmetric Dirichlet energy of a map exceeds its minimum of 4 per area, summed over the area, and that area.
 pub fn excess_and_area(mapped: &MappedChart, rest: &RestShapes) -> [f64; 2] {
-    summed(mapped, rest, |sigma| {
-        (SymmetricDirichlet.value(&sigma) - 4.0).clamp(0.0, LARGEST)
-    })
+    summed(mapped, rest, |_, sigma| excess(sigma))
 }
 
 /// Like [`excess_and_area`], with a factor by which the excess of each face counts.
 pub fn weighted_excess(mapped: &MappedChart, rest: &RestShapes, factors: &[f64]) -> [f64; 2] {
-    let mut factors = factors.iter();
-    summed(mapped, rest, |sigma| {
-        let excess = (SymmetricDirichlet.value(&sigma) - 4.0).clamp(0.0, LARGEST);
-        factors.next().map_or(excess, |factor| factor * excess)
-    })
+    summed(mapped, rest, |face, sigma| factors[face] * excess(sigma))
+}
+
+/// Returns by how much the symmetric Dirichlet energy exceeds its minimum at these singular values.
+fn excess(sigma: [f64; 2]) -> f64 {
+    (SymmetricDirichlet.value(&sigma) - 4.0).clamp(0.0, LARGEST)
 }
 
 /// The area of the faces whose stretch, max(σ₁, 1/σ₂), is more than this.
 pub fn stretched_area(mapped: &MappedChart, rest: &RestShapes, most: f64) -> f64 {
-    summed(mapped, rest, |[first, second]| {
+    summed(mapped, rest, |_, [first, second]| {
         let is_stretched = first > most || second * most < 1.0;
         f64::from(u8::from(is_stretched))
     })[0]
 }
 
-/// The sum over the area of a function of the singular values σ₁ ≥ σ₂, and that area.
+/// The sum over the area of a function of each face and its singular values σ₁ ≥ σ₂, and that area.
 fn summed(
     mapped: &MappedChart,
     rest: &RestShapes,
-    mut of: impl FnMut([f64; 2]) -> f64,
+    of: impl Fn(usize, [f64; 2]) -> f64,
 ) -> [f64; 2] {
     let triangles = &mapped.chart.disk.triangles;
     let (mut sum, mut weight) = (0.0, 0.0);
-    for (triangle, shape) in triangles.iter().zip(&rest.shapes) {
+    for (face, (triangle, shape)) in triangles.iter().zip(&rest.shapes).enumerate() {
         let corners = triangle.map(|v| mapped.embedding.uv[v as usize].map(|x| x / rest.scale));
-        sum += shape.weight * of(singular_values(corners, shape));
+        sum += shape.weight * of(face, singular_values(corners, shape));
         weight += shape.weight;
     }
     let per_area = sum / weight.max(f64::MIN_POSITIVE);
