@@ -8,9 +8,10 @@ use unwrapd_files::document::{OutputFormat, Upload};
 use unwrapd_layout::atlas::Rotation;
 use unwrapd_layout::charts::Cut;
 use unwrapd_maps::mesh::CornerUvs;
+use unwrapd_method::barrier::BarrierKind;
 use unwrapd_pipeline::{
-    Cutting, IslandControl, KeptMaps, Layout, Options, Outcome, RepackOptions, Straightening,
-    Unobserved, repack_document, unwrap_document,
+    Cutting, IslandControl, KeptMaps, Layout, Mapping, Options, Outcome, PipelineError,
+    RepackOptions, Straightening, Unobserved, repack_document, unwrap_document,
 };
 
 /// An open tube that bends by a right angle: 6 rings of 8 quads.
@@ -159,6 +160,22 @@ fn a_bad_list_is_refused() {
     };
     let error = repack_document(&belts(1), &options, &Unobserved).expect_err("nothing is selected");
     assert!(error.to_string().contains("color=123456"), "{error}");
+}
+
+/// Without a barrier a map may flip while its borders turn, so that is refused instead of being left undone.
+#[test]
+fn straightening_needs_a_barrier() {
+    let options = Options {
+        control: control(Some("auto")),
+        mapping: Mapping {
+            barrier: BarrierKind::None,
+            ..Mapping::default()
+        },
+        ..Options::default()
+    };
+    let error = unwrap_document(&elbow(), &options, &Unobserved).expect_err("no barrier");
+    assert!(matches!(error, PipelineError::InvalidOptions(_)), "{error}");
+    assert!(error.to_string().contains("barrier"), "{error}");
 }
 
 /// A value is written as it is read.

@@ -74,6 +74,9 @@ fn straight(
     plan: &Plan,
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
+    if plan.straighten == StraightCharts::None {
+        return charts;
+    }
     let is_selected = |chart: &MappedChart| {
         let corner = chart.chart.corners.first().map(|[corner, ..]| *corner);
         let face = corner.map(|corner| surface.input_corner(corner)[0]);
@@ -85,9 +88,6 @@ fn straight(
         StraightCharts::Selected if is_selected(chart) => Straighten::WhereBounded,
         StraightCharts::Selected | StraightCharts::None => Straighten::Never,
     };
-    if plan.straighten == StraightCharts::None {
-        return charts;
-    }
     let weights = CutProblem::new(surface, bound, observer).weights();
     straightened(
         charts,
