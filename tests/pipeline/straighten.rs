@@ -10,7 +10,7 @@ use unwrapd_layout::charts::Cut;
 use unwrapd_maps::mesh::CornerUvs;
 use unwrapd_method::barrier::BarrierKind;
 use unwrapd_pipeline::{
-    Cutting, IslandControl, KeptMaps, Layout, Mapping, Options, Outcome, PipelineError,
+    CommandOptions, Cutting, IslandControl, KeptMaps, Layout, Mapping, Options, Outcome,
     RepackOptions, Straightening, Unobserved, repack_document, unwrap_document,
 };
 
@@ -165,17 +165,25 @@ fn a_bad_list_is_refused() {
 /// Without a barrier a map may flip while its borders turn, so that is refused instead of being left undone.
 #[test]
 fn straightening_needs_a_barrier() {
-    let options = Options {
-        control: control(Some("auto")),
-        mapping: Mapping {
-            barrier: BarrierKind::None,
-            ..Mapping::default()
-        },
-        ..Options::default()
+    let with = |straighten| {
+        let options = Options {
+            control: control(Some(straighten)),
+            mapping: Mapping {
+                barrier: BarrierKind::None,
+                ..Mapping::default()
+            },
+            ..Options::default()
+        };
+        options.check().map_err(|error| error.to_string())
     };
-    let error = unwrap_document(&elbow(), &options, &Unobserved).expect_err("no barrier");
-    assert!(matches!(error, PipelineError::InvalidOptions(_)), "{error}");
-    assert!(error.to_string().contains("barrier"), "{error}");
+    for straighten in ["auto", "all"] {
+        let error = with(straighten).expect_err(straighten);
+        assert!(
+            error.contains("`straighten` requires a `barrier`"),
+            "{error}"
+        );
+    }
+    assert_eq!(with("off"), Ok(()));
 }
 
 /// A value is written as it is read.

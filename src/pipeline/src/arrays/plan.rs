@@ -99,7 +99,7 @@ impl Plan {
     /// Derives the plan from the settings.
     ///
     /// # Errors
-    /// If the energy is a formula that is not an energy of triangles, or borders are to be straightened without a barrier.
+    /// If the energy is a formula that is not an energy of triangles.
     pub fn new(settings: &Settings) -> Result<Self, PipelineError> {
         let Settings {
             cutting,
@@ -115,15 +115,6 @@ impl Plan {
         };
         let has_barrier = mapping.barrier != BarrierKind::None;
         let is_promised = has_barrier && start != Start::Final;
-        let straighten = match &settings.straighten {
-            None | Some(Straightening::Off) => StraightCharts::None,
-            Some(Straightening::Auto) => StraightCharts::All,
-            Some(Straightening::Selected(_)) => StraightCharts::Selected,
-        };
-        if straighten != StraightCharts::None && !has_barrier {
-            let text = "`straighten` requires a barrier, which keeps faces from flipping";
-            return Err(PipelineError::InvalidOptions(text.to_owned()));
-        }
         // A request for one chart per component excludes further seams.
         let may_cut_again = is_promised && cut != Cut::Disk;
         let seam_price = cutting.seam_weight * cutting.quality.seam_price();
@@ -140,7 +131,11 @@ impl Plan {
                 Cut::Keep | Cut::Seams if may_cut_again => Refinement::GivenBack,
                 _ => Refinement::None,
             },
-            straighten,
+            straighten: match &settings.straighten {
+                None | Some(Straightening::Off) => StraightCharts::None,
+                Some(Straightening::Auto) => StraightCharts::All,
+                Some(Straightening::Selected(_)) => StraightCharts::Selected,
+            },
             most_charts: cutting.max_charts,
             keeps_polygons: is_promised && !matches!(cut, Cut::Keep | Cut::Seams),
             folds: if may_cut_again {

@@ -1,7 +1,7 @@
 //! Checks of options: ranges, and rejection of options that would have no effect, contrary to their user's expectation.
 
 use super::ImageFormat;
-use super::{KeptMaps, Options, Preset};
+use super::{KeptMaps, Options, Preset, Straightening};
 use crate::Caller;
 use crate::CommandOptions;
 use crate::PipelineError;
@@ -121,6 +121,12 @@ fn check(options: &Options) -> Result<(), String> {
             "barrier_continuation",
             "a `barrier`",
             options.mapping.barrier_continuation && options.mapping.barrier == BarrierKind::None,
+        ),
+        (
+            "straighten",
+            "a `barrier`",
+            (options.control.straighten.as_ref()).is_some_and(|it| *it != Straightening::Off)
+                && options.mapping.barrier == BarrierKind::None,
         ),
         (
             "max_charts",
