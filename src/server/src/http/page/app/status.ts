@@ -52,7 +52,7 @@ export function showLegend(viewer: Viewer, changed: (changes: Partial<Place>) =>
   const { analysis, place, atlas } = viewer;
   const shown = analysis?.atlases[atlas];
   const parts: Node[] = [];
-  if (shown && place.shade === "heat") parts.push(choice(place.measure, (measure) => changed({ measure })), scale(viewer), fitting(viewer, changed));
+  if (shown && place.shade === "heat") parts.push(choice(place.measure, (measure) => changed({ measure })), fitting(viewer, changed), scale(viewer));
   if (shown && place.shade === "checker") parts.push(cells(place.cells, changed));
   byId("legend").replaceChildren(...parts);
   byId("faults").replaceChildren(...(shown && place.problems ? faults(shown) : []));
