@@ -106,10 +106,10 @@ fn share_of(outcome: &Outcome) -> f64 {
     aligned_share(&uvs(&written(outcome)))
 }
 
-/// New charts of tubes become rectangles where that is asked for, and keep the bound.
+/// New charts of tubes become rectangles unless the caller declines, and keep the bound.
 #[test]
-fn an_elbow_becomes_a_rectangle_if_asked_for() {
-    for (straighten, is_straight) in [(None, false), (Some("auto"), true), (Some("off"), false)] {
+fn an_elbow_becomes_a_rectangle() {
+    for (straighten, is_straight) in [(None, true), (Some("auto"), true), (Some("off"), false)] {
         let outcome = unwrapped(&elbow(), straighten, Options::default());
         let share = share_of(&outcome);
         assert_eq!(share > 0.99, is_straight, "{straighten:?}: {share}");
@@ -160,6 +160,28 @@ fn a_bad_list_is_refused() {
     };
     let error = repack_document(&belts(1), &options, &Unobserved).expect_err("nothing is selected");
     assert!(error.to_string().contains("color=123456"), "{error}");
+}
+
+/// A named island that cannot become straight under the bound is reported, not passed over.
+#[test]
+fn islands_that_stay_bent_are_reported() {
+    let with = |max_distortion| {
+        let options = Options {
+            cutting: Cutting {
+                max_distortion: Some(max_distortion),
+                ..Cutting::default()
+            },
+            ..Options::default()
+        };
+        let outcome = unwrapped(&elbow(), Some("all"), options);
+        let warnings = outcome.report.warnings.iter();
+        let bent = warnings
+            .filter(|warning| warning.code == "bent_borders")
+            .count();
+        (share_of(&outcome) > 0.99, bent)
+    };
+    assert_eq!(with(4.2), (true, 0));
+    assert_eq!(with(4.06), (false, 1));
 }
 
 /// Without a barrier a map may flip while its borders turn, so that is refused instead of being left undone.

@@ -290,7 +290,9 @@ fn unwrap_in_pool(
     promise_kept(&plan, &groups, &missing)?;
     let unstacked = nothing_stacked(&groups, options);
     let warnings = missing.into_iter().chain(unstacked);
-    let warnings = warnings.chain(tracker.warning());
+    let warnings = warnings
+        .chain(tracker.bent_borders())
+        .chain(tracker.warning());
     let mut report = Report::new(groups, warnings.collect(), Mirrored::of(&plan));
     report.options = Some(options.clone());
     report.limits = Some(options.caller.limits);

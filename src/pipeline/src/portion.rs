@@ -75,6 +75,11 @@ impl<'a> Portion<'a> {
         charts::Observer::charted(self, n - mapped, n - known);
     }
 
+    /// Records that `islands` more islands keep borders bent that were to become straight.
+    pub fn bent(&self, islands: usize) {
+        self.tracker.bent(islands);
+    }
+
     /// Records more work.
     pub fn advance(&self, work: f64) {
         self.tracker.advance(self.weight * self.gained(work));

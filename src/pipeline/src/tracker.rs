@@ -25,6 +25,8 @@ struct TrackerState {
     left: f64,
     /// Reason for an early end.
     ended: Option<EarlyEnd>,
+    /// Number of islands that keep borders bent that were to become straight.
+    n_bent: usize,
 }
 
 /// Reason for an early end.
@@ -96,6 +98,7 @@ impl<'a> Tracker<'a> {
                 pack_begins: 0.8,
                 left: 0.0,
                 ended: None,
+                n_bent: 0,
             }),
         }
     }
@@ -141,6 +144,11 @@ impl<'a> Tracker<'a> {
             progress.chart = progress.chart.saturating_add_signed(mapped);
             progress.charts = progress.charts.saturating_add_signed(known);
         });
+    }
+
+    /// Records that `islands` more islands keep borders bent that were to become straight.
+    pub(super) fn bent(&self, islands: usize) {
+        self.state().n_bent += islands;
     }
 
     /// Completes some work of the stage. Returns whether to continue.
@@ -205,6 +213,19 @@ impl<'a> Tracker<'a> {
             "the work ended early, {cause}: the result is valid, but more time may improve it"
         );
         Some(Warning::new("ended_early", message))
+    }
+
+    /// Returns a warning if islands that were to become straight keep bent borders.
+    pub(super) fn bent_borders(&self) -> Option<Warning> {
+        let islands = match self.state().n_bent {
+            0 => return None,
+            1 => "an island that `straighten` names keeps a bent border".to_owned(),
+            n => format!("{n} islands that `straighten` names keep bent borders"),
+        };
+        let message = format!(
+            "{islands}: straight ones would exceed the bound on the distortion or overlap (equal parts count once)"
+        );
+        Some(Warning::new("bent_borders", message))
     }
 }
 

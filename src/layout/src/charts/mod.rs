@@ -74,7 +74,7 @@ pub use observer::{MapUnderway, Observer, Unobserved};
 pub use opened::charts;
 pub use polygons::{PolygonHome, with_whole_polygons};
 pub use rough::smoothed_where_rough;
-pub use straighten::{Straighten, straightened};
+pub use straighten::{Straighten, Straightened, straightened};
 pub use symmetry::plane::MirrorPlane;
 
 pub(crate) use observer::Watching;

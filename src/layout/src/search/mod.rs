@@ -132,6 +132,22 @@ impl<'a> CutProblem<'a> {
         }
     }
 
+    /// Returns the surface.
+    pub fn surface(&self) -> &'a Surface {
+        self.metric.surface
+    }
+
+    /// Returns the bound on the distortion.
+    pub fn bound(&self) -> &Bound {
+        &self.bound
+    }
+
+    /// Sets another bound on the same kind of distortion.
+    pub fn set_bound(&mut self, bound: &Bound) {
+        self.metric.most_stretch = bound.stretch.unwrap_or(f64::INFINITY);
+        self.bound = *bound;
+    }
+
     /// Returns for each face how often its excess counts: more on panels.
     pub fn weights(&self) -> Vec<f64> {
         let faces = self.metric.weight.iter().zip(&self.metric.area);

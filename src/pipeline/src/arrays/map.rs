@@ -8,7 +8,7 @@ use super::seams::Seams;
 use crate::portion::Portion;
 use crate::tracker::Tracker;
 use unwrapd_layout::charts::{
-    Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, Straighten, charts,
+    Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, Straighten, Straightened, charts,
     charts_under_bound, given_back, map_chart, map_chart_from, straightened,
 };
 use unwrapd_layout::search::{CutProblem, Effort, Terms, from_charts, from_surface};
@@ -60,26 +60,26 @@ pub fn mapped_charts(
                 }
                 Refinement::UnderBound | Refinement::None => maps,
             };
-            straight(maps, surface, seams[index], &plan.bound, plan, &portion)
+            if plan.straighten == StraightCharts::None {
+                return maps;
+            }
+            let problem = CutProblem::new(surface, &plan.bound, &portion);
+            straight(maps, &problem, seams[index], plan, &portion)
         })
         .collect()
 }
 
-/// Straightens the borders of the charts that the plan names.
+/// Straightens the borders of the charts of a surface that the plan names.
 fn straight(
     charts: Vec<MappedChart>,
-    surface: &Surface,
+    problem: &CutProblem,
     seams: &Seams,
-    bound: &Bound,
     plan: &Plan,
-    observer: &dyn Observer,
+    portion: &Portion,
 ) -> Vec<MappedChart> {
-    if plan.straighten == StraightCharts::None {
-        return charts;
-    }
     let is_selected = |chart: &MappedChart| {
         let corner = chart.chart.corners.first().map(|[corner, ..]| *corner);
-        let face = corner.map(|corner| surface.input_corner(corner)[0]);
+        let face = corner.map(|corner| problem.surface().input_corner(corner)[0]);
         let control = seams.control.as_ref().zip(face);
         control.is_some_and(|(control, face)| control.of(face).straightens)
     };
@@ -88,15 +88,16 @@ fn straight(
         StraightCharts::Selected if is_selected(chart) => Straighten::WhereBounded,
         StraightCharts::Selected | StraightCharts::None => Straighten::Never,
     };
-    let weights = CutProblem::new(surface, bound, observer).weights();
-    straightened(
+    let Straightened { charts, n_bent } = straightened(
         charts,
         &condition,
-        &weights,
-        bound,
+        &problem.weights(),
+        problem.bound(),
         &plan.embedding,
-        observer,
-    )
+        portion,
+    );
+    portion.bent(n_bent);
+    charts
 }
 
 /// Returns the charts of a surface under the bound, or under a looser one if they exceed the maximum number of
@@ -109,49 +110,49 @@ fn under_bound(
     seams: &Seams,
     plan: &Plan,
     effort: Effort,
-    observer: &dyn Observer,
+    portion: &Portion,
 ) -> Vec<MappedChart> {
     let most = plan.most_charts.map_or(usize::MAX, |n| n as usize);
-    let mut bound = plan.bound;
     let options = &plan.embedding;
     let seam_price = plan.compaction.unwrap_or(1.0);
-    let under = |bound: &Bound| {
+    let under = |problem: &CutProblem| {
         let terms = Terms {
             effort,
             fill_weight: GIVEN_PAGE / seam_price,
         };
-        let cut = || charts_under_bound(surface, bound, options, plan.symmetry, observer);
-        if observer.control() == Control::Finish {
+        let cut = || charts_under_bound(surface, problem.bound(), options, plan.symmetry, portion);
+        if portion.control() == Control::Finish {
             return cut();
         }
-        let problem = CutProblem::new(surface, bound, observer);
         if problem.is_paneled() {
-            return from_surface(&problem, &terms, options, plan.symmetry, observer).0;
+            return from_surface(problem, &terms, options, plan.symmetry, portion).0;
         }
         if seam_price < 1.0 {
             // Cheap seams are there to fill the page, and the search would close them.
             return cut();
         }
-        from_charts(&problem, cut(), &terms, options, observer).0
+        from_charts(problem, cut(), &terms, options, portion).0
     };
-    let mut fewest = under(&bound);
+    let mut problem = CutProblem::new(surface, &plan.bound, portion);
+    let mut fewest = under(&problem);
     while fewest.len() > most {
+        let bound = *problem.bound();
         let next = match bound.stretch {
             Some(_) => Some(bound.mean),
             None => Quality::looser_than(bound.mean),
         };
         let others = match next {
             Some(mean) => {
-                bound = Bound {
+                problem.set_bound(&Bound {
                     mean,
                     stretch: None,
                     ..bound
-                };
-                under(&bound)
+                });
+                under(&problem)
             }
             None => charts(surface, Cut::Disk)
                 .into_iter()
-                .flat_map(|chart| map_chart(chart, options, Folds::Cut, observer))
+                .flat_map(|chart| map_chart(chart, options, Folds::Cut, portion))
                 .collect(),
         };
         if others.len() < fewest.len() {
@@ -161,7 +162,7 @@ fn under_bound(
             break;
         }
     }
-    straight(fewest, surface, seams, &bound, plan, observer)
+    straight(fewest, &problem, seams, plan, portion)
 }
 
 /// Returns the given UVs at the vertices of a chart, along both axes in longer sides of the texture. Corners whose

@@ -132,6 +132,8 @@ impl Plan {
                 _ => Refinement::None,
             },
             straighten: match &settings.straighten {
+                // Given maps, and those that may flip, stay as they are unless they are named.
+                None if start == Start::New && has_barrier => StraightCharts::All,
                 None | Some(Straightening::Off) => StraightCharts::None,
                 Some(Straightening::Auto) => StraightCharts::All,
                 Some(Straightening::Selected(_)) => StraightCharts::Selected,

@@ -160,8 +160,16 @@ fn unwrap_in_pool(
     let missing = shortfalls(&judged, Mirrored::of(&plan));
     promise_kept(&plan, &groups, &missing)?;
     let unstacked = nothing_stacked(&groups, options);
-    let unmapped = warning.into_iter().chain(unstacked).collect();
-    let warnings = [noticed, written.notes.warnings.clone(), unmapped, missing];
+    let unmapped = warning
+        .into_iter()
+        .chain(unstacked)
+        .chain(tracker.bent_borders());
+    let warnings = [
+        noticed,
+        written.notes.warnings.clone(),
+        unmapped.collect(),
+        missing,
+    ];
     let ended_early = tracker.warning();
     let is_ended_early = ended_early.is_some();
     let warnings = warnings.into_iter().flatten().chain(ended_early);

@@ -36,7 +36,7 @@ options! {
         ///
         /// Strips, belts and open tubes become rectangles. No face flips, and `max_distortion` and
         /// `max_stretch` hold as without. With auto, an island that would make the page larger stays
-        /// as it is.
+        /// as it is. By default auto for new islands, off for those that are kept.
         pub straighten: Option<Straightening>, value "auto|off|SELECTOR;…", schema(value_type = Option<String>);
     }
 }

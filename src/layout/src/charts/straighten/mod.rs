@@ -25,6 +25,7 @@ use super::unfold::overlaps::overlaps;
 use rayon::prelude::*;
 use sides::{Side, Sides};
 use unwrapd_maps::embed::{self, RestShapes, aligned};
+use unwrapd_method::numerics::bounds::bounds_of;
 use unwrapd_method::numerics::hull::{convex_hull, smallest_page};
 use unwrapd_method::numerics::vec3::{add_scaled, area_vector, norm};
 use unwrapd_method::solver::Control;
@@ -47,6 +48,14 @@ pub enum Straighten {
     WhereBounded,
 }
 
+/// Charts of a surface, some of them with straight sides.
+pub struct Straightened {
+    /// All charts, in the order given.
+    pub charts: Vec<MappedChart>,
+    /// Number of the charts that were to become straight [`WhereBounded`](Straighten::WhereBounded) and keep a bent side.
+    pub n_bent: usize,
+}
+
 /// Straightens the sides of some charts of a surface under a bound, which those charts then keep together if they kept it before.
 /// `weights` says for each face of the surface how often its distortion counts. Maps keep their sizes.
 pub fn straightened(
@@ -56,14 +65,17 @@ pub fn straightened(
     bound: &Bound,
     options: &embed::Options,
     observer: &dyn Observer,
-) -> Vec<MappedChart> {
-    let all_area: f64 = charts.iter().map(MappedChart::surface_area).sum();
+) -> Straightened {
+    let of_all = Page {
+        all_area: charts.iter().map(MappedChart::surface_area).sum(),
+        is_alone: charts.len() == 1,
+    };
     let mut attempts: Vec<Option<Attempt>> = (charts.par_iter().with_max_len(1))
         .map(|chart| {
             let page = match condition(chart) {
                 Straighten::Never => return None,
                 Straighten::WhereCompact if is_flat(chart) => return None,
-                Straighten::WhereCompact => Some(all_area),
+                Straighten::WhereCompact => Some(of_all),
                 Straighten::WhereBounded => None,
             };
             Attempt::new(chart, weights, page, bound, options, observer)
@@ -79,10 +91,13 @@ pub fn straightened(
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut charts = charts;
     for (_, chart) in order {
-        let attempt = attempts[chart].take();
-        if let Some(straight) = attempt.and_then(|it| it.straight)
+        let Some(attempt) = &mut attempts[chart] else {
+            continue;
+        };
+        if let Some(straight) = attempt.straight.take()
             && straight.cost <= left.max(0.0)
         {
+            attempt.n_bent -= straight.n_sides;
             left -= straight.cost;
             let size = (charts[chart].area() / charts[chart].surface_area()).sqrt();
             charts[chart] = straight.chart;
@@ -93,7 +108,12 @@ pub fn straightened(
             }
         }
     }
-    charts
+    // An attempt without a page is one on any page.
+    let is_bent = |attempt: &&Attempt| attempt.page.is_none() && 0 < attempt.n_bent;
+    Straightened {
+        n_bent: attempts.iter().flatten().filter(is_bent).count(),
+        charts,
+    }
 }
 
 /// A chart, and its map with straight sides if there is one.
@@ -103,8 +123,10 @@ struct Attempt {
     factors: Vec<f64>,
     area: f64,
     excess: f64,
-    /// Area of the charts of the surface, and the largest [page](page_around) that is allowed; `None` if any is.
-    page: Option<[f64; 2]>,
+    /// The page, and its largest area; `None` if any page will do.
+    page: Option<(Page, f64)>,
+    /// Number of bent sides.
+    n_bent: usize,
     straight: Option<Straight>,
 }
 
@@ -113,17 +135,17 @@ struct Straight {
     chart: MappedChart,
     /// Additional excess.
     cost: f64,
-    /// Length of the sides that became straight.
+    /// Number of the sides that became straight, and their length.
+    n_sides: usize,
     length: f64,
 }
 
 impl Attempt {
-    /// Returns the attempt at one chart; `None` if its map has no area. `all_area` is the area of the charts of the surface, if its room on
-    /// a page counts.
+    /// Returns the attempt at one chart; `None` if its map has no area. `page` is that of the surface, if it must not grow.
     fn new(
         mapped: &MappedChart,
         weights: &[f64],
-        all_area: Option<f64>,
+        page: Option<Page>,
         bound: &Bound,
         options: &embed::Options,
         observer: &dyn Observer,
@@ -141,9 +163,9 @@ impl Attempt {
             *p = p.map(|x| size * x);
         }
         let [excess, area] = weighted_excess(&sized, &rest, &factors);
-        let page = all_area.map(|all| {
-            let most = page_around(&sized, all) + MORE_ROOM * sized.area();
-            [all, most]
+        let page = page.map(|page| {
+            let most = page.around(&sized) + MORE_ROOM * sized.area();
+            (page, most)
         });
         let mut attempt = Self {
             rest,
@@ -151,6 +173,7 @@ impl Attempt {
             area,
             excess,
             page,
+            n_bent: 0,
             straight: None,
         };
         attempt.straighten(&sized, bound, options, observer);
@@ -176,6 +199,7 @@ impl Attempt {
         // Sides are in the order of their deviations: search for the number of them that can be straight.
         let mut kept = sides.sides.iter().take_while(|side| !is_bent(side)).count();
         let mut most = sides.sides.len();
+        self.n_bent = most - kept;
         let mut n = most;
         while kept < most && observer.control() != Control::Finish {
             let chosen = &sides.sides[..n];
@@ -183,12 +207,12 @@ impl Attempt {
             match map.and_then(|map| self.excess_within(&map, bound).map(|excess| (map, excess))) {
                 Some((chart, excess)) => {
                     kept = n;
+                    let bent = || chosen.iter().filter(|side| is_bent(side));
                     self.straight = Some(Straight {
                         chart,
                         cost: excess - self.excess,
-                        length: (chosen.iter().filter(|side| is_bent(side)))
-                            .map(|side| side.length)
-                            .sum(),
+                        n_sides: bent().count(),
+                        length: bent().map(|side| side.length).sum(),
                     });
                 }
                 None => most = n - 1,
@@ -212,7 +236,8 @@ impl Attempt {
             ];
             stretched <= most_stretched
         });
-        let keeps_page = (self.page).is_none_or(|[all, most]| page_around(mapped, all) <= most);
+        let keeps_page =
+            (self.page).is_none_or(|(page, most)| page.around_straight(mapped) <= most);
         let is_within = excess <= bound.budget() * area && keeps_stretch && keeps_page;
         (is_within && overlaps(disk, uv).is_empty()).then_some(excess)
     }
@@ -233,17 +258,42 @@ fn is_flat(mapped: &MappedChart) -> bool {
     2.0 * (1.0 - norm(sum) / mapped.surface_area()) <= BENT
 }
 
-/// Returns the least area of a square page for a chart among others: it holds the charts of the surface, whose area is `all_area`, with the
-/// gaps between this one and its convex hull, and the smallest square around it.
-fn page_around(mapped: &MappedChart, all_area: f64) -> f64 {
-    let hull = convex_hull(mapped.embedding.uv.iter().copied());
-    let next = hull.iter().cycle().skip(1);
-    let doubled = hull
-        .iter()
-        .zip(next)
-        .map(|(p, q)| p[0] * q[1] - p[1] * q[0]);
-    let gaps = doubled.sum::<f64>() / 2.0 - mapped.area();
-    (all_area + gaps).max(smallest_page(&hull, 1.0))
+/// The square page of the charts of a surface, which holds them and the gaps between one of them and its convex hull.
+#[derive(Clone, Copy)]
+struct Page {
+    /// Area of the charts.
+    all_area: f64,
+    /// `true` if there is one chart. The packer lays it along the axes once it is straight.
+    is_alone: bool,
+}
+
+impl Page {
+    /// Returns the least area of the page for a chart at any angle.
+    fn around(&self, mapped: &MappedChart) -> f64 {
+        let hull = convex_hull(mapped.embedding.uv.iter().copied());
+        self.with_gaps(mapped, &hull).max(smallest_page(&hull, 1.0))
+    }
+
+    /// Returns the least area of the page for a chart whose sides lie along the axes.
+    fn around_straight(&self, mapped: &MappedChart) -> f64 {
+        if !self.is_alone {
+            return self.around(mapped);
+        }
+        let hull = convex_hull(mapped.embedding.uv.iter().copied());
+        let [low, high] = bounds_of(&hull);
+        let side = (high[0] - low[0]).max(high[1] - low[1]);
+        self.with_gaps(mapped, &hull).max(side * side)
+    }
+
+    /// Returns the area of the charts and of the gaps between one of them and its hull.
+    fn with_gaps(&self, mapped: &MappedChart, hull: &[[f64; 2]]) -> f64 {
+        let next = hull.iter().cycle().skip(1);
+        let doubled = hull
+            .iter()
+            .zip(next)
+            .map(|(p, q)| p[0] * q[1] - p[1] * q[0]);
+        self.all_area + doubled.sum::<f64>() / 2.0 - mapped.area()
+    }
 }
 
 /// Straightens some sides of a chart whose first axis is given as a unit vector. Returns `None` if a side stays bent.
