@@ -826,6 +826,43 @@ fn rules_of_the_guide_hold_for_the_file() {
     }
 }
 
+/// Borders of new islands are straightened unless that is declined; named islands that stay bent are reported.
+#[test]
+fn borders_become_straight_as_asked() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    // A belt around a cone.
+    let mut lines = Vec::new();
+    for i in 0..=12_u32 {
+        let (sin, cos) = (f64::from(i) / 8.0).sin_cos();
+        for r in [3.0, 4.0] {
+            lines.push(format!("v {} {} {}", r * cos, r * sin, r / 2.0));
+        }
+    }
+    lines.extend((0..12).map(|i| {
+        let a = 2 * i + 1;
+        format!("f {a} {} {} {}", a + 1, a + 3, a + 2)
+    }));
+    std::fs::write(path("belt.obj"), lines.join("\n")).expect("a file");
+    let [input, output] = ["belt.obj", "out.obj"].map(path);
+    let with = |more: &[&str]| unwrapd(&[&["unwrap", &input, "-o", &output], more].concat());
+    let uvs = |more: &[&str]| {
+        assert_status(&with(more), 0);
+        let text = std::fs::read_to_string(&output).expect("a file");
+        let uvs = text.lines().filter(|line| line.starts_with("vt "));
+        uvs.map(str::to_owned).collect::<Vec<_>>()
+    };
+    let bent = uvs(&["--straighten", "off"]);
+    assert_ne!(uvs(&["--straighten", "all"]), bent);
+    let run = with(&["--straighten", "all", "--max-distortion", "4.001"]);
+    assert_status(&run, 0);
+    let text = String::from_utf8_lossy(&run.stderr);
+    assert!(text.contains("bent_borders"), "{text}");
+    let run = with(&["--straighten", "sideways"]);
+    assert_status(&run, 2);
+    assert!(last_error(&run).contains("auto"), "{}", last_error(&run));
+}
+
 #[test]
 fn a_reader_that_goes_away_is_no_failure() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_unwrapd"))
