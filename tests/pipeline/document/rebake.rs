@@ -266,7 +266,7 @@ fn what_cannot_be_resampled_stays_right() {
             {"clearcoatNormalTexture": {"index": 2}, "clearcoatTexture": {"index": 0}}});
         push(
             &mut builder.json["textures"],
-            json!({"extensions": {"KHR_texture_basisu": {"source": 0}}}),
+            json!({"extensions": {"MSFT_texture_dds": {"source": 0}}}),
         );
     });
     let clearcoat = &material["extensions"]["KHR_materials_clearcoat"];
@@ -371,11 +371,44 @@ fn textures_of_16_bits_keep_them_in_png_alone() {
 
 #[test]
 fn an_image_that_is_not_read_is_named() {
-    let ktx2 = data_uri("image/ktx2", b"\xABKTX 20\xBB\r\n\x1A\n");
-    let outcome = rebaked(&square_of("KHR_texture_basisu", &ktx2));
-    let notes = outcome.report.written.unwrap();
-    let reason = &notes.textures_kept[0].reason;
-    assert!(reason.contains("image 0 of KHR_texture_basisu"), "{reason}");
+    let reason = |extension: &str, image: &str| {
+        let outcome = rebaked(&square_of(extension, image));
+        assert!(outcome.report.partly_done);
+        let notes = outcome.report.written.unwrap();
+        notes.textures_kept[0].reason.clone()
+    };
+    let dds = reason("MSFT_texture_dds", "data:image/vnd-ms.dds;base64,RERTIA==");
+    assert!(dds.contains("image 0 of MSFT_texture_dds"), "{dds}");
+    let cut = data_uri("image/ktx2", b"\xABKTX 20\xBB\r\n\x1A\n");
+    let cut = reason("KHR_texture_basisu", &cut);
+    assert!(cut.contains("image 0: invalid picture: KTX2"), "{cut}");
+}
+
+/// KTX2 with Basis Universal is read in both of its encodings, and becomes PNG.
+#[test]
+fn ktx2_is_read() {
+    for ktx2 in [
+        include_bytes!("../../assets/ktx2/etc1s.ktx2").as_slice(),
+        include_bytes!("../../assets/ktx2/uastc.ktx2").as_slice(),
+    ] {
+        let builder = square_of("KHR_texture_basisu", &data_uri("image/ktx2", ktx2));
+        let mut options = options();
+        options.cutting.cut = Cut::Keep;
+        options.cutting.kept_maps = KeptMaps::AsGiven;
+        options.control.control = vec!["all: lock".parse().unwrap()];
+        options.baking.bake_size = Some(64);
+        let outcome = unwrap_document(&builder.upload(), &options, &Unobserved).unwrap();
+        assert!(!outcome.report.partly_done);
+        let (json, file) = only_image(&outcome);
+        assert!(file.starts_with(b"\x89PNG") && json["textures"][0]["source"] == 0);
+        let lists = ["extensionsUsed", "extensionsRequired"].map(|list| &json[list]);
+        assert_eq!(lists, [&Value::Null; 2]);
+        // The island has not moved, so the texels are those of the picture.
+        assert_eq!(
+            Picture::decode(&file).unwrap(),
+            Picture::decode(ktx2).unwrap()
+        );
+    }
 }
 
 /// Islands that are locked have not moved, so every texel of their texture stays.
