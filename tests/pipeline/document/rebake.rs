@@ -2,11 +2,15 @@
 
 use base64::Engine as _;
 use serde_json::{Value, json};
-use unwrapd_files::document::{GroupBy, OutputFormat, Upload};
+use std::sync::Mutex;
+use std::time::Duration;
+use unwrapd_files::document::{GroupBy, OutputFormat, Upload, Warning};
 use unwrapd_files::picture::{Image, Picture};
 use unwrapd_layout::charts::Cut;
+use unwrapd_method::solver::Control;
 use unwrapd_pipeline::{
-    Baking, ImageFormat, KeptMaps, Options, Outcome, PipelineError, Unobserved, unwrap_document,
+    Baking, ImageFormat, KeptMaps, Observer, Options, Outcome, PipelineError, Progress, Stage,
+    Unobserved, unwrap_document,
 };
 
 use crate::build::{Builder, parts};
@@ -102,7 +106,9 @@ fn a_texture_follows_its_uvs() {
     builder.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] =
         json!({"KHR_texture_transform": {"scale": [3, -2], "rotation": 1, "texCoord": 0}});
     builder.json["extensionsUsed"] = json!(["KHR_texture_transform"]);
-    let outcome = rebaked(&builder);
+    let mut options = options();
+    options.baking.bake_tiled = true;
+    let outcome = unwrap_document(&builder.upload(), &options, &Unobserved).unwrap();
     let (json, colors) = written(&outcome);
     assert_eq!(colors(0, BASE), [RED]);
     assert_eq!(json["materials"].as_array().unwrap().len(), 1);
@@ -119,6 +125,13 @@ fn a_texture_follows_its_uvs() {
         (0, true)
     );
     assert!(notes.textures_affected.is_empty() && notes.textures_kept.is_empty());
+    assert!(
+        outcome
+            .report
+            .warnings
+            .iter()
+            .any(|w| w.code == "textures_tiled")
+    );
     // The padding of 2 texels at 1024 is much less at 32.
     assert_eq!(notes.warnings.len(), 1, "{:?}", notes.warnings);
     assert_eq!(
@@ -509,4 +522,266 @@ fn what_is_not_resampled_is_not_done() {
     let report = rebaked(&builder).report;
     assert!(report.certified && report.partly_done);
     assert!(report.warnings.iter().any(|w| w.code == "colors_kept"));
+}
+
+// Textures that repeat.
+
+/// Collects the warnings that come before the work.
+#[derive(Default)]
+struct Warned(Mutex<Vec<Warning>>);
+
+impl Observer for Warned {
+    fn progress(&self, progress: &Progress) -> Control {
+        let has_begun = !matches!(progress.stage, Stage::Read);
+        assert!(
+            !has_begun || !self.0.lock().unwrap().is_empty(),
+            "no warning"
+        );
+        Control::Continue
+    }
+    fn elapsed(&self) -> Duration {
+        Duration::ZERO
+    }
+    fn warning(&self, warning: &Warning) {
+        self.0.lock().unwrap().push(warning.clone());
+    }
+}
+
+/// A square on which a texture of 4 × 4 texels repeats 16 × 16 times.
+fn tiled_square() -> Builder {
+    let mut builder = square();
+    let uvs = builder.floats("VEC2", 2, &[0., 0., 16., 0., 16., 16., 0., 16.]);
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uvs);
+    builder
+}
+
+/// A texture that repeats stays on its set, with a warning before the work that tells the repeats and the loss.
+#[test]
+fn a_texture_that_repeats_stays_unless_asked() {
+    let upload = tiled_square().upload();
+    let warned = Warned::default();
+    let outcome = unwrap_document(&upload, &options(), &warned).unwrap();
+    let warned = warned.0.into_inner().unwrap();
+    let [warning] = warned.as_slice() else {
+        panic!("{warned:?}")
+    };
+    // 64 × 64 texels on a side of 32.
+    for part in [
+        "16.0 × 16.0 times",
+        "256.0 times",
+        "32 × 32",
+        "at most 50 %",
+        "--bake-tiled",
+    ] {
+        assert!(
+            warning.message.contains(part),
+            "{part}: {}",
+            warning.message
+        );
+    }
+    assert!(outcome.report.partly_done && outcome.report.warnings.contains(warning));
+    let notes = outcome.report.written.as_ref().unwrap();
+    assert_eq!(notes.primitives[0].texcoord, 1);
+    let (json, _) = parts(&outcome.files[0].1);
+    assert_eq!(
+        json["materials"][0].pointer(BASE).unwrap(),
+        &json!({"index": 0})
+    );
+
+    let mut asked = options();
+    asked.baking.bake_tiled = true;
+    let warned = Warned::default();
+    let outcome = unwrap_document(&upload, &asked, &warned).unwrap();
+    let warned = warned.0.into_inner().unwrap();
+    assert_eq!(warned[0].code, "textures_tiled");
+    assert!(!outcome.report.partly_done && outcome.report.warnings.contains(&warned[0]));
+    let (_, colors) = written(&outcome);
+    assert_eq!(colors(0, BASE), [RED]);
+}
+
+/// A texture is shown once by islands that are apart, that stick out of the square a little, or that a sampler clamps.
+#[test]
+fn what_is_shown_once_is_no_tiling() {
+    let tiled = |change: &dyn Fn(&mut Builder)| {
+        let mut builder = square();
+        change(&mut builder);
+        let report = rebaked(&builder).report;
+        !report.written.unwrap().textures_kept.is_empty()
+    };
+    let with_uvs = |uvs: &[f32]| {
+        let uvs = uvs.to_vec();
+        move |builder: &mut Builder| {
+            let uvs = builder.floats("VEC2", 2, &uvs);
+            builder.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uvs);
+        }
+    };
+    assert!(!tiled(&with_uvs(&[
+        -0.02, 0., 1.02, 0., 1.02, 1., -0.02, 1.
+    ])));
+    assert!(!tiled(&with_uvs(&[5.5, 3., 6.5, 3., 6.5, 4., 5.5, 4.])));
+    assert!(tiled(&with_uvs(&[0., 0., 2., 0., 2., 1., 0., 1.])));
+    assert!(!tiled(&|builder| {
+        with_uvs(&[0., 0., 2., 0., 2., 1., 0., 1.])(builder);
+        builder.json["samplers"] = json!([{"wrapS": 33071}]);
+        builder.json["textures"][0]["sampler"] = json!(0);
+    }));
+}
+
+/// Merged materials need the texture in any case.
+#[test]
+fn merged_materials_take_textures_that_repeat() {
+    let mut builder = twice(tiled_square(), "primitive");
+    builder.json["meshes"][0]["primitives"][1]["material"] = json!(1);
+    let other = json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 1}}});
+    push(&mut builder.json["materials"], other);
+    let mut options = options();
+    options.group_by = None;
+    options.merge_materials = vec!["all".parse().unwrap()];
+    let outcome = unwrap_document(&builder.upload(), &options, &Unobserved).unwrap();
+    assert!(!outcome.report.partly_done);
+    let warnings = outcome.report.warnings.iter();
+    assert_eq!(warnings.filter(|w| w.code == "textures_tiled").count(), 2);
+    let (json, colors) = written(&outcome);
+    assert_eq!(json["materials"].as_array().unwrap().len(), 1);
+    assert!(colors(0, BASE).contains(&RED) && colors(0, BASE).contains(&BLUE));
+}
+
+// Vertex colors.
+
+fn with_colors(mut builder: Builder, colors: &[f32]) -> Builder {
+    let colors = builder.floats("VEC3", 3, colors);
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(colors);
+    builder
+}
+
+fn drawn(builder: &Builder) -> Outcome {
+    let mut options = options();
+    options.baking.rebake = false;
+    options.baking.bake_colors = true;
+    unwrap_document(&builder.upload(), &options, &Unobserved).unwrap()
+}
+
+/// The texture has what the texture and the colors showed, without gaps between charts, and the attribute is gone.
+#[test]
+fn vertex_colors_are_drawn_into_the_texture() {
+    let blue_and_green = [0., 0.5, 1.].repeat(4);
+    let mut white = square();
+    white.json["images"][0]["uri"] = json!(uri([255; 4]));
+    let plain = Builder::square();
+    let mut factor = Builder::square();
+    factor.json["materials"] = json!([{"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 1, 1]}}]);
+    factor.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+    for (builder, wanted) in [
+        (square(), [0, 0, 0, 255]),
+        (white, [0, 188, 255, 255]),
+        (plain, [0, 188, 255, 255]),
+        (factor, [0, 188, 255, 255]),
+    ] {
+        let outcome = drawn(&with_colors(builder, &blue_and_green));
+        let (json, colors) = written(&outcome);
+        assert_eq!(colors(0, BASE), [wanted]);
+        let attributes = &json["meshes"][0]["primitives"][0]["attributes"];
+        assert_eq!(attributes["COLOR_0"], Value::Null);
+        assert_eq!(json["meshes"][0]["primitives"][0]["material"], 0);
+        let report = outcome.report;
+        assert!(report.certified && !report.partly_done);
+        assert_eq!(report.written.unwrap().colors_baked, 1);
+    }
+}
+
+/// Colors belong to a primitive, so others with its material are drawn without.
+#[test]
+fn colors_of_one_primitive_stay_on_it() {
+    let builder = twice(square(), "primitive");
+    let outcome = drawn(&with_colors(builder, &[0., 1., 1.].repeat(4)));
+    let (json, colors) = written(&outcome);
+    assert_eq!(json["materials"].as_array().unwrap().len(), 1);
+    let colors = colors(0, BASE);
+    assert!(colors.contains(&RED) && colors.contains(&[0, 0, 0, 255]));
+}
+
+#[test]
+fn merged_materials_have_the_vertex_colors() {
+    let mut builder = twice(Builder::square(), "primitive");
+    builder.json["materials"] = json!([{}, {}]);
+    builder.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+    builder.json["meshes"][0]["primitives"][1]["material"] = json!(1);
+    let mut options = options();
+    options.group_by = None;
+    options.baking.bake_colors = true;
+    options.merge_materials = vec!["all".parse().unwrap()];
+    let upload = with_colors(builder, &[1., 0., 0.].repeat(4)).upload();
+    let outcome = unwrap_document(&upload, &options, &Unobserved).unwrap();
+    let (json, colors) = written(&outcome);
+    assert_eq!(json["meshes"][0]["primitives"].as_array().unwrap().len(), 1);
+    let colors = colors(0, BASE);
+    assert!(colors.contains(&RED) && colors.contains(&[255; 4]));
+}
+
+/// Colors stay where a material could not show them, and a warning says why.
+#[test]
+fn colors_that_cannot_be_drawn_stay() {
+    let kept = |change: &dyn Fn(&mut Builder), why: &str| {
+        let mut builder = with_colors(square(), &[0., 1., 0.].repeat(4));
+        change(&mut builder);
+        let outcome = drawn(&builder);
+        let (json, _) = parts(&outcome.files[0].1);
+        let attributes = &json["meshes"][0]["primitives"][0]["attributes"];
+        assert!(attributes["COLOR_0"].is_u64(), "{why}");
+        let report = outcome.report;
+        assert!(report.partly_done && report.written.unwrap().colors_baked == 0);
+        let mut warnings = report.warnings.iter();
+        assert!(
+            warnings.any(|w| w.code == "colors_kept" && w.message.contains(why)),
+            "{why}"
+        );
+    };
+    kept(
+        &|builder| {
+            let more = builder.floats("VEC3", 3, &[0.; 12]);
+            builder.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_1"] = json!(more);
+        },
+        "further colors",
+    );
+    kept(
+        &|builder| {
+            let morph = builder.floats("VEC3", 3, &[0.; 12]);
+            builder.json["meshes"][0]["primitives"][0]["targets"] = json!([{"COLOR_0": morph}]);
+        },
+        "morph targets",
+    );
+    kept(
+        &|builder| {
+            builder.json["materials"][0]["extensions"] =
+                json!({"KHR_materials_pbrSpecularGlossiness": {}});
+        },
+        "specular-glossiness",
+    );
+    kept(
+        &|builder| {
+            builder.json["images"][0]["uri"] = json!("data:image/webp;base64,UklGRgAAAABXRUJQ")
+        },
+        "not resampled",
+    );
+}
+
+#[test]
+fn an_obj_gets_the_texture_in_place_of_the_colors() {
+    let mut options = options();
+    (options.group_by, options.format) = (None, OutputFormat::Obj);
+    options.baking.bake_colors = true;
+    let upload = with_colors(Builder::square(), &[0., 0., 1.].repeat(4)).upload();
+    let outcome = unwrap_document(&upload, &options, &Unobserved).unwrap();
+    let text = String::from_utf8(outcome.files[0].1.clone()).unwrap();
+    let vertices = text.lines().filter(|line| line.starts_with("v "));
+    assert!(
+        vertices.clone().count() == 4 && vertices.into_iter().all(|v| v.split(' ').count() == 4)
+    );
+    let picture = outcome
+        .files
+        .iter()
+        .find(|(name, _)| name.ends_with(".png"))
+        .unwrap();
+    let texels = Image::decode(&picture.1).unwrap().pixels;
+    assert!(texels.iter().all(|texel| *texel == BLUE));
 }

@@ -20,7 +20,7 @@ use crate::judge::rules::{intended_weights, rule_reports};
 use crate::judge::shortfalls::{add_history, nothing_stacked, promise_kept, shortfalls};
 use crate::observer::Observer;
 use crate::options::{CommandOptions, Island, Options, RepackOptions};
-use crate::rebake::{self, rebaked};
+use crate::rebake::{self, TiledTextures, rebaked};
 use crate::tracker::{StopWatch, Tracker};
 use unwrapd_api::Stage;
 use unwrapd_files::document::{
@@ -93,6 +93,12 @@ fn unwrap_in_pool(
         Some(merge) if group_by == GroupBy::Material => merge.united(groups, document.primitives()),
         _ => groups,
     };
+    // Warn of textures that repeat before the work.
+    let mut tiled = TiledTextures::default();
+    if options.baking.rebake {
+        tiled = TiledTextures::of(&document, &groups, merge.as_ref(), options)?;
+        tracker.warn(&tiled.warnings);
+    }
     let primitives = nodes.primitives(&document)?;
     let placed = placements(&document, &groups, islands)?;
     let merged = |(group, placed)| {
@@ -120,7 +126,8 @@ fn unwrap_in_pool(
     let mut baked = None;
     if options.baking.rebake {
         let merge = merge.as_ref();
-        baked = Some(rebaked(&document, &groups, merge, &uvs, options, tracker)?);
+        let textures = rebaked(&document, &groups, merge, &tiled, &uvs, options, tracker)?;
+        baked = Some(textures);
     }
     seconds.bake = watch.lap();
 
@@ -161,7 +168,13 @@ fn unwrap_in_pool(
     promise_kept(&plan, &groups, &missing)?;
     let unstacked = nothing_stacked(&groups, options);
     let unmapped = warning.into_iter().chain(unstacked).collect();
-    let warnings = [noticed, written.notes.warnings.clone(), unmapped, missing];
+    let warnings = [
+        noticed,
+        tiled.resampled(),
+        written.notes.warnings.clone(),
+        unmapped,
+        missing,
+    ];
     let ended_early = tracker.warning();
     let is_ended_early = ended_early.is_some();
     let warnings = warnings.into_iter().flatten().chain(ended_early);

@@ -170,6 +170,11 @@ fn check(options: &Options) -> Result<(), String> {
             options.cutting.kept_maps != KeptMaps::Optimized && !is_kept,
         ),
         (
+            "bake_tiled",
+            "`rebake`",
+            options.baking.bake_tiled && !options.rebakes(),
+        ),
+        (
             "bake_size",
             "`rebake`",
             options.baking.bake_size.is_some() && !options.rebakes(),

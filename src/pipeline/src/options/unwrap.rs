@@ -121,9 +121,9 @@ impl Options {
         options
     }
 
-    /// Returns whether textures are resampled: on request, or to merge materials.
+    /// Returns whether textures are resampled: on request, for vertex colors, or to merge materials.
     pub(crate) fn rebakes(&self) -> bool {
-        self.baking.rebake || !self.merge_materials.is_empty()
+        self.baking.rebake || self.baking.bake_colors || !self.merge_materials.is_empty()
     }
 
     /// Returns the number of mip levels beyond the first in which charts keep the padding.
@@ -251,9 +251,17 @@ options! {
         ///
         /// PNG, JPEG and `WebP` images are read; PNG images of 16 bits per channel stay so. Texels are
         /// copied where an island moves by whole texels, quarter turns and flips. Textures that
-        /// cannot be read, or of an unknown kind, stay as they are and keep their UVs. The report
-        /// lists them.
+        /// repeat, that cannot be read, or of an unknown kind, stay as they are and keep their UVs.
+        /// The report lists them.
         pub rebake: bool, arg(help_heading = None::<&'static str>);
+        /// Resample textures that repeat on an island, too. Every repetition then has texels of its
+        /// own; a warning tells how many remain.
+        pub bake_tiled: bool;
+        /// Draw vertex colors into the base-color texture, and remove them. A surface without one
+        /// gets a texture of its colors.
+        ///
+        /// Implies `rebake`.
+        pub bake_colors: bool;
         /// Side of the resampled textures, in texels. The default is `resolution`, or more if the
         /// surface would lose texels: a power of two up to 4096.
         pub bake_size: Option<u32>, in 16..=8192, value "TEXELS";

@@ -11,6 +11,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Extension with directions of anisotropy, which are relative to tangents: they turn with the UVs.
 pub(super) const ANISOTROPY: &str = "KHR_materials_anisotropy";
 
+/// Path of the texture of base colors within a material.
+pub(super) const BASE_COLOR: &str = "pbrMetallicRoughness/baseColorTexture";
+
 /// A texture of a material, with the way to resample it or the reason why that is impossible.
 pub(super) struct Slot {
     pub texture: TextureUse,
