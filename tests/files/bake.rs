@@ -2,6 +2,7 @@
 
 use unwrapd_files::bake::{
     Corners, Coverage, Frames, Plane, Sampled, Texture, baked, baked_attribute, side_for,
+    stacks_agree,
 };
 use unwrapd_files::document::{Encoding, Tint, Wrap};
 use unwrapd_files::picture::{Image, Picture};
@@ -536,4 +537,36 @@ fn the_side_suits_the_vertex_colors() {
     // Two texels for each of 200 vertices along a side.
     plane.colors = Some(vec![[[0.5; 4], [0.1; 4], [0.5; 4]]; faces.len()]);
     assert_eq!(side_for(&plane, &faces), 512);
+}
+
+/// Stacked faces can share texels if they showed the same ones, whole periods apart or not.
+#[test]
+fn stacks_agree_where_they_show_the_same_texels() {
+    let source = colorful(32);
+    let place = |shift: f64| rectangle(corners([0.1 + shift, 0.1], [0.4 + shift, 0.4]));
+    let to = [place(0.3), place(0.3)].concat();
+    let coverage = Coverage::new(&to, 32);
+    let agree = |shift: f64, wrap: Wrap| {
+        let from = [place(0.0), place(shift)].concat();
+        stacks_agree(
+            &plane(texture(&source, Encoding::Color, wrap), &from),
+            &coverage,
+        )
+    };
+    assert!(agree(0.0, Wrap::Clamp));
+    assert!(agree(2.0, Wrap::Repeat) && agree(2.0, Wrap::Mirror));
+    assert!(!agree(1.0, Wrap::Mirror) && !agree(1.0, Wrap::Clamp));
+    assert!(!agree(0.01, Wrap::Clamp));
+    // Other texels of one color, and other colors of the same texels.
+    let white = image(1, 1, |_, _| [255; 4]);
+    let from = [place(0.0), place(0.5)].concat();
+    let mut plain = plane(texture(&white, Encoding::Color, Wrap::Clamp), &from);
+    assert!(stacks_agree(&plain, &coverage));
+    let colors = [[1.0; 4], [1.0; 4], [0.5; 4], [0.5; 4]];
+    plain.colors = Some(colors.map(|color| [color; 3]).to_vec());
+    assert!(!stacks_agree(&plain, &coverage));
+    // A face without a texture needs no texel.
+    plain.faces[2] = None;
+    plain.faces[3] = None;
+    assert!(stacks_agree(&plain, &coverage));
 }

@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 use unwrapd_api::Stage;
 use unwrapd_files::bake::{
     CornerColors, Coverage, Frames, MOST_TEXELS, Plane, Sampled, Texture, baked, side_for,
-    side_of_length,
+    side_of_length, stacks_agree,
 };
 use unwrapd_files::document::gltf::{GltfDocument, TiledTexture, tangents};
 use unwrapd_files::document::{
@@ -247,13 +247,13 @@ pub(super) fn rebaked(
 }
 
 /// Returns the side and the file of each texture of a plan. Resamples nothing if they would have too many texels in
-/// total.
+/// total. Fails if stacked islands need different texels.
 fn files(
     bake: &Bake,
     plan: &BakePlan,
     groups: &[Group],
     options: &Options,
-) -> Result<Vec<(u32, Vec<u8>)>, DocumentError> {
+) -> Result<Vec<(u32, Vec<u8>)>, PipelineError> {
     let sides = sides(bake, plan, groups, options)?;
     let mut files = Vec::new();
     // Textures of one group often have one size.
@@ -266,6 +266,12 @@ fn files(
         let (_, coverage) = last.insert(
             known.unwrap_or_else(|| (key, Coverage::new(&bake.faces(members), side as usize))),
         );
+        if options.stacks() && !stacks_agree(&plane, coverage) {
+            return Err(PipelineError::StacksDiffer {
+                group: groups[wanted.group].label.clone(),
+                texture: wanted.name.clone(),
+            });
+        }
         let picture = if options.baking.image_format.keeps_16_bits() && plane.is_deep() {
             Picture::Sixteen(baked(&plane, coverage))
         } else {

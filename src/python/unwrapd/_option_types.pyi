@@ -82,7 +82,7 @@ class RepackOptions(Layout, total=False):
 
     islands: Sequence[dict[str, Any]] | None
 
-class RepackFileOptions(RepackOptions, Sets, total=False):
+class RepackFileOptions(RepackOptions, Sets, Baking, total=False):
     """The same and what concerns files."""
 
 class MeasureOptions(TypedDict, total=False):

@@ -4,13 +4,13 @@ use base64::Engine as _;
 use serde_json::{Value, json};
 use std::sync::Mutex;
 use std::time::Duration;
-use unwrapd_files::document::{GroupBy, OutputFormat, Upload, Warning};
+use unwrapd_files::document::{Document, GroupBy, OutputFormat, Upload, Warning};
 use unwrapd_files::picture::{Image, Picture};
 use unwrapd_layout::charts::Cut;
 use unwrapd_method::solver::Control;
 use unwrapd_pipeline::{
-    Baking, ImageFormat, KeptMaps, Observer, Options, Outcome, PipelineError, Progress, Stage,
-    Unobserved, unwrap_document,
+    Baking, ImageFormat, KeptMaps, Observer, Options, Outcome, PipelineError, Progress,
+    RepackOptions, Stacking, Stage, Unobserved, repack_document, unwrap_document,
 };
 
 use crate::build::{Builder, parts};
@@ -784,4 +784,53 @@ fn an_obj_gets_the_texture_in_place_of_the_colors() {
         .unwrap();
     let texels = Image::decode(&picture.1).unwrap().pixels;
     assert!(texels.iter().all(|texel| *texel == BLUE));
+}
+
+// Islands that share texels.
+
+/// Two squares of one material, the second shown by this part of the texture.
+fn stack(second: &[f32]) -> Builder {
+    let mut builder = twice(square(), "primitive");
+    let mut picture = Image::transparent(32, 32);
+    for (k, pixel) in picture.pixels.iter_mut().enumerate() {
+        *pixel = [(7 * k) as u8, (13 * k / 5) as u8, (k / 3) as u8, 255];
+    }
+    builder.json["images"][0]["uri"] = json!(data_uri("image/png", &picture.png()));
+    let positions = [5., 0., 0., 6., 0., 0., 6., 1., 0., 5., 1., 0.];
+    let positions = builder.floats("VEC3", 3, &positions);
+    let uvs = builder.floats("VEC2", 2, second);
+    let attributes = &mut builder.json["meshes"][0]["primitives"][1]["attributes"];
+    attributes["POSITION"] = json!(positions);
+    attributes["TEXCOORD_0"] = json!(uvs);
+    builder
+}
+
+/// Islands that had the same texels share those of the new texture.
+#[test]
+fn stacks_of_the_same_texels_are_resampled() {
+    let same = [0., 0., 1., 0., 1., 1., 0., 1.];
+    let options = RepackOptions {
+        baking: options().baking,
+        ..RepackOptions::default()
+    };
+    let outcome = repack_document(&stack(&same).upload(), &options, &Unobserved).unwrap();
+    assert!(outcome.report.certified && !outcome.report.partly_done);
+    let document = Document::read(&Upload::single("a.glb", outcome.files[0].1.clone())).unwrap();
+    let uvs = |primitive: usize| document.corner_uvs(primitive, 0).unwrap();
+    assert_eq!(uvs(0), uvs(1));
+}
+
+/// A stack by shape whose islands had other texels is refused by name.
+#[test]
+fn stacks_of_other_texels_are_refused() {
+    let turned = [1., 0., 1., 1., 0., 1., 0., 0.];
+    let mut options = options();
+    options.layout.stack = Some(Stacking::Identical);
+    let upload = stack(&turned).upload();
+    let error = unwrap_document(&upload, &options, &Unobserved).unwrap_err();
+    assert_eq!((error.code(), error.exit_code()), ("stacks_differ", 3));
+    assert!(error.to_string().contains("baseColor"), "{error}");
+    options.layout.stack_offset = true;
+    let error = unwrap_document(&upload, &options, &Unobserved).unwrap_err();
+    assert_eq!(error.code(), "invalid_options");
 }

@@ -5,7 +5,6 @@ use super::{KeptMaps, Options, Preset, Straightening};
 use crate::Caller;
 use crate::CommandOptions;
 use crate::PipelineError;
-use crate::Stacking;
 use crate::TexelWeight;
 use crate::settings::check_mips;
 use unwrapd_api::options::OptionSet;
@@ -27,13 +26,9 @@ impl Options {
         if self.cutting.cut == Cut::Seams && self.seams.is_none() {
             return Err("`cut` seams requires `seams`".to_owned());
         }
-        let is_stacked = self
-            .layout
-            .stack
-            .is_some_and(|stack| stack != Stacking::Off);
-        if self.rebakes() && is_stacked {
+        if self.rebakes() && self.layout.stack_offset {
             return Err(
-                "`rebake` requires `stack` off: stacked charts share their texels".to_owned(),
+                "`rebake` requires no `stack_offset`: its textures do not repeat".to_owned(),
             );
         }
         let is_one_square = self.layout.pages == 1 && self.layout.resolution.aspect() == 1.0;

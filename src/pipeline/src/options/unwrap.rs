@@ -126,6 +126,12 @@ impl Options {
         self.baking.rebake || self.baking.bake_colors || !self.merge_materials.is_empty()
     }
 
+    /// Returns whether islands may lie on each other.
+    pub(crate) fn stacks(&self) -> bool {
+        let stack = self.layout.stack;
+        stack.is_some_and(|stack| stack != Stacking::Off)
+    }
+
     /// Returns the number of mip levels beyond the first in which charts keep the padding.
     pub(crate) fn mips(&self) -> u32 {
         self.mips.unwrap_or(match self.preset {
