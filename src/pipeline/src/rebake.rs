@@ -322,8 +322,7 @@ pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning>
     let mut sides: Vec<u32> = baked.files.iter().map(|(side, _)| *side).collect();
     sides.sort_unstable();
     sides.dedup();
-    let texels = f64::from(options.settings().layout.padding)
-        / f64::from(options.layout.resolution.longer());
+    let texels = f64::from(options.padding()) / f64::from(options.layout.resolution.longer());
     let gap = |side: u32| texels * f64::from(side);
     let near = sides.into_iter().filter(|side| gap(*side) < FILTER_TEXELS);
     let near = near.map(|side| {

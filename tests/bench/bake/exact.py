@@ -193,11 +193,15 @@ class Bench:
         return Glb(out), json.loads(report.read_text()), done
 
     def moved(self, name, islands, image, decoded, place=lambda uv: uv, **kind):
-        """A texture whose islands are put somewhere."""
-        source = glb(self.folder / "in.glb", QUADS, image, **kind)
+        """A texture whose islands are put somewhere; None packs them, with their sizes kept."""
+        quads = QUADS if islands else [(x + 0.3, y + 0.6, w, h) for x, y, w, h in QUADS]
+        source = glb(self.folder / "in.glb", quads, image, **kind)
         placed = self.folder / "islands.json"
-        placed.write_text(json.dumps({"islands": [{"primitive": 0, "face": 2 * k, **island} for k, island in enumerate(islands)]}))
-        written, report, done = self.run("repack", source, "--islands", placed, "--rebake", "--bake-size", str(SIDE))
+        placing = ["--control", "all: density keep", "--rotate", "quarter"]
+        if islands:
+            placed.write_text(json.dumps({"islands": [{"primitive": 0, "face": 2 * k, **island} for k, island in enumerate(islands)]}))
+            placing = ["--islands", placed]
+        written, report, done = self.run("repack", source, *placing, "--rebake", "--bake-size", str(SIDE))
         assert done.returncode == 0, done.stderr
         data = new_image(written)
         new = pixels_of(data)
@@ -236,6 +240,7 @@ def copies(bench, failed):
         "still": [{}, {}],
         "whole texels": [{"move": texels(3, 20)}, {"move": texels(-5, 60)}],
         "quarter turn": [{"turn": 90, "pivot": texels(28, 36), "move": texels(8, 0)}, {"turn": 270, "pivot": texels(88, 32), "move": texels(0, 60)}],
+        "packed, sizes kept": None,
         "half turn": [{"turn": 180, "pivot": texels(28, 36)}, {"turn": 180, "pivot": texels(88, 32), "move": texels(2, 2)}],
     }
     print("case                         | texels |  equal |  most | written as")

@@ -6,7 +6,9 @@ use std::sync::Mutex;
 use std::time::Duration;
 use unwrapd_files::document::{Document, GroupBy, OutputFormat, Upload, Warning};
 use unwrapd_files::picture::{Image, Picture};
+use unwrapd_layout::atlas::Rotation;
 use unwrapd_layout::charts::Cut;
+use unwrapd_maps::mesh::Resolution;
 use unwrapd_method::solver::Control;
 use unwrapd_pipeline::{
     Baking, ImageFormat, KeptMaps, Observer, Options, Outcome, PipelineError, Progress,
@@ -833,4 +835,33 @@ fn stacks_of_other_texels_are_refused() {
     options.layout.stack_offset = true;
     let error = unwrap_document(&upload, &options, &Unobserved).unwrap_err();
     assert_eq!(error.code(), "invalid_options");
+}
+
+/// Islands that keep their density and turn by quarters are packed on whole texels of their texture.
+#[test]
+fn islands_that_keep_their_size_move_by_whole_texels() {
+    // Squares of 10 texels, of 32, whose corners are 3/10 of a texel off.
+    let square = |low: f32| {
+        let [low, high] = [low, low + 10.0].map(|x| (x + 0.3) / 32.0);
+        [low, low, high, low, high, high, low, high]
+    };
+    let mut builder = stack(&square(18.0));
+    let uvs = builder.floats("VEC2", 2, &square(3.0));
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uvs);
+    let mut options = RepackOptions {
+        baking: options().baking,
+        ..RepackOptions::default()
+    };
+    options.layout.resolution = Resolution::square(32);
+    options.layout.rotate = Rotation::Quarter;
+    options.control.control = vec!["all: density keep".parse().unwrap()];
+    let outcome = repack_document(&builder.upload(), &options, &Unobserved).unwrap();
+    assert!(outcome.report.certified);
+    let document = Document::read(&Upload::single("a.glb", outcome.files[0].1.clone())).unwrap();
+    let uvs = [0, 1].map(|primitive| document.corner_uvs(primitive, 0).unwrap().unwrap());
+    for x in uvs.concat().as_flattened().as_flattened() {
+        let off = (32.0 * x).fract();
+        let is_near = |part: f64| (off - part).abs() < 1e-4;
+        assert!(is_near(0.3) || is_near(0.7), "{off}");
+    }
 }

@@ -12,6 +12,7 @@ use crate::arrays::repeated::GridCorners;
 use crate::arrays::seams::Seams;
 use crate::arrays::soup::Soup;
 use crate::arrays::unwrap::{Unwrapped, in_pool, unwrap_all};
+use crate::arrays::whole_texels::shift_to_whole_texels;
 use crate::island_error::IslandError;
 use crate::judge::groups::WrittenUvs;
 use crate::judge::proven::Mirrored;
@@ -118,7 +119,13 @@ fn unwrap_in_pool(
 
     // Unwrap.
     let soups: Vec<Soup> = meshes.iter().map(Merged::soup).collect();
-    let atlases = unwrap_all(&soups, &options.settings(), tracker)?;
+    let mut atlases = unwrap_all(&soups, &options.settings(), tracker)?;
+    if let Some(side) = options.whole_texels() {
+        for (atlas, mesh) in atlases.iter_mut().zip(&meshes) {
+            let uvs = mesh.seams.uvs.as_deref().unwrap_or_default();
+            shift_to_whole_texels(&mut atlas.grid, uvs, side);
+        }
+    }
     seconds.unwrap = watch.lap();
 
     // Turn the atlases into UVs, and resample textures for them.
