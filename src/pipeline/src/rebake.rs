@@ -120,21 +120,37 @@ pub(super) struct TiledTextures {
 
 impl TiledTextures {
     /// Returns the warnings about those that are resampled; the document warns of the others when it is written.
-    pub fn resampled(self) -> Vec<Warning> {
-        let warnings = self.warnings.into_iter();
-        warnings.filter(|warning| warning.code == TILED).collect()
+    pub fn resampled(&self) -> Vec<Warning> {
+        let warnings = self.warnings.iter();
+        let resampled = warnings.filter(|warning| warning.code == TILED);
+        resampled.cloned().collect()
     }
 
-    /// Finds the textures of `groups` that repeat. Those of merged materials are always resampled, the others on
-    /// request.
+    /// Returns the request for new textures, as if every image were readable.
+    pub fn request<'a>(
+        &'a self,
+        merge: Option<&'a MergePlan>,
+        options: &Options,
+    ) -> BakeRequest<'a> {
+        BakeRequest {
+            merge,
+            kept: &self.kept,
+            draws_colors: options.baking.bake_colors,
+            ..HOPED
+        }
+    }
+
+    /// Finds the textures of `groups` that repeat, if textures are resampled: those of merged materials always, the
+    /// others on request.
     pub fn of(
         document: &Document,
         groups: &[Group],
         merge: Option<&MergePlan>,
         options: &Options,
     ) -> Result<Self, PipelineError> {
-        let Document::Gltf(document) = document else {
-            return Ok(Self::default());
+        let document = match document {
+            Document::Gltf(document) if options.rebakes() => document,
+            _ => return Ok(Self::default()),
         };
         let merged = merge.map_or(&[][..], |merge| &merge.merged).iter();
         let merged: BTreeSet<usize> = merged.flat_map(|it| it.members.iter().copied()).collect();
@@ -192,8 +208,7 @@ fn loss(tiled: &TiledTexture, [width, height]: [u32; 2], options: &Options) -> S
 pub(super) fn rebaked(
     document: &Document,
     groups: &[Group],
-    merge: Option<&MergePlan>,
-    tiled: &TiledTextures,
+    request: &BakeRequest,
     uvs: &NewUvs,
     options: &Options,
     tracker: &Tracker,
@@ -203,13 +218,7 @@ pub(super) fn rebaked(
         return Err(DocumentError::UnsupportedOutput(what).into());
     };
     // Plan as if every image were readable; without anything to do, there is no stage.
-    let request = BakeRequest {
-        merge,
-        kept: &tiled.kept,
-        draws_colors: options.baking.bake_colors,
-        ..HOPED
-    };
-    let hoped = document.bake_plan(groups, &request)?;
+    let hoped = document.bake_plan(groups, request)?;
     if hoped.planes.is_empty() && hoped.kept.is_empty() {
         return Ok(BakedTextures {
             has_colors_only: hoped.is_empty() && document.has_vertex_colors(),
@@ -223,7 +232,7 @@ pub(super) fn rebaked(
     let (images, unreadable) = read_images(document, &hoped.planes)?;
     let request = BakeRequest {
         unreadable: &unreadable,
-        ..request
+        ..*request
     };
     let plan = document.bake_plan(groups, &request)?;
     let surfaces: Vec<RebakedSurface> = (0..document.primitives().len())

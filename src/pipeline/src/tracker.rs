@@ -102,9 +102,9 @@ impl<'a> Tracker<'a> {
 
     /// Passes warnings on before the work begins.
     pub(super) fn warn(&self, warnings: &[Warning]) {
-        warnings
-            .iter()
-            .for_each(|warning| self.observer.warning(warning));
+        for warning in warnings {
+            self.observer.warning(warning);
+        }
     }
 
     pub(super) fn elapsed(&self) -> Duration {

@@ -78,7 +78,8 @@ impl<'a> Shown<'a> {
             };
             apart.abs() <= SAME_PLACE
         };
-        if !self.texture.is_constant() && !(is_near(0) && is_near(1)) {
+        let is_one_place = self.texture.is_constant() || (is_near(0) && is_near(1));
+        if !is_one_place {
             return false;
         }
         // The colors that multiply them.

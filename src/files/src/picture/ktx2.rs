@@ -24,15 +24,17 @@ pub(super) fn decoded(bytes: &[u8]) -> Result<Image, ImageError> {
     if claimed.is_none_or(|claimed| u64::from_le_bytes(*claimed) > n_blocks * BLOCK_BYTES) {
         return Err(invalid("the level of full size has a wrong length"));
     }
-    let transcoder = Transcoder::new(bytes).map_err(reason)?;
+    let transcoder = Transcoder::new(bytes).map_err(|error| undecodable(&error))?;
     if transcoder.face_count() > 1 || transcoder.layer_count() > 1 {
         return Err(invalid("it has several faces or layers"));
     }
-    let pixels = transcoder.transcode(0, TargetFormat::Rgba32, DecodeFlags::NONE);
+    let pixels = transcoder
+        .transcode(0, TargetFormat::Rgba32, DecodeFlags::NONE)
+        .map_err(|error| undecodable(&error))?;
     Ok(Image {
         width: width as usize,
         height: height as usize,
-        pixels: pixels.map_err(reason)?.as_chunks().0.to_vec(),
+        pixels: pixels.as_chunks().0.to_vec(),
     })
 }
 
@@ -47,7 +49,7 @@ pub(super) fn size(bytes: &[u8]) -> Result<[u32; 2], ImageError> {
     }
 }
 
-fn reason(error: basisu::Error) -> ImageError {
+fn undecodable(error: &basisu::Error) -> ImageError {
     invalid(&format!(
         "its Basis Universal data cannot be decoded ({error:?})"
     ))

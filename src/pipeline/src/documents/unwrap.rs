@@ -94,12 +94,8 @@ fn unwrap_in_pool(
         Some(merge) if group_by == GroupBy::Material => merge.united(groups, document.primitives()),
         _ => groups,
     };
-    // Warn of textures that repeat before the work.
-    let mut tiled = TiledTextures::default();
-    if options.baking.rebake {
-        tiled = TiledTextures::of(&document, &groups, merge.as_ref(), options)?;
-        tracker.warn(&tiled.warnings);
-    }
+    let tiled = TiledTextures::of(&document, &groups, merge.as_ref(), options)?;
+    tracker.warn(&tiled.warnings);
     let primitives = nodes.primitives(&document)?;
     let placed = placements(&document, &groups, islands)?;
     let merged = |(group, placed)| {
@@ -118,24 +114,14 @@ fn unwrap_in_pool(
     seconds.read = watch.lap();
 
     // Unwrap.
-    let soups: Vec<Soup> = meshes.iter().map(Merged::soup).collect();
-    let mut atlases = unwrap_all(&soups, &options.settings(), tracker)?;
-    if let Some(side) = options.whole_texels() {
-        for (atlas, mesh) in atlases.iter_mut().zip(&meshes) {
-            let uvs = mesh.seams.uvs.as_deref().unwrap_or_default();
-            shift_to_whole_texels(&mut atlas.grid, uvs, side);
-        }
-    }
+    let atlases = unwrapped(&meshes, options, tracker)?;
     seconds.unwrap = watch.lap();
 
     // Turn the atlases into UVs, and resample textures for them.
     let uvs = new_uvs(&document, &groups, &atlases, options)?;
-    let mut baked = None;
-    if options.baking.rebake {
-        let merge = merge.as_ref();
-        let textures = rebaked(&document, &groups, merge, &tiled, &uvs, options, tracker)?;
-        baked = Some(textures);
-    }
+    let request = tiled.request(merge.as_ref(), options);
+    let bake = || rebaked(&document, &groups, &request, &uvs, options, tracker);
+    let baked = options.baking.rebake.then(bake).transpose()?;
     seconds.bake = watch.lap();
 
     // Write the document.
@@ -148,7 +134,7 @@ fn unwrap_in_pool(
     let notes = &written.notes.primitives;
     let arrays = UvArrays::new(&document, &uvs, v_axis, notes, &origins);
     seconds.write = watch.lap();
-    let noticed = document.warnings().to_vec();
+    let noticed = [document.warnings().to_vec(), tiled.resampled()].concat();
     // Free the document before the written one is read: both would take twice the memory.
     drop(primitives);
     drop(document);
@@ -175,13 +161,7 @@ fn unwrap_in_pool(
     promise_kept(&plan, &groups, &missing)?;
     let unstacked = nothing_stacked(&groups, options);
     let unmapped = warning.into_iter().chain(unstacked).collect();
-    let warnings = [
-        noticed,
-        tiled.resampled(),
-        written.notes.warnings.clone(),
-        unmapped,
-        missing,
-    ];
+    let warnings = [noticed, written.notes.warnings.clone(), unmapped, missing];
     let ended_early = tracker.warning();
     let is_ended_early = ended_early.is_some();
     let warnings = warnings.into_iter().flatten().chain(ended_early);
@@ -206,6 +186,23 @@ fn unwrap_in_pool(
         },
         uvs: arrays,
     })
+}
+
+/// Returns the atlas of each mesh.
+fn unwrapped(
+    meshes: &[Merged],
+    options: &Options,
+    tracker: &Tracker,
+) -> Result<Vec<Unwrapped>, PipelineError> {
+    let soups: Vec<Soup> = meshes.iter().map(Merged::soup).collect();
+    let mut atlases = unwrap_all(&soups, &options.settings(), tracker)?;
+    if let Some(side) = options.whole_texels() {
+        for (atlas, mesh) in atlases.iter_mut().zip(meshes) {
+            let uvs = mesh.seams.uvs.as_deref().unwrap_or_default();
+            shift_to_whole_texels(&mut atlas.grid, uvs, side);
+        }
+    }
+    Ok(atlases)
 }
 
 fn write(
