@@ -287,7 +287,7 @@ options! {
         /// Resample the textures for the new UVs, which then replace set 0 unless `texcoord` names
         /// another.
         ///
-        /// PNG, JPEG and `WebP` images are read; PNG images of 16 bits per channel stay so. Texels are
+        /// PNG, JPEG, `WebP` and KTX2 images are read; PNG of 16 bits per channel stays so. Texels are
         /// copied where an island moves by whole texels, quarter turns and flips. Textures that
         /// repeat, that cannot be read, or of an unknown kind, stay as they are and keep their UVs.
         /// The report lists them.
