@@ -565,8 +565,11 @@ fn stacks_agree_where_they_show_the_same_texels() {
     let colors = [[1.0; 4], [1.0; 4], [0.5; 4], [0.5; 4]];
     plain.colors = Some(colors.map(|color| [color; 3]).to_vec());
     assert!(!stacks_agree(&plain, &coverage));
-    // A face without a texture needs no texel.
-    plain.faces[2] = None;
-    plain.faces[3] = None;
+    // Faces without a texture need no texel; those on top of others own theirs.
+    let sources = plain.faces.clone();
+    plain.faces[..2].fill(None);
     assert!(stacks_agree(&plain, &coverage));
+    plain.faces = sources;
+    plain.faces[2..].fill(None);
+    assert!(!stacks_agree(&plain, &coverage));
 }

@@ -81,7 +81,7 @@ pub fn side_for(plane: &Plane, faces: &[Corners]) -> u32 {
     side_of_length(lengths.fold(colors_length(plane, faces), f64::max))
 }
 
-/// Returns the side that is chosen for a texture that needs so many texels along a side: a power of two from 16 to 4096.
+/// Returns the side of a texture that needs `length` texels along it: a power of two from 16 to 4096.
 pub fn side_of_length(length: f64) -> u32 {
     let [least, most] = SIDES;
     ((length - SIDE_SLACK).ceil().clamp(least, most) as u32).next_power_of_two()

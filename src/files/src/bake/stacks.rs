@@ -14,7 +14,7 @@ const SAME_PLACE: f64 = 1.0 / 8.0;
 const SAME_COLOR: f32 = 1.0 / 255.0;
 
 /// Returns whether all faces that lie over the center of a texel show one place of one texture, so that the texel is
-/// right for each of them. Faces without a texture need no texel.
+/// right for each of them. Faces without a texture need no texel, but must not own one that others need.
 pub fn stacks_agree(plane: &Plane, coverage: &Coverage) -> bool {
     (0..plane.faces.len() as u32)
         .into_par_iter()
@@ -23,22 +23,24 @@ pub fn stacks_agree(plane: &Plane, coverage: &Coverage) -> bool {
 
 /// Returns whether a face shows what the face shows to which each of its texels belongs.
 fn agrees(plane: &Plane, coverage: &Coverage, face: u32) -> bool {
-    let Some(shown) = Shown::new(plane, coverage, face) else {
+    let Some(source) = FaceSource::new(plane, coverage, face) else {
         return true;
     };
     let size = [coverage.side(); 2];
     spans(steps(*coverage.corners(face)), size).all(|(row, columns)| {
         columns.into_iter().all(|column| {
             let owner = coverage.at(column, row).filter(|owner| *owner != face);
-            let owner = owner.and_then(|owner| Shown::new(plane, coverage, owner));
             let center = [column as f64 + 0.5, row as f64 + 0.5];
-            owner.is_none_or(|owner| shown.agrees_with(&owner, center))
+            owner.is_none_or(|owner| {
+                let owner = FaceSource::new(plane, coverage, owner);
+                owner.is_some_and(|owner| source.agrees_with(&owner, center))
+            })
         })
     })
 }
 
 /// Source of a face.
-struct Shown<'a> {
+struct FaceSource<'a> {
     plane: &'a Plane<'a>,
     face: usize,
     triangle: Triangle,
@@ -46,7 +48,7 @@ struct Shown<'a> {
     texture: &'a Texture<'a>,
 }
 
-impl<'a> Shown<'a> {
+impl<'a> FaceSource<'a> {
     /// Returns the source; `None` if the face has no texture or no area.
     fn new(plane: &'a Plane, coverage: &Coverage, face: u32) -> Option<Self> {
         let sampled = plane.faces[face as usize].as_ref()?;
@@ -65,7 +67,7 @@ impl<'a> Shown<'a> {
             return false;
         }
         let both = [self, other];
-        let weights = both.map(|shown| shown.triangle.weights(center));
+        let weights = both.map(|source| source.triangle.weights(center));
         let [a, b] = [0, 1].map(|k| blended(weights[k], &both[k].sampled.corners));
         let size = self.texture.size();
         let is_near = |axis: usize| {

@@ -46,10 +46,13 @@ impl GltfDocument {
                 };
                 let source = resampled.source;
                 // Measure the texture on each primitive.
-                let mut shown: BTreeMap<usize, Shown> = BTreeMap::new();
+                let mut shown: BTreeMap<usize, TextureOnPrimitive> = BTreeMap::new();
                 for &index in &users[&material] {
                     if let Some(uvs) = self.corner_uvs(index, source.set)? {
-                        shown.insert(index, Shown::on(&self.primitives[index], &uvs, &source));
+                        shown.insert(
+                            index,
+                            TextureOnPrimitive::on(&self.primitives[index], &uvs, &source),
+                        );
                     }
                 }
                 let longest =
@@ -72,7 +75,7 @@ impl GltfDocument {
     }
 
     /// Returns the area of a full atlas of a group, in multiples of the picture's, in which texels keep their size.
-    fn atlas_of(&self, group: &Group, shown: &BTreeMap<usize, Shown>) -> f64 {
+    fn atlas_of(&self, group: &Group, shown: &BTreeMap<usize, TextureOnPrimitive>) -> f64 {
         let (mut area, mut own, mut whole) = (0.0, 0.0, 0.0);
         for index in &group.primitives {
             let surface = surface_area(&self.primitives[*index]);
@@ -87,14 +90,14 @@ impl GltfDocument {
 }
 
 /// A texture on a primitive.
-struct Shown {
+struct TextureOnPrimitive {
     /// Greatest width and height of an island in multiples of the picture; 0 along axes without repetition.
     repeats: [f64; 2],
     /// Area of the faces in multiples of the picture's.
     area: f64,
 }
 
-impl Shown {
+impl TextureOnPrimitive {
     fn on(primitive: &Primitive, uvs: &[CornerUvs], source: &TextureSource) -> Self {
         let places: Vec<[[f64; 2]; 3]> = uvs
             .iter()
