@@ -7,8 +7,9 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::console::CommandFailure;
+use super::console::{CommandFailure, warn_of};
 use super::files::{Talk, write_whole};
+use unwrapd_files::document::Warning;
 use unwrapd_method::solver::Control;
 use unwrapd_pipeline::{Observer, Progress, Stage};
 
@@ -21,6 +22,7 @@ pub(super) struct Display {
     is_shown: bool,
     bar: Option<ProgressBar>,
     last_stage: Mutex<Option<Stage>>,
+    told: Mutex<Vec<Warning>>,
     frames: Option<FrameFiles>,
 }
 
@@ -46,6 +48,7 @@ impl Display {
             is_shown,
             bar,
             last_stage: Mutex::new(None),
+            told: Mutex::default(),
             frames: None,
         }
     }
@@ -63,8 +66,8 @@ impl Display {
         }
     }
 
-    /// Removes the bar. Fails if a frame could not be written.
-    pub(super) fn finish(self) -> Result<(), CommandFailure> {
+    /// Removes the bar. Returns the warnings that were printed during the work; fails if a frame could not be written.
+    pub(super) fn finish(self) -> Result<Vec<Warning>, CommandFailure> {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
@@ -72,7 +75,9 @@ impl Display {
             let failure = frames.failure.into_inner();
             failure.unwrap_or_else(PoisonError::into_inner)
         });
-        failure.map_or(Ok(()), Err)
+        let told = self.told.into_inner();
+        let told = told.unwrap_or_else(PoisonError::into_inner);
+        failure.map_or(Ok(told), Err)
     }
 
     fn has_failed(&self) -> bool {
@@ -109,6 +114,15 @@ impl Observer for Display {
             Control::Finish
         } else {
             Control::Continue
+        }
+    }
+
+    fn warning(&self, warning: &Warning) {
+        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        told.push(warning.clone());
+        match &self.bar {
+            Some(bar) => bar.suspend(|| warn_of(&warning.message)),
+            None => warn_of(&warning.message),
         }
     }
 

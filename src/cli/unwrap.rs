@@ -5,13 +5,13 @@ use std::time::Instant;
 
 use serde::Deserialize;
 
-use super::console::{CommandFailure, json, print_json, say, warn};
+use super::console::{CommandFailure, json, print_json, say, warn_of};
 use super::files::{
     Mapped, OutputFiles, OutputTarget, Outputs, caller, output_format, read_file, read_upload,
 };
 use super::progress::Display;
 use unwrapd_api::options::help_of;
-use unwrapd_files::document::OutputFormat;
+use unwrapd_files::document::{OutputFormat, Warning};
 use unwrapd_pipeline::{
     self as pipeline, AtlasPicture, CommandOptions, GivenSeams, GroupReport, Island, NamedSeams,
     Options, Outcome, RepackOptions, Report, repack_document,
@@ -32,7 +32,7 @@ pub(super) fn run(args: &UnwrapArgs) -> Result<(), CommandFailure> {
     let files = &args.files;
     let display = Display::new(&files.output.talk);
     let outcome = pipeline::unwrap_document(&upload, &options, &display);
-    display.finish()?;
+    let told = display.finish()?;
     let outcome = outcome?;
     // Draw the requested pictures.
     let report = json(&outcome.report)?;
@@ -51,7 +51,7 @@ pub(super) fn run(args: &UnwrapArgs) -> Result<(), CommandFailure> {
     if files.output.talk.json {
         print_json(&outcome.report)?;
     }
-    summarize(&outcome);
+    summarize(&outcome, &told);
     written.tell();
     let seconds = began.elapsed().as_secs_f64();
     args.acceptance.judge(&outcome.report, seconds)
@@ -67,14 +67,15 @@ fn drawn(
     Ok(drawn.transpose()?)
 }
 
-/// Prints the atlases, the warnings, and the certified properties.
-pub(super) fn summarize(outcome: &Outcome) {
+/// Prints the atlases, the warnings except those that were `told` before, and the certified properties.
+pub(super) fn summarize(outcome: &Outcome, told: &[Warning]) {
     let report = &outcome.report;
     super::measure::print_table(&report.groups);
     for group in &report.groups {
         tell_rules(group);
     }
-    warn(&report.warnings);
+    let new = report.warnings.iter().filter(|it| !told.contains(it));
+    new.for_each(|warning| warn_of(&warning.message));
     if report.certified {
         say(format_args!("certified: {}", report.proven));
     }
@@ -267,14 +268,14 @@ pub(super) fn repack(args: &RepackArgs) -> Result<(), CommandFailure> {
     let outputs = outputs.with_resources_of(&upload);
     let display = Display::new(&output.talk);
     let outcome = repack_document(&upload, &options, &display);
-    display.finish()?;
+    let told = display.finish()?;
     let outcome = outcome?;
     // Write the result, report, and judge it by the gates.
     let written = outputs.write(&outcome.files, &[(report, &json(&outcome.report)?)])?;
     if output.talk.json {
         print_json(&outcome.report)?;
     }
-    summarize(&outcome);
+    summarize(&outcome, &told);
     written.tell();
     let seconds = began.elapsed().as_secs_f64();
     args.acceptance.judge(&outcome.report, seconds)

@@ -6,7 +6,7 @@ import { InvalidInput, InvalidOptions } from './errors.js';
 import { optionsOf } from './native.js';
 
 /** Options that change more of a document than its meshes. */
-const OF_FILES = ['rebake', 'bakeSize', 'imageFormat', 'mergeMaterials', 'format', 'name', 'resources'];
+const OF_FILES = ['rebake', 'bakeTiled', 'bakeColors', 'bakeSize', 'imageFormat', 'mergeMaterials', 'format', 'name', 'resources'];
 
 /** Unwraps every mesh of a document; all else stays as it is. */
 export function unwrapd(given) {

@@ -83,6 +83,8 @@ export interface UnwrapFileOptions extends CalledOptions {
   resources?: Record<string, ArrayBufferView | ArrayBufferLike>;
   format?: 'glb' | 'gltf' | 'obj';
   rebake?: boolean;
+  bakeTiled?: boolean;
+  bakeColors?: boolean;
   bakeSize?: number;
   imageFormat?: 'source' | 'png' | 'jpeg' | 'webp';
   mergeMaterials?: string[];

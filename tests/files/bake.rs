@@ -2,6 +2,7 @@
 
 use unwrapd_files::bake::{
     Corners, Coverage, Frames, Plane, Sampled, Texture, baked, baked_attribute, side_for,
+    stacks_agree,
 };
 use unwrapd_files::document::{Encoding, Tint, Wrap};
 use unwrapd_files::picture::{Image, Picture};
@@ -49,6 +50,7 @@ fn plane<'a>(texture: Texture<'a>, from: &[Corners]) -> Plane<'a> {
         textures: vec![texture],
         faces: from.iter().map(sampled).collect(),
         frames: None,
+        colors: None,
     }
 }
 
@@ -469,4 +471,105 @@ fn attributes_are_interpolated() {
         }
         assert!((-0.75..=1.75).contains(&value), "{x} {y}: {value}");
     }
+}
+
+/// Colors multiply the texels in linear light, and go on beyond the border of their face.
+#[test]
+fn vertex_colors_multiply_texels() {
+    let source = image(16, 16, |_, _| [188, 188, 188, 255]);
+    let from = rectangle(corners([0.25, 0.25], [0.75, 0.75]));
+    for to in [from.clone(), rectangle(corners([0.1, 0.2], [0.9, 0.8]))] {
+        let mut plane = plane(texture(&source, Encoding::Color, Wrap::Clamp), &from);
+        let red = [1.0, 0.0, 0.0, 0.4];
+        plane.colors = Some(vec![[red; 3]; 2]);
+        let result: Image = baked(&plane, &Coverage::new(&to, 16));
+        assert!(result.pixels.iter().all(|texel| *texel == [188, 0, 0, 102]));
+    }
+}
+
+#[test]
+fn vertex_colors_are_linear_between_the_corners() {
+    let white = image(1, 1, |_, _| [255; 4]);
+    let mut plane = plane(
+        texture(&white, Encoding::Color, Wrap::Clamp),
+        &unit_square(),
+    );
+    let of = |corner: &[f64; 2]| [corner[0] as f32, corner[1] as f32, 0.0, 1.0];
+    let colors = unit_square()
+        .iter()
+        .map(|face| face.each_ref().map(of))
+        .collect();
+    plane.colors = Some(colors);
+    let result: Image<u16> = baked(&plane, &Coverage::new(&unit_square(), 64));
+    let srgb = |linear: f64| {
+        if linear <= 0.003_130_8 {
+            12.92 * linear
+        } else {
+            1.055 * linear.powf(1.0 / 2.4) - 0.055
+        }
+    };
+    for (k, texel) in result.pixels.iter().enumerate() {
+        let center = [k % 64, k / 64].map(|x| (x as f64 + 0.5) / 64.0);
+        for axis in [0, 1] {
+            let wanted = 65_535.0 * srgb(center[axis]);
+            assert!(
+                (f64::from(texel[axis]) - wanted).abs() < 2.0,
+                "{k} {texel:?}"
+            );
+        }
+    }
+}
+
+/// Many faces of several colors need many texels; those of one color need none.
+#[test]
+fn the_side_suits_the_vertex_colors() {
+    let white = image(1, 1, |_, _| [255; 4]);
+    let n = 200;
+    let at = |k: usize| k as f64 / n as f64;
+    let cells = (0..n * n).map(|k| (k % n, k / n));
+    let faces: Vec<Corners> = cells
+        .flat_map(|(x, y)| rectangle(corners([at(x), at(y)], [at(x + 1), at(y + 1)])))
+        .collect();
+    let mut plane = plane(texture(&white, Encoding::Color, Wrap::Clamp), &faces);
+    assert_eq!(side_for(&plane, &faces), 16);
+    plane.colors = Some(vec![[[0.5; 4]; 3]; faces.len()]);
+    assert_eq!(side_for(&plane, &faces), 16);
+    // Two texels for each of 200 vertices along a side.
+    plane.colors = Some(vec![[[0.5; 4], [0.1; 4], [0.5; 4]]; faces.len()]);
+    assert_eq!(side_for(&plane, &faces), 512);
+}
+
+/// Stacked faces can share texels if they showed the same ones, whole periods apart or not.
+#[test]
+fn stacks_agree_where_they_show_the_same_texels() {
+    let source = colorful(32);
+    let place = |shift: f64| rectangle(corners([0.1 + shift, 0.1], [0.4 + shift, 0.4]));
+    let to = [place(0.3), place(0.3)].concat();
+    let coverage = Coverage::new(&to, 32);
+    let agree = |shift: f64, wrap: Wrap| {
+        let from = [place(0.0), place(shift)].concat();
+        stacks_agree(
+            &plane(texture(&source, Encoding::Color, wrap), &from),
+            &coverage,
+        )
+    };
+    assert!(agree(0.0, Wrap::Clamp));
+    assert!(agree(2.0, Wrap::Repeat) && agree(2.0, Wrap::Mirror));
+    assert!(!agree(1.0, Wrap::Mirror) && !agree(1.0, Wrap::Clamp));
+    assert!(!agree(0.01, Wrap::Clamp));
+    // Other texels of one color, and other colors of the same texels.
+    let white = image(1, 1, |_, _| [255; 4]);
+    let from = [place(0.0), place(0.5)].concat();
+    let mut plain = plane(texture(&white, Encoding::Color, Wrap::Clamp), &from);
+    assert!(stacks_agree(&plain, &coverage));
+    let colors = [[1.0; 4], [1.0; 4], [0.5; 4], [0.5; 4]];
+    plain.colors = Some(colors.map(|color| [color; 3]).to_vec());
+    assert!(!stacks_agree(&plain, &coverage));
+    // Faces without a texture need no texel; those on top of others own theirs.
+    let sources = plain.faces.clone();
+    plain.faces[..2].fill(None);
+    assert!(stacks_agree(&plain, &coverage));
+    plain.faces = sources;
+    plain.faces[2..].fill(None);
+    assert!(!stacks_agree(&plain, &coverage));
 }

@@ -281,3 +281,27 @@ fn pictures_without_loss_are_read_as_written() {
         Picture::Sixteen(deep)
     );
 }
+
+/// A KTX2 file is not believed: neither the length that it claims for a level, nor its size, nor that it is whole.
+#[test]
+fn ktx2_is_not_believed() {
+    let file = include_bytes!("../assets/ktx2/uastc.ktx2");
+    assert_eq!(Picture::decode(file).unwrap().size(), [64, 64]);
+    let with = |at: usize, bytes: &[u8]| {
+        let mut file = file.to_vec();
+        file[at..at + bytes.len()].copy_from_slice(bytes);
+        Picture::decode(&file).unwrap_err()
+    };
+    let claimed = with(96, &u64::MAX.to_le_bytes());
+    assert!(claimed.to_string().contains("wrong length"), "{claimed}");
+    let large = with(
+        20,
+        &[u32::MAX.to_le_bytes(), u32::MAX.to_le_bytes()].concat(),
+    );
+    assert_eq!(large.code(), "image_too_large");
+    assert_eq!(with(20, &[0; 4]).code(), "invalid_image");
+    assert_eq!(with(36, &[6, 0, 0, 0]).code(), "invalid_image");
+    for length in 0..file.len() {
+        assert!(Picture::decode(&file[..length]).is_err(), "{length}");
+    }
+}

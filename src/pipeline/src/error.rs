@@ -80,6 +80,16 @@ pub enum PipelineError {
     /// Islands cannot have their placements.
     #[error(transparent)]
     Islands(#[from] IslandError),
+    /// Islands that share texels in the new UVs do not share them in the old ones.
+    #[error(
+        "stacked islands of {group} show different texels of {texture}: `stack` off separates them"
+    )]
+    StacksDiffer {
+        /// Label of the group.
+        group: String,
+        /// Name of the new texture.
+        texture: String,
+    },
     /// The result has flips although none are allowed: a bug of this program, found by the certificate.
     #[error("nothing was written because the result is not valid: {0}")]
     NotValid(String),
@@ -128,6 +138,7 @@ impl PipelineError {
             Self::Cage(error) => error.code(),
             Self::Problem(error) => error.code(),
             Self::TextureTooSmall(_) => "texture_too_small",
+            Self::StacksDiffer { .. } => "stacks_differ",
             Self::Islands(error) => error.code(),
             Self::Atlas(_) | Self::Inverted | Self::Crossed | Self::NotValid(_) => {
                 "no_valid_result"
@@ -153,6 +164,7 @@ impl PipelineError {
             | Self::NoTriangles
             | Self::NoArea { .. }
             | Self::TextureTooSmall(_)
+            | Self::StacksDiffer { .. }
             | Self::Islands(_)
             | Self::Cage(_)
             | Self::Problem(_)

@@ -5,6 +5,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use unwrapd_api::Stage;
+use unwrapd_files::document::Warning;
 use unwrapd_layout::charts::MapUnderway;
 use unwrapd_method::solver::Control;
 
@@ -35,6 +36,8 @@ pub struct Progress {
 pub trait Observer: Sync {
     /// Receives a progress report. Returning [`Control::Finish`] ends the optimization with the current valid map.
     fn progress(&self, progress: &Progress) -> Control;
+    /// Receives a warning about the input before the work begins. The report repeats it.
+    fn warning(&self, _warning: &Warning) {}
     /// Returns the time since the work began.
     fn elapsed(&self) -> Duration;
     /// Receives the map of a chart at an iterate, first at the start, before progress is reported for it. The chart

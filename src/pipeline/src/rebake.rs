@@ -8,14 +8,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 use unwrapd_api::Stage;
 use unwrapd_files::bake::{
-    Coverage, Frames, MOST_TEXELS, Plane, Sampled, Texture, baked, side_for,
+    CornerColors, Coverage, Frames, MOST_TEXELS, Plane, Sampled, Texture, baked, side_for,
+    side_of_length, stacks_agree,
 };
-use unwrapd_files::document::gltf::{GltfDocument, tangents};
+use unwrapd_files::document::gltf::{GltfDocument, TiledTexture, tangents};
 use unwrapd_files::document::{
-    BakePlan, BakePlane, BakedTextures, CornerTangents, Document, DocumentError, Encoding, Group,
-    MaterialMerge, MergePlan, MergedMaterial, NewUvs, TextureSource, Warning, Wrap,
+    BakePlan, BakePlane, BakeRequest, BakedTextures, CornerTangents, Document, DocumentError,
+    Encoding, Group, KeptTexture, MaterialMerge, MergePlan, MergedMaterial, NewUvs, PlaneSource,
+    TextureSource, Warning, Wrap,
 };
-use unwrapd_files::picture::{Image, Picture};
+use unwrapd_files::picture::{Image, Picture, picture_size};
 use unwrapd_maps::mesh::VAxis;
 
 /// Picture of surfaces without a texture.
@@ -26,6 +28,9 @@ static WHITE: LazyLock<Picture> = LazyLock::new(|| {
         pixels: vec![[u8::MAX; 4]],
     })
 });
+
+/// Corners of faces without vertex colors.
+const WHITE_CORNERS: CornerColors = [[1.0; 4]; 3];
 
 /// Minimum distance of charts in texels at which bilinear filtering does not mix them.
 const FILTER_TEXELS: f64 = 2.0;
@@ -48,10 +53,18 @@ pub(super) fn merge_plan(
         label: String::new(),
         primitives: (0..document.primitives().len()).collect(),
     };
-    let hoped = document.bake_plan(&[whole], None, &BTreeMap::new())?;
+    let hoped = document.bake_plan(&[whole], &HOPED)?;
     let (_, unreadable) = read_images(document, &hoped.planes)?;
     Ok(Some(document.merge_plan(&requested, &unreadable)?))
 }
+
+/// Request as if every image were readable.
+const HOPED: BakeRequest = BakeRequest {
+    merge: None,
+    unreadable: &BTreeMap::new(),
+    kept: &[],
+    draws_colors: false,
+};
 
 /// Name of the material that replaces all.
 const MERGED: &str = "merged";
@@ -92,12 +105,110 @@ fn requested(
     Ok(requested)
 }
 
+// Textures that repeat on the surface.
+
+/// Code of the warning about a texture that is resampled although it repeats.
+const TILED: &str = "textures_tiled";
+
+/// Textures that repeat on the surface: those that stay for this reason, and warnings about all.
+#[derive(Default)]
+pub(super) struct TiledTextures {
+    kept: Vec<KeptTexture>,
+    /// Warnings about the textures, in the order of the materials.
+    pub warnings: Vec<Warning>,
+}
+
+impl TiledTextures {
+    /// Returns the warnings about those that are resampled; the document warns of the others when it is written.
+    pub fn resampled(&self) -> Vec<Warning> {
+        let warnings = self.warnings.iter();
+        let resampled = warnings.filter(|warning| warning.code == TILED);
+        resampled.cloned().collect()
+    }
+
+    /// Returns the request for new textures, as if every image were readable.
+    pub fn request<'a>(
+        &'a self,
+        merge: Option<&'a MergePlan>,
+        options: &Options,
+    ) -> BakeRequest<'a> {
+        BakeRequest {
+            merge,
+            kept: &self.kept,
+            draws_colors: options.baking.bake_colors,
+            ..HOPED
+        }
+    }
+
+    /// Finds the textures of `groups` that repeat, if textures are resampled: those of merged materials always, the
+    /// others on request.
+    pub fn of(
+        document: &Document,
+        groups: &[Group],
+        merge: Option<&MergePlan>,
+        options: &Options,
+    ) -> Result<Self, PipelineError> {
+        let document = match document {
+            Document::Gltf(document) if options.rebakes() => document,
+            _ => return Ok(Self::default()),
+        };
+        let merged = merge.map_or(&[][..], |merge| &merge.merged).iter();
+        let merged: BTreeSet<usize> = merged.flat_map(|it| it.members.iter().copied()).collect();
+        let mut found = Self::default();
+        for tiled in document.tiled_textures(groups)? {
+            let file = document.image(tiled.image);
+            let size = file.ok().and_then(|file| picture_size(&file).ok());
+            // An image that cannot be read stays for that reason.
+            let Some(size) = size else { continue };
+            let loss = loss(&tiled, size, options);
+            if options.baking.bake_tiled || merged.contains(&tiled.material) {
+                let name = document.texture_name(&tiled.slot, tiled.material);
+                let text = format!("{name} is resampled, although {loss}");
+                found.warnings.push(Warning::new(TILED, text));
+            } else {
+                let kept = KeptTexture {
+                    material: Some(tiled.material),
+                    slot: tiled.slot,
+                    reason: format!("{loss}; `--bake-tiled` resamples it"),
+                };
+                found.warnings.push(document.kept_warning(&kept));
+                found.kept.push(kept);
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// Describes how often a texture repeats, and how much of it a new texture can keep.
+fn loss(tiled: &TiledTexture, [width, height]: [u32; 2], options: &Options) -> String {
+    let texels = f64::from(width) * f64::from(height);
+    let needed = (tiled.atlas * texels).sqrt();
+    let side = f64::from(match options.baking.bake_size {
+        Some(side) => side,
+        None => least_side(options).max(side_of_length(needed)),
+    });
+    let share = side / needed;
+    let outcome = if share < 1.0 {
+        let percent = (100.0 * share).floor().max(1.0);
+        format!("keeps at most {percent} % of its texels along each side")
+    } else {
+        "has room for its texels".to_owned()
+    };
+    let [across, down] = tiled.repeats;
+    format!(
+        "it repeats {across:.1} × {down:.1} times on an island and is shown {:.1} times over; a texture of {side} × {side} {outcome}",
+        tiled.area
+    )
+}
+
+// Resampling.
+
 /// Resamples all textures that can be read and are understood for `uvs`, v up. Enters the stage only if there are
 /// any.
 pub(super) fn rebaked(
     document: &Document,
     groups: &[Group],
-    merge: Option<&MergePlan>,
+    request: &BakeRequest,
     uvs: &NewUvs,
     options: &Options,
     tracker: &Tracker,
@@ -107,7 +218,7 @@ pub(super) fn rebaked(
         return Err(DocumentError::UnsupportedOutput(what).into());
     };
     // Plan as if every image were readable; without anything to do, there is no stage.
-    let hoped = document.bake_plan(groups, merge, &BTreeMap::new())?;
+    let hoped = document.bake_plan(groups, request)?;
     if hoped.planes.is_empty() && hoped.kept.is_empty() {
         return Ok(BakedTextures {
             has_colors_only: hoped.is_empty() && document.has_vertex_colors(),
@@ -119,7 +230,11 @@ pub(super) fn rebaked(
     // Read the images, and plan again with those that can be read.
     tracker.stage(Stage::Bake);
     let (images, unreadable) = read_images(document, &hoped.planes)?;
-    let plan = document.bake_plan(groups, merge, &unreadable)?;
+    let request = BakeRequest {
+        unreadable: &unreadable,
+        ..*request
+    };
+    let plan = document.bake_plan(groups, &request)?;
     let surfaces: Vec<RebakedSurface> = (0..document.primitives().len())
         .into_par_iter()
         .map(|index| RebakedSurface::new(document, index, uvs, plan.is_normal_mapped(index)))
@@ -141,13 +256,13 @@ pub(super) fn rebaked(
 }
 
 /// Returns the side and the file of each texture of a plan. Resamples nothing if they would have too many texels in
-/// total.
+/// total. Fails if stacked islands need different texels.
 fn files(
     bake: &Bake,
     plan: &BakePlan,
     groups: &[Group],
     options: &Options,
-) -> Result<Vec<(u32, Vec<u8>)>, DocumentError> {
+) -> Result<Vec<(u32, Vec<u8>)>, PipelineError> {
     let sides = sides(bake, plan, groups, options)?;
     let mut files = Vec::new();
     // Textures of one group often have one size.
@@ -160,6 +275,12 @@ fn files(
         let (_, coverage) = last.insert(
             known.unwrap_or_else(|| (key, Coverage::new(&bake.faces(members), side as usize))),
         );
+        if options.stacks() && !stacks_agree(&plane, coverage) {
+            return Err(PipelineError::StacksDiffer {
+                group: groups[wanted.group].label.clone(),
+                texture: wanted.name.clone(),
+            });
+        }
         let picture = if options.baking.image_format.keeps_16_bits() && plane.is_deep() {
             Picture::Sixteen(baked(&plane, coverage))
         } else {
@@ -179,10 +300,7 @@ fn sides(
     groups: &[Group],
     options: &Options,
 ) -> Result<Vec<u32>, DocumentError> {
-    let least = options
-        .baking
-        .bake_size
-        .unwrap_or(options.layout.resolution.longer().min(MOST_SIDE));
+    let least = options.baking.bake_size.unwrap_or(least_side(options));
     check_texels(u64::from(least).pow(2) * plan.planes.len() as u64)?;
     if options.baking.bake_size.is_some() {
         return Ok(vec![least; plan.planes.len()]);
@@ -201,6 +319,11 @@ fn sides(
     Ok(sides)
 }
 
+/// Returns the smallest side of a texture unless another is given.
+fn least_side(options: &Options) -> u32 {
+    options.layout.resolution.longer().min(MOST_SIDE)
+}
+
 /// Warns if there was nothing to resample, and of textures whose charts are so close that bilinear filtering at the
 /// border of one reads texels of another.
 pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning> {
@@ -208,8 +331,7 @@ pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning>
     let mut sides: Vec<u32> = baked.files.iter().map(|(side, _)| *side).collect();
     sides.sort_unstable();
     sides.dedup();
-    let texels = f64::from(options.settings().layout.padding)
-        / f64::from(options.layout.resolution.longer());
+    let texels = f64::from(options.padding()) / f64::from(options.layout.resolution.longer());
     let gap = |side: u32| texels * f64::from(side);
     let near = sides.into_iter().filter(|side| gap(*side) < FILTER_TEXELS);
     let near = near.map(|side| {
@@ -224,7 +346,7 @@ pub(super) fn warnings(baked: &BakedTextures, options: &Options) -> Vec<Warning>
         if baked.has_colors_only {
             Warning::new(
                 "colors_kept",
-                "the model has colors at its vertices and no textures: they are not resampled",
+                "the model has colors at its vertices and no textures; `--bake-colors` draws them into one",
             )
         } else {
             Warning::new(
@@ -269,7 +391,9 @@ impl<'a> Bake<'a> {
             textures: Vec::new(),
             faces: Vec::new(),
             frames: None,
+            colors: None,
         };
+        let mut colors: Vec<CornerColors> = Vec::new();
         let mut frames = Frames {
             normals: Vec::new(),
             from: Vec::new(),
@@ -281,6 +405,7 @@ impl<'a> Bake<'a> {
             let Some(source) = wanted.sources.get(&index) else {
                 plane.faces.extend(std::iter::repeat_n(None, n_faces));
                 frames.skip(n_faces);
+                colors.resize(colors.len() + n_faces, WHITE_CORNERS);
                 continue;
             };
             // Without a texture, all corners are at the same place of a white one.
@@ -303,6 +428,10 @@ impl<'a> Bake<'a> {
             if wanted.encoding == Encoding::Normal {
                 self.extend_frames(&mut frames, index, &places)?;
             }
+            match self.colors(index, source)? {
+                Some(own) => colors.extend(own),
+                None => colors.resize(colors.len() + n_faces, WHITE_CORNERS),
+            }
             let (size, number) = (texture.size(), plane.textures.len() as u32);
             plane.textures.push(texture);
             plane.faces.extend(places.iter().map(|face| {
@@ -313,7 +442,29 @@ impl<'a> Bake<'a> {
             }));
         }
         plane.frames = (wanted.encoding == Encoding::Normal).then_some(frames);
+        let mut sources = members.iter().filter_map(|index| wanted.sources.get(index));
+        plane.colors = sources.any(|source| source.is_colored).then_some(colors);
         Ok(plane)
+    }
+
+    /// Returns the colors of the corners of a primitive, if its source is to be multiplied by them.
+    fn colors(
+        &self,
+        index: usize,
+        source: &PlaneSource,
+    ) -> Result<Option<Vec<CornerColors>>, DocumentError> {
+        if !source.is_colored {
+            return Ok(None);
+        }
+        let Some(colors) = self.document.vertex_colors(index)? else {
+            return Ok(None);
+        };
+        let faces = self.document.primitives()[index].triangles.iter();
+        Ok(Some(
+            faces
+                .map(|face| face.map(|vertex: u32| colors[vertex as usize]))
+                .collect(),
+        ))
     }
 
     /// Returns the places of a primitive's corners in its image. Without UVs all are at (0, 0), as in renderers.

@@ -103,6 +103,13 @@ impl<'a> Tracker<'a> {
         }
     }
 
+    /// Passes warnings on before the work begins.
+    pub(super) fn warn(&self, warnings: &[Warning]) {
+        for warning in warnings {
+            self.observer.warning(warning);
+        }
+    }
+
     pub(super) fn elapsed(&self) -> Duration {
         self.observer.elapsed()
     }

@@ -55,15 +55,21 @@ class Sets(TypedDict, total=False):
     texcoord: int | None
     overwrite: bool | None
 
-class UnwrapFileOptions(UnwrapOptions, Sets, total=False):
+class Baking(TypedDict, total=False):
+    """Resampling of textures."""
+
+    rebake: bool | None
+    bake_tiled: bool | None
+    bake_colors: bool | None
+    bake_size: int | None
+    image_format: Literal["source", "png", "jpeg", "webp"] | None
+
+class UnwrapFileOptions(UnwrapOptions, Sets, Baking, total=False):
     """The same and what concerns files."""
 
     texel_weight: Sequence[str] | None
     material_borders: bool | None
     heatmap_measure: Literal["conformal", "area", "symmetric-dirichlet"] | None
-    rebake: bool | None
-    bake_size: int | None
-    image_format: Literal["source", "png", "jpeg", "webp"] | None
     merge_materials: Sequence[str] | None
 
 class UnwrapBytesOptions(UnwrapFileOptions, total=False):
@@ -76,7 +82,7 @@ class RepackOptions(Layout, total=False):
 
     islands: Sequence[dict[str, Any]] | None
 
-class RepackFileOptions(RepackOptions, Sets, total=False):
+class RepackFileOptions(RepackOptions, Sets, Baking, total=False):
     """The same and what concerns files."""
 
 class MeasureOptions(TypedDict, total=False):

@@ -22,6 +22,8 @@ _OF_FILES = frozenset(
         "texcoord",
         "overwrite",
         "rebake",
+        "bake_tiled",
+        "bake_colors",
         "bake_size",
         "image_format",
         "merge_materials",

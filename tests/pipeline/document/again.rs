@@ -204,6 +204,7 @@ fn resampled_textures_replace_the_old_ones_in_their_format() {
                 rebake: true,
                 bake_size: Some(32),
                 image_format: wanted,
+                ..Baking::default()
             },
             ..Options::default()
         };

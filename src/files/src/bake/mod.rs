@@ -10,7 +10,11 @@
 //! An island that has moved by whole texels, quarter turns and flips is not resampled: its texels, and those beside it
 //! within reach, are copied.
 //!
-//! Vertex attributes, such as colors, need no source texture: [`baked_attribute`] interpolates them.
+//! Vertex colors multiply the texels of a plane, whose texture may be plain white. Other vertex attributes need no plane:
+//! [`baked_attribute`] interpolates them.
+//!
+//! Islands that lie on each other share texels. [`stacks_agree`] tells whether they did so before: only then can one
+//! texture show all of them.
 //!
 //! Normal maps hold directions relative to tangents, which turn with the UVs: [`Frames`] converts each direction from
 //! the old frame to the new one.
@@ -21,11 +25,13 @@ mod coverage;
 mod moves;
 mod plane;
 mod resample;
+mod stacks;
 mod texture;
 
 pub use coverage::Coverage;
-pub use plane::{Frames, MOST_TEXELS, Plane, Sampled, side_for};
+pub use plane::{CornerColors, Frames, MOST_TEXELS, Plane, Sampled, side_for, side_of_length};
 pub use resample::{baked, baked_attribute};
+pub use stacks::stacks_agree;
 pub use texture::{Channel, Texture};
 
 /// Corners of a face in the plane.

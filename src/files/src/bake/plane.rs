@@ -1,6 +1,6 @@
 //! Sources of a texture for a new UV map: old textures, places of faces in them, and tangent frames.
 
-use super::coverage::{Areas, Barycentric};
+use super::coverage::{Areas, Barycentric, doubled_area};
 use super::{Corners, Texture};
 use crate::document::Encoding;
 use crate::picture::Picture;
@@ -15,6 +15,9 @@ pub struct Sampled {
     pub corners: Corners,
 }
 
+/// Red, green, blue and alpha of the three corners of a face.
+pub type CornerColors = [[f32; 4]; 3];
+
 /// Textures on the old map that are merged into one on the new map.
 pub struct Plane<'a> {
     /// Encoding of the texels.
@@ -25,6 +28,8 @@ pub struct Plane<'a> {
     pub faces: Vec<Option<Sampled>>,
     /// Frames to which directions are relative; only for normal maps.
     pub frames: Option<Frames>,
+    /// Linear colors of the corners of each face, which multiply the texels; `None` if all are white.
+    pub colors: Option<Vec<CornerColors>>,
 }
 
 impl Plane<'_> {
@@ -32,6 +37,15 @@ impl Plane<'_> {
     pub fn is_deep(&self) -> bool {
         let mut textures = self.textures.iter();
         textures.any(|texture| matches!(texture.picture, Picture::Sixteen(_)))
+    }
+
+    /// Returns a value multiplied by the color at a place of a face.
+    pub(super) fn colored(&self, face: usize, weights: Barycentric, value: [f32; 4]) -> [f32; 4] {
+        let Some(colors) = &self.colors else {
+            return value;
+        };
+        let color = interpolated(weights, &colors[face]);
+        [0, 1, 2, 3].map(|k| color[k] * value[k])
     }
 }
 
@@ -43,9 +57,13 @@ pub const MOST_TEXELS: u64 = 1 << 29;
 const SIDES: [f64; 2] = [16.0, 4096.0];
 /// Texels by which a side may be too small without a visible loss.
 const SIDE_SLACK: f64 = 1.0;
+/// Texels for each face with vertex colors: two along each direction for each vertex, as there are half as many vertices
+/// as faces.
+const TEXELS_PER_FACE: f64 = 2.0;
 
 /// Returns the side, a power of two from 16 to 4096, of a texture on which the faces of each old picture have as many
-/// texels as on that. Faces of one color need none. `faces` are corners in the unit square.
+/// texels as on that, and faces of several colors enough to tell them apart. Faces of one color need none. `faces` are
+/// corners in the unit square.
 pub fn side_for(plane: &Plane, faces: &[Corners]) -> u32 {
     let mut of_pictures: HashMap<*const Picture, Vec<(&Corners, &Corners)>> = HashMap::new();
     for (sampled, face) in plane.faces.iter().zip(faces) {
@@ -60,9 +78,28 @@ pub fn side_for(plane: &Plane, faces: &[Corners]) -> u32 {
     }
     let lengths = of_pictures.into_values();
     let lengths = lengths.map(|faces| Areas::of(faces.into_iter()).length());
+    side_of_length(lengths.fold(colors_length(plane, faces), f64::max))
+}
+
+/// Returns the side of a texture that needs `length` texels along it: a power of two from 16 to 4096.
+pub fn side_of_length(length: f64) -> u32 {
     let [least, most] = SIDES;
-    let length = lengths.fold(0.0, f64::max);
     ((length - SIDE_SLACK).ceil().clamp(least, most) as u32).next_power_of_two()
+}
+
+/// Returns the number of texels along a unit of length that vertex colors need.
+fn colors_length(plane: &Plane, faces: &[Corners]) -> f64 {
+    let several = |[a, b, c]: &CornerColors| a != b || b != c;
+    let colors = plane.colors.iter().flatten();
+    let colored = colors.zip(faces).filter(|(colors, _)| several(colors));
+    let (n_faces, doubled) = colored.fold((0.0, 0.0), |(n, sum), (_, face)| {
+        (n + 1.0, sum + doubled_area(face))
+    });
+    if doubled > 0.0 {
+        (TEXELS_PER_FACE * n_faces / (0.5 * doubled)).sqrt()
+    } else {
+        0.0
+    }
 }
 
 // Directions converted from one tangent frame to another.

@@ -64,6 +64,7 @@ impl Resampling<'_> {
         if let Some(moved) = moved {
             let texture = &self.plane.textures[sampled.texture as usize];
             let value = texture.texel_at(moved.source([x, y]));
+            let value = self.colored(face, [x, y], value)?;
             return Some(encoded(value, self.plane.encoding));
         }
         let reduced = &self.textures[sampled.texture as usize];
@@ -86,6 +87,7 @@ impl Resampling<'_> {
                 triangle.nearest(place).0
             };
             let value = texture.sample(blended(weights, &source));
+            let value = self.plane.colored(face as usize, weights, value);
             sum = [0, 1, 2, 3].map(|c| sum[c] + value[c]);
         }
         let mut value = sum.map(|c| c / (n * n) as f32);
@@ -97,6 +99,16 @@ impl Resampling<'_> {
             value = [x, y, z, a];
         }
         Some(encoded(value, self.plane.encoding))
+    }
+
+    /// Returns a texel's value multiplied by the color at its center; `None` if the face has no area.
+    fn colored(&self, face: u32, [x, y]: [usize; 2], value: [f32; 4]) -> Option<[f32; 4]> {
+        if self.plane.colors.is_none() {
+            return Some(value);
+        }
+        let triangle = Triangle::new(*self.coverage.corners(face))?;
+        let (weights, _) = triangle.nearest([x as f64 + 0.5, y as f64 + 0.5]);
+        Some(self.plane.colored(face as usize, weights, value))
     }
 }
 

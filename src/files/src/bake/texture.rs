@@ -25,6 +25,12 @@ impl Texture<'_> {
         self.picture.size() == [1, 1]
     }
 
+    /// Returns whether two textures have the same value at every place.
+    pub(super) fn shows_as(&self, other: &Self) -> bool {
+        std::ptr::eq(self.picture, other.picture)
+            && (self.wrap, self.is_nearest, self.tint) == (other.wrap, other.is_nearest, other.tint)
+    }
+
     /// Returns columns and rows.
     pub fn size(&self) -> [f64; 2] {
         self.picture.size().map(|n| n as f64)

@@ -84,6 +84,8 @@ pub struct PlaneSource {
     pub texture: Option<TextureSource>,
     /// Map of the texture's decoded values: colors in linear light, directions in [−1, 1].
     pub tint: Tint,
+    /// `true` if values are multiplied by the vertex colors of the surface.
+    pub is_colored: bool,
 }
 
 /// A texture to make: parts of one UV space, each with its own source.
@@ -122,6 +124,19 @@ pub(super) fn is_nearest([mag, _]: [Option<usize>; 2]) -> bool {
     mag == Some(NEAREST)
 }
 
+/// Circumstances that decide which textures are made.
+#[derive(Debug, Clone, Copy)]
+pub struct BakeRequest<'a> {
+    /// Materials to merge; `None` if that was not requested.
+    pub merge: Option<&'a MergePlan>,
+    /// Reasons why images cannot be read, by their indices.
+    pub unreadable: &'a BTreeMap<usize, String>,
+    /// Textures that stay unless their material is merged.
+    pub kept: &'a [KeptTexture],
+    /// `true` if vertex colors are drawn into base-color textures.
+    pub draws_colors: bool,
+}
+
 /// Textures to make for a document, and those that cannot be made.
 #[derive(Debug, Clone, Default)]
 pub struct BakePlan {
@@ -137,12 +152,17 @@ pub struct BakePlan {
     pub(super) replaced: BTreeSet<String>,
     /// Primitives with directions relative to tangents.
     pub(super) normal_mapped: BTreeSet<usize>,
+    /// Primitives whose vertex colors are drawn into textures.
+    pub(super) colored: BTreeSet<usize>,
+    /// Reasons why the vertex colors of primitives were to be drawn and are not.
+    pub(super) colors_kept: BTreeMap<usize, String>,
 }
 
 /// Planes of a material for the primitives of one group.
 #[derive(Debug, Clone)]
 pub(super) struct MaterialPlanes {
-    pub material: usize,
+    /// Index of the material; `None` for primitives without one.
+    pub material: Option<usize>,
     /// Indices of the primitives.
     pub primitives: BTreeSet<usize>,
     /// Paths within the material and the planes that go there.
@@ -172,6 +192,11 @@ impl BakePlan {
     pub fn is_normal_mapped(&self, primitive: usize) -> bool {
         self.normal_mapped.contains(&primitive)
     }
+
+    /// Returns whether the vertex colors of a primitive are drawn into a texture.
+    pub fn is_colored(&self, primitive: usize) -> bool {
+        self.colored.contains(&primitive)
+    }
 }
 
 /// New textures for new UVs.
@@ -190,7 +215,7 @@ pub struct BakedTextures {
 impl BakedTextures {
     /// Returns whether something that could show the new UVs was not resampled.
     pub fn is_partial(&self) -> bool {
-        self.has_colors_only || !self.plan.kept.is_empty()
+        self.has_colors_only || !self.plan.kept.is_empty() || !self.plan.colors_kept.is_empty()
     }
 }
 

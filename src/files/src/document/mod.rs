@@ -28,8 +28,8 @@ mod uvs;
 mod write;
 
 pub use bake::{
-    BakePlan, BakePlane, BakedTexture, BakedTextures, CornerTangents, Encoding, KeptTexture,
-    PlaneSource, TextureSource, Tint, Wrap,
+    BakePlan, BakePlane, BakeRequest, BakedTexture, BakedTextures, CornerTangents, Encoding,
+    KeptTexture, PlaneSource, TextureSource, Tint, Wrap,
 };
 pub use content::{Document, references, with_references};
 pub use error::DocumentError;

@@ -123,6 +123,8 @@ pub struct WriteNotes {
     pub textures_baked: Vec<BakedTexture>,
     /// Textures that were to be resampled and could not be: they sample the UVs that they did.
     pub textures_kept: Vec<KeptTexture>,
+    /// Primitives whose vertex colors were drawn into textures and removed.
+    pub colors_baked: usize,
     /// JSON pointers of texture transforms that applied to a replaced set and were removed.
     pub transforms_removed: Vec<String>,
     /// Extensions that are gone from the file: compression that was undone, data that the new indices made wrong.

@@ -1,5 +1,6 @@
 //! Pictures with transparency, from and to files.
 
+use super::ktx2;
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::PngEncoder;
 use image::codecs::webp::WebPEncoder;
@@ -128,13 +129,30 @@ fn decoded(bytes: &[u8]) -> Result<DynamicImage, ImageError> {
     reader.limits(limits);
     let mut decoder = reader.into_decoder().map_err(unreadable)?;
     let (width, height) = decoder.dimensions();
-    if u64::from(width) * u64::from(height) > MOST_PIXELS {
-        return Err(ImageError::TooLarge { width, height });
-    }
+    checked_size(width, height)?;
     let orientation = decoder.orientation().map_err(unreadable)?;
     let mut decoded = DynamicImage::from_decoder(decoder).map_err(unreadable)?;
     decoded.apply_orientation(orientation);
     Ok(decoded)
+}
+
+/// Returns the columns and rows of a picture, unless it has too many pixels.
+pub(super) fn checked_size(width: u32, height: u32) -> Result<[u32; 2], ImageError> {
+    if u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return Err(ImageError::TooLarge { width, height });
+    }
+    Ok([width, height])
+}
+
+/// Returns columns and rows of a PNG, JPEG, `WebP` or KTX2 file as stored, without decoding its pixels.
+pub fn picture_size(bytes: &[u8]) -> Result<[u32; 2], ImageError> {
+    if ktx2::is_ktx2(bytes) {
+        return ktx2::size(bytes);
+    }
+    let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
+    let size = reader.map_err(|error| unreadable(error.into()))?;
+    let (width, height) = size.into_dimensions().map_err(unreadable)?;
+    Ok([width, height])
 }
 
 // Pictures with the bits of their files.
@@ -149,8 +167,12 @@ pub enum Picture {
 }
 
 impl Picture {
-    /// Decodes a PNG, JPEG or `WebP` file, turned upright according to its metadata; pixels of 16 bits stay so.
+    /// Decodes a PNG, JPEG or `WebP` file, turned upright according to its metadata, or a KTX2 file of glTF; pixels of 16
+    /// bits stay so.
     pub fn decode(bytes: &[u8]) -> Result<Self, ImageError> {
+        if ktx2::is_ktx2(bytes) {
+            return ktx2::decoded(bytes).map(Self::Eight);
+        }
         let decoded = decoded(bytes)?;
         let is_deep = matches!(
             decoded,

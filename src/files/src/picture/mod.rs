@@ -8,12 +8,13 @@
 mod canvas;
 mod heat;
 mod image;
+mod ktx2;
 mod panel;
 mod raster;
 mod warp;
 
 pub use heat::{HeatmapMeasure, heatmap_png};
-pub use image::{Image, ImageError, Picture, thumbnail_png};
+pub use image::{Image, ImageError, Picture, picture_size, thumbnail_png};
 pub use panel::{Panel, layout_png};
 pub(crate) use raster::{spans, steps};
 pub use warp::{Deformation, Extent, Warped, warped};

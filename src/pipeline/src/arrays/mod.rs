@@ -25,3 +25,4 @@ pub(super) mod settings;
 pub(super) mod soup;
 mod stacks;
 pub(super) mod unwrap;
+pub(super) mod whole_texels;

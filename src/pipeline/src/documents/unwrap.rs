@@ -12,6 +12,7 @@ use crate::arrays::repeated::GridCorners;
 use crate::arrays::seams::Seams;
 use crate::arrays::soup::Soup;
 use crate::arrays::unwrap::{Unwrapped, in_pool, unwrap_all};
+use crate::arrays::whole_texels::shift_to_whole_texels;
 use crate::island_error::IslandError;
 use crate::judge::groups::WrittenUvs;
 use crate::judge::proven::Mirrored;
@@ -20,7 +21,7 @@ use crate::judge::rules::{intended_weights, rule_reports};
 use crate::judge::shortfalls::{add_history, nothing_stacked, promise_kept, shortfalls};
 use crate::observer::Observer;
 use crate::options::{CommandOptions, Island, Options, RepackOptions};
-use crate::rebake::{self, rebaked};
+use crate::rebake::{self, TiledTextures, rebaked};
 use crate::tracker::{StopWatch, Tracker};
 use unwrapd_api::Stage;
 use unwrapd_files::document::{
@@ -93,6 +94,8 @@ fn unwrap_in_pool(
         Some(merge) if group_by == GroupBy::Material => merge.united(groups, document.primitives()),
         _ => groups,
     };
+    let tiled = TiledTextures::of(&document, &groups, merge.as_ref(), options)?;
+    tracker.warn(&tiled.warnings);
     let primitives = nodes.primitives(&document)?;
     let placed = placements(&document, &groups, islands)?;
     let merged = |(group, placed)| {
@@ -111,17 +114,14 @@ fn unwrap_in_pool(
     seconds.read = watch.lap();
 
     // Unwrap.
-    let soups: Vec<Soup> = meshes.iter().map(Merged::soup).collect();
-    let atlases = unwrap_all(&soups, &options.settings(), tracker)?;
+    let atlases = unwrapped(&meshes, options, tracker)?;
     seconds.unwrap = watch.lap();
 
     // Turn the atlases into UVs, and resample textures for them.
     let uvs = new_uvs(&document, &groups, &atlases, options)?;
-    let mut baked = None;
-    if options.baking.rebake {
-        let merge = merge.as_ref();
-        baked = Some(rebaked(&document, &groups, merge, &uvs, options, tracker)?);
-    }
+    let request = tiled.request(merge.as_ref(), options);
+    let bake = || rebaked(&document, &groups, &request, &uvs, options, tracker);
+    let baked = options.baking.rebake.then(bake).transpose()?;
     seconds.bake = watch.lap();
 
     // Write the document.
@@ -134,7 +134,7 @@ fn unwrap_in_pool(
     let notes = &written.notes.primitives;
     let arrays = UvArrays::new(&document, &uvs, v_axis, notes, &origins);
     seconds.write = watch.lap();
-    let noticed = document.warnings().to_vec();
+    let noticed = [document.warnings().to_vec(), tiled.resampled()].concat();
     // Free the document before the written one is read: both would take twice the memory.
     drop(primitives);
     drop(document);
@@ -194,6 +194,23 @@ fn unwrap_in_pool(
         },
         uvs: arrays,
     })
+}
+
+/// Returns the atlas of each mesh.
+fn unwrapped(
+    meshes: &[Merged],
+    options: &Options,
+    tracker: &Tracker,
+) -> Result<Vec<Unwrapped>, PipelineError> {
+    let soups: Vec<Soup> = meshes.iter().map(Merged::soup).collect();
+    let mut atlases = unwrap_all(&soups, &options.settings(), tracker)?;
+    if let Some(side) = options.whole_texels() {
+        for (atlas, mesh) in atlases.iter_mut().zip(meshes) {
+            let uvs = mesh.seams.uvs.as_deref().unwrap_or_default();
+            shift_to_whole_texels(&mut atlas.grid, uvs, side);
+        }
+    }
+    Ok(atlases)
 }
 
 fn write(

@@ -1,11 +1,10 @@
 //! Checks of options: ranges, and rejection of options that would have no effect, contrary to their user's expectation.
 
-use super::ImageFormat;
+use super::{Baking, ImageFormat};
 use super::{KeptMaps, Options, Preset, Straightening};
 use crate::Caller;
 use crate::CommandOptions;
 use crate::PipelineError;
-use crate::Stacking;
 use crate::TexelWeight;
 use crate::settings::check_mips;
 use unwrapd_api::options::OptionSet;
@@ -27,13 +26,9 @@ impl Options {
         if self.cutting.cut == Cut::Seams && self.seams.is_none() {
             return Err("`cut` seams requires `seams`".to_owned());
         }
-        let is_stacked = self
-            .layout
-            .stack
-            .is_some_and(|stack| stack != Stacking::Off);
-        if self.rebakes() && is_stacked {
+        if self.rebakes() && self.layout.stack_offset {
             return Err(
-                "`rebake` requires `stack` off: stacked charts share their texels".to_owned(),
+                "`rebake` requires no `stack_offset`: its textures do not repeat".to_owned(),
             );
         }
         let is_one_square = self.layout.pages == 1 && self.layout.resolution.aspect() == 1.0;
@@ -170,16 +165,6 @@ fn check(options: &Options) -> Result<(), String> {
             options.cutting.kept_maps != KeptMaps::Optimized && !is_kept,
         ),
         (
-            "bake_size",
-            "`rebake`",
-            options.baking.bake_size.is_some() && !options.rebakes(),
-        ),
-        (
-            "image_format",
-            "`rebake`",
-            options.baking.image_format != ImageFormat::Source && !options.rebakes(),
-        ),
-        (
             "merge_materials",
             "`group_by` material or scene: a material has one atlas",
             !options.merge_materials.is_empty()
@@ -201,6 +186,9 @@ fn check(options: &Options) -> Result<(), String> {
             options.sets.overwrite && is_obj,
         ),
     ])?;
+    if !options.rebakes() {
+        check_baking(&options.baking)?;
+    }
     check_grouping(options, options.group_by)?;
     let is_one_atlas = options.preset == Preset::Lightmap || is_obj;
     match options.group_by {
@@ -210,6 +198,20 @@ fn check(options: &Options) -> Result<(), String> {
         )),
         _ => Ok(()),
     }
+}
+
+/// Rejects options of resampling without it.
+fn check_baking(baking: &Baking) -> Result<(), String> {
+    const WITH: &str = "`rebake`";
+    refused([
+        ("bake_tiled", WITH, baking.bake_tiled),
+        ("bake_size", WITH, baking.bake_size.is_some()),
+        (
+            "image_format",
+            WITH,
+            baking.image_format != ImageFormat::Source,
+        ),
+    ])
 }
 
 /// Rejects options that distinguish materials within an atlas if each material has its own. The grouping may be

@@ -1,8 +1,8 @@
 //! Options of repacking.
 
 use super::{
-    Caller, CommandOptions, Cutting, IslandControl, KeptMaps, Layout, Options, Sets, Stacking,
-    Workers,
+    Baking, Caller, CommandOptions, Cutting, IslandControl, KeptMaps, Layout, Options, Sets,
+    Stacking, Workers,
 };
 use crate::PipelineError;
 use crate::arrays::placement::Placement;
@@ -35,6 +35,8 @@ options! {
         pub control: IslandControl;
         /// UV sets to read and write.
         pub sets: Sets;
+        /// Resampling of textures.
+        pub baking: Baking;
         /// Number of threads.
         pub workers: Workers;
     }
@@ -60,6 +62,7 @@ impl RepackOptions {
             },
             control: self.control.clone(),
             sets: self.sets,
+            baking: self.baking,
             workers: self.workers,
             format: self.format,
             caller: self.caller.clone(),

@@ -1,7 +1,10 @@
 //! Options of unwrapping.
 
-use super::{Budget, Caller, Cutting, IslandControl, Layout, Mapping, Stacking, Workers};
+use super::{
+    Action, Budget, Caller, Cutting, IslandControl, KeptMaps, Layout, Mapping, Stacking, Workers,
+};
 use crate::arrays::settings::Settings;
+use crate::arrays::whole_texels::ROOM_TEXELS;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
@@ -13,7 +16,8 @@ use unwrapd_files::document::{
 };
 use unwrapd_files::io::{Content, Format, format_of_content};
 use unwrapd_files::picture::{HeatmapMeasure, Picture};
-use unwrapd_layout::atlas::Borders;
+use unwrapd_layout::atlas::{Borders, Rotation};
+use unwrapd_layout::charts::Cut;
 use unwrapd_maps::certificate::{Claims, Overlap, Padding, Stacks};
 
 /// Maximum side of a texture in texels.
@@ -121,9 +125,43 @@ impl Options {
         options
     }
 
-    /// Returns whether textures are resampled: on request, or to merge materials.
+    /// Returns whether textures are resampled: on request, for vertex colors, or to merge materials.
     pub(crate) fn rebakes(&self) -> bool {
-        self.baking.rebake || !self.merge_materials.is_empty()
+        self.baking.rebake || self.baking.bake_colors || !self.merge_materials.is_empty()
+    }
+
+    /// Returns whether islands may lie on each other.
+    pub(crate) fn stacks(&self) -> bool {
+        let stack = self.layout.stack;
+        stack.is_some_and(|stack| stack != Stacking::Off)
+    }
+
+    /// Returns the side of the texture on whose whole texels islands are put, so that resampling copies them: if islands
+    /// of the file keep their density and turn by quarters only.
+    pub(crate) fn whole_texels(&self) -> Option<u32> {
+        let is_given = self.cutting.cut == Cut::Keep
+            && self.cutting.kept_maps == KeptMaps::AsGiven
+            && self.layout.rotate != Rotation::Any;
+        let mut rules = self.control.control.iter();
+        let is_kept = is_given && rules.any(|rule| rule.action == Action::KeepDensity);
+        (self.rebakes() && is_kept).then(|| {
+            let side = self.baking.bake_size;
+            side.unwrap_or(self.layout.resolution.longer())
+        })
+    }
+
+    /// Returns the padding between charts that the result has, in texels.
+    pub(crate) fn padding(&self) -> u32 {
+        self.layout.padding << self.mips()
+    }
+
+    /// Returns the distance that charts are packed with beyond the padding, in texels.
+    fn room(&self) -> u32 {
+        let texels = |side: u32| {
+            let texel = f64::from(self.layout.resolution.longer()) / f64::from(side);
+            (ROOM_TEXELS * texel).ceil() as u32
+        };
+        self.whole_texels().map_or(0, texels)
     }
 
     /// Returns the number of mip levels beyond the first in which charts keep the padding.
@@ -148,7 +186,7 @@ impl Options {
             cutting: self.cutting,
             mapping: self.mapping.clone(),
             layout: Layout {
-                padding: self.layout.padding << self.mips(),
+                padding: self.padding() + self.room(),
                 ..self.layout
             },
             borders: match self.preset {
@@ -171,7 +209,7 @@ impl Options {
                 Some(Stacking::Keep | Stacking::Identical | Stacking::Mirrored) => Stacks::Accepted,
             },
             padding: Some(Padding {
-                texels: layout.padding << self.mips(),
+                texels: self.padding(),
                 resolution: layout.resolution,
             }),
             aligned: (self.preset == Preset::Lightmap).then_some(layout.resolution),
@@ -249,11 +287,19 @@ options! {
         /// Resample the textures for the new UVs, which then replace set 0 unless `texcoord` names
         /// another.
         ///
-        /// PNG, JPEG and `WebP` images are read; PNG images of 16 bits per channel stay so. Texels are
+        /// PNG, JPEG, `WebP` and KTX2 images are read; PNG of 16 bits per channel stays so. Texels are
         /// copied where an island moves by whole texels, quarter turns and flips. Textures that
-        /// cannot be read, or of an unknown kind, stay as they are and keep their UVs. The report
-        /// lists them.
+        /// repeat, that cannot be read, or of an unknown kind, stay as they are and keep their UVs.
+        /// The report lists them.
         pub rebake: bool, arg(help_heading = None::<&'static str>);
+        /// Resample textures that repeat on an island, too. Every repetition then has texels of its
+        /// own; a warning tells how many remain.
+        pub bake_tiled: bool;
+        /// Draw vertex colors into the base-color texture, and remove them. A surface without one
+        /// gets a texture of its colors.
+        ///
+        /// Implies `rebake`.
+        pub bake_colors: bool;
         /// Side of the resampled textures, in texels. The default is `resolution`, or more if the
         /// surface would lose texels: a power of two up to 4096.
         pub bake_size: Option<u32>, in 16..=8192, value "TEXELS";

@@ -255,7 +255,7 @@ codes! {
 // Codes of invalid inputs. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Codes with their meanings.
-pub(super) const CAUSES: [(&str, &str); 73] = [
+pub(super) const CAUSES: [(&str, &str); 74] = [
     // Handles.
     ("malformed_handles", "The list of handles cannot be parsed"),
     ("no_handle", "There is no handle"),
@@ -353,6 +353,10 @@ pub(super) const CAUSES: [(&str, &str); 73] = [
     (
         "texture_too_small",
         "The charts do not fit at this texel density; the detail names a resolution or page count that suffices",
+    ),
+    (
+        "stacks_differ",
+        "Stacked islands show different texels, so they cannot share those of a new texture",
     ),
     (
         "unknown_material",

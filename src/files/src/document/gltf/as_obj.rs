@@ -42,7 +42,10 @@ pub(super) fn write(
     let objects = object_names(&body.json)?;
     let mut parts = Vec::with_capacity(document.primitives.len());
     for (index, primitive) in document.primitives.iter().enumerate() {
-        let part = part(document, &body, index, uvs)?;
+        let mut part = part(document, &body, index, uvs)?;
+        if baked.is_some_and(|baked| baked.plan.is_colored(index)) {
+            part.colors = None;
+        }
         let material = material_of(&body, primitive.mesh, primitive.primitive)?;
         parts.push(ObjPart {
             object: &objects[primitive.mesh],

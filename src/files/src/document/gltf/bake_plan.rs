@@ -3,22 +3,22 @@
 use super::document::GltfDocument;
 use super::images;
 use super::replacement::Replacement;
-use super::slots::{Slot, Users, slots, users};
+use super::slots::{BASE_COLOR, Slot, Users, slots, users};
 use super::textures::{MaterialTextures, TextureUse};
+use super::vertex_colors::VertexColors;
 use crate::document::bake::{MaterialPlanes, MergedPlanes};
 use crate::document::{
-    BakePlan, BakePlane, DocumentError, Encoding, Group, KeptTexture, MergePlan, PlaneSource, Tint,
+    BakePlan, BakePlane, BakeRequest, DocumentError, Encoding, Group, KeptTexture, MergedMaterial,
+    PlaneSource, Primitive, Tint,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
 impl GltfDocument {
-    /// Plans the textures to make for new UVs of `groups`, and the materials to merge; `unreadable` has the reasons why
-    /// images cannot be read.
+    /// Plans the textures to make for new UVs of `groups`, and the materials to merge.
     pub fn bake_plan(
         &self,
         groups: &[Group],
-        merge: Option<&MergePlan>,
-        unreadable: &BTreeMap<usize, String>,
+        request: &BakeRequest,
     ) -> Result<BakePlan, DocumentError> {
         // Find the textures of every material that a group uses.
         let all: Vec<usize> = (groups.iter().flat_map(|group| &group.primitives))
@@ -26,21 +26,36 @@ impl GltfDocument {
             .collect();
         let users = users(self, &all)?;
         let first_of_equals = images::first_of_equals(&self.body, &self.resources)?;
-        let mut slots = slots(self, &users, &first_of_equals, unreadable);
+        let mut slots = slots(self, &users, &first_of_equals, request.unreadable);
+        let merged = request.merge.map_or(&[][..], |merge| &merge.merged);
+        let members: BTreeSet<usize> = merged
+            .iter()
+            .flat_map(|merged| merged.members.iter().copied())
+            .collect();
+        keep_requested(request.kept, &members, &mut slots);
         keep_frames_together(&users, &mut slots);
+        let colors = if request.draws_colors {
+            VertexColors::of(self, &all, &slots)?
+        } else {
+            VertexColors::default()
+        };
         // Separate the materials to merge.
-        let merged = merge.map_or(&[][..], |merge| &merge.merged);
+        let is_colored = |merged: &MergedMaterial| {
+            let mut materials = colors.drawn.iter().map(|&p| self.primitives[p].material);
+            materials.any(|material| material.is_some_and(|it| merged.members.contains(&it)))
+        };
         let replacements: Vec<Replacement> = (merged.iter())
-            .map(|merged| Replacement::new(self, merged, &slots))
+            .map(|merged| Replacement::new(self, merged, &slots, is_colored(merged)))
             .collect::<Result<_, _>>()?;
-        let members = merged.iter().flat_map(|merged| &merged.members);
-        let replaced: BTreeMap<usize, Vec<Slot>> = members
+        let replaced: BTreeMap<usize, Vec<Slot>> = (members.iter())
             .filter_map(|member| slots.remove_entry(member))
             .collect();
         // List the textures that stay, then plan those of each group.
         let mut plan = BakePlan {
             kept: kept(self, &slots)?,
-            merge: merge.cloned(),
+            merge: request.merge.cloned(),
+            colored: colors.drawn,
+            colors_kept: colors.kept,
             ..BakePlan::default()
         };
         let infos = replaced.values().flatten();
@@ -64,8 +79,26 @@ impl GltfDocument {
                 group.plan_merged(&mut plan, number, replacement, &primitives);
             }
             group.plan_others(&mut plan, &users, &slots);
+            group.plan_plain(&mut plan, &self.primitives);
         }
         Ok(plan)
+    }
+}
+
+/// Keeps the textures that are to stay, except those of materials to merge.
+fn keep_requested(
+    kept: &[KeptTexture],
+    merged: &BTreeSet<usize>,
+    slots: &mut BTreeMap<usize, Vec<Slot>>,
+) {
+    for kept in kept {
+        let material = kept.material.filter(|material| !merged.contains(material));
+        let slots = material.and_then(|material| slots.get_mut(&material));
+        for slot in slots.into_iter().flatten() {
+            if slot.texture.slot == kept.slot && slot.resampled.is_ok() {
+                slot.resampled = Err(kept.reason.clone());
+            }
+        }
     }
 }
 
@@ -149,15 +182,24 @@ impl PlannedGroup<'_> {
         }
         let mut slots = Vec::new();
         for drawn in &replacement.planes {
-            let sources = primitives.iter();
+            let is_base = drawn.slots.iter().any(|slot| slot == BASE_COLOR);
+            let source = |(&primitive, material): (&usize, &usize)| {
+                let is_colored = is_base && plan.colored.contains(&primitive);
+                let source = drawn.sources[material].clone();
+                (
+                    primitive,
+                    PlaneSource {
+                        is_colored,
+                        ..source
+                    },
+                )
+            };
             let wanted = BakePlane {
                 name: format!("{}_{}", self.name, word(&drawn.slots[0])),
                 group: self.number,
                 encoding: drawn.encoding,
                 filters: drawn.filters,
-                sources: sources
-                    .map(|(&primitive, material)| (primitive, drawn.sources[material].clone()))
-                    .collect(),
+                sources: primitives.iter().map(source).collect(),
             };
             let plane = joined(&mut plan.planes, self.first, wanted);
             slots.extend(drawn.slots.iter().map(|slot| (slot.clone(), plane)));
@@ -190,16 +232,21 @@ impl PlannedGroup<'_> {
                 let Ok(resampled) = &slot.resampled else {
                     continue;
                 };
-                let source = PlaneSource {
-                    texture: Some(resampled.source.clone()),
-                    tint: Tint::NONE,
+                let is_base = slot.texture.slot == BASE_COLOR;
+                let source = |&primitive: &usize| {
+                    let source = PlaneSource {
+                        texture: Some(resampled.source.clone()),
+                        tint: Tint::NONE,
+                        is_colored: is_base && plan.colored.contains(&primitive),
+                    };
+                    (primitive, source)
                 };
                 let wanted = BakePlane {
                     name: format!("{}_{}", self.name, word(&slot.texture.slot)),
                     group: self.number,
                     encoding: resampled.encoding,
                     filters: resampled.filters,
-                    sources: primitives.iter().map(|&p| (p, source.clone())).collect(),
+                    sources: primitives.iter().map(source).collect(),
                 };
                 planes.push((
                     slot.texture.slot.clone(),
@@ -210,15 +257,57 @@ impl PlannedGroup<'_> {
                     plan.normal_mapped.extend(&primitives);
                 }
             }
+            let has_base = slots.iter().any(|slot| slot.texture.slot == BASE_COLOR);
+            if !has_base && !primitives.is_disjoint(&plan.colored) {
+                planes.push(self.plan_colors(plan, &primitives));
+            }
             // Record the planes of the material.
             if !planes.is_empty() {
                 plan.materials.push(MaterialPlanes {
-                    material,
+                    material: Some(material),
                     primitives,
                     slots: planes,
                 });
             }
         }
+    }
+}
+
+impl PlannedGroup<'_> {
+    /// Adds a material with a texture for the vertex colors of primitives without a material.
+    fn plan_plain(&self, plan: &mut BakePlan, primitives: &[Primitive]) {
+        let plain = |index: &usize| primitives[*index].material.is_none();
+        let colored = self.members.intersection(&plan.colored);
+        let primitives: BTreeSet<usize> = colored.copied().filter(plain).collect();
+        if !primitives.is_empty() {
+            let plane = self.plan_colors(plan, &primitives);
+            plan.materials.push(MaterialPlanes {
+                material: None,
+                primitives,
+                slots: vec![plane],
+            });
+        }
+    }
+
+    /// Adds a base-color texture of vertex colors alone. Returns its slot and its plane.
+    fn plan_colors(&self, plan: &mut BakePlan, primitives: &BTreeSet<usize>) -> (String, usize) {
+        let source = |&primitive: &usize| {
+            let source = PlaneSource {
+                texture: None,
+                tint: Tint::NONE,
+                is_colored: plan.colored.contains(&primitive),
+            };
+            (primitive, source)
+        };
+        let wanted = BakePlane {
+            name: format!("{}_{}", self.name, word(BASE_COLOR)),
+            group: self.number,
+            encoding: Encoding::Color,
+            filters: [None; 2],
+            sources: primitives.iter().map(source).collect(),
+        };
+        let plane = joined(&mut plan.planes, self.first, wanted);
+        (BASE_COLOR.to_owned(), plane)
     }
 }
 

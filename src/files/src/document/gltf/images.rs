@@ -11,6 +11,9 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 /// Extension of textures with a `WebP` image.
 pub(super) const WEBP: &str = "EXT_texture_webp";
 
+/// Extension of textures with a KTX2 image.
+pub(super) const KTX2: &str = "KHR_texture_basisu";
+
 /// Returns the image of a texture that can be read: its `WebP` image, which renderers prefer, or else its own.
 pub(super) fn source(texture: &Value) -> Result<Option<usize>, DocumentError> {
     let webp = extension(texture, WEBP);
@@ -18,6 +21,15 @@ pub(super) fn source(texture: &Value) -> Result<Option<usize>, DocumentError> {
     match webp.flatten() {
         Some(image) => Ok(Some(image)),
         None => unsigned(texture, "source"),
+    }
+}
+
+/// Returns the image of a texture from which it can be resampled: as [`source`], or a KTX2 image if there is no other.
+pub(super) fn readable(texture: &Value) -> Result<Option<usize>, DocumentError> {
+    let ktx2 = extension(texture, KTX2);
+    match (source(texture)?, ktx2) {
+        (None, Some(ktx2)) => unsigned(ktx2, "source"),
+        (image, _) => Ok(image),
     }
 }
 

@@ -28,8 +28,11 @@ mod slots;
 mod tangents;
 mod texcoord_set;
 mod textures;
+mod tiling;
+mod vertex_colors;
 mod write;
 
 pub use buffers::references;
 pub use document::GltfDocument;
 pub use tangents::tangents;
+pub use tiling::TiledTexture;

@@ -7,7 +7,7 @@
 
 use super::document::GltfDocument;
 use super::json::{invalid, item, object_mut, remove, remove_extension};
-use super::slots::Slot;
+use super::slots::{BASE_COLOR, Slot};
 use crate::document::{DocumentError, Encoding, MergedMaterial, PlaneSource, TextureSource, Tint};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -15,7 +15,6 @@ use std::collections::BTreeMap;
 /// Extension with a factor on emitted light, which may exceed 1.
 pub(super) const EMISSIVE_STRENGTH: &str = "KHR_materials_emissive_strength";
 
-const BASE_COLOR: &str = "pbrMetallicRoughness/baseColorTexture";
 const METALLIC_ROUGHNESS: &str = "pbrMetallicRoughness/metallicRoughnessTexture";
 const NORMAL: &str = "normalTexture";
 const OCCLUSION: &str = "occlusionTexture";
@@ -55,11 +54,13 @@ struct Member<'a> {
 }
 
 impl Replacement {
-    /// Merges materials, given their textures. All must agree in their traits.
+    /// Merges materials, given their textures; `is_colored` if a texture of base colors is needed in any case. All must
+    /// agree in their traits.
     pub fn new(
         document: &GltfDocument,
         merged: &MergedMaterial,
         slots: &BTreeMap<usize, Vec<Slot>>,
+        is_colored: bool,
     ) -> Result<Self, DocumentError> {
         let members: Vec<Member> = (merged.members.iter())
             .map(|&index| {
@@ -95,7 +96,7 @@ impl Replacement {
             planes: Vec::new(),
         };
         // Draw the core textures, then those of extensions, whose factors agree.
-        replacement.draw_base_color(&members)?;
+        replacement.draw_base_color(&members, is_colored)?;
         replacement.draw_surface(&members)?;
         replacement.draw_normals(&members);
         replacement.draw_emission(&members)?;
@@ -149,7 +150,11 @@ impl Replacement {
         Ok(())
     }
 
-    fn draw_base_color(&mut self, members: &[Member]) -> Result<(), DocumentError> {
+    fn draw_base_color(
+        &mut self,
+        members: &[Member],
+        is_colored: bool,
+    ) -> Result<(), DocumentError> {
         let is_opaque = self
             .material
             .get("alphaMode")
@@ -174,7 +179,7 @@ impl Replacement {
                 member.drawn(BASE_COLOR, tint, tint)
             })
             .collect();
-        if is_needed(&drawn) {
+        if is_colored || is_needed(&drawn) {
             self.push(&[BASE_COLOR], Encoding::Color, members, drawn);
         }
         Ok(())
@@ -340,6 +345,7 @@ impl Drawn<'_> {
         PlaneSource {
             texture: self.source.cloned(),
             tint: self.tint,
+            is_colored: false,
         }
     }
 

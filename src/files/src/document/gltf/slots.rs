@@ -11,6 +11,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Extension with directions of anisotropy, which are relative to tangents: they turn with the UVs.
 pub(super) const ANISOTROPY: &str = "KHR_materials_anisotropy";
 
+/// Path of the texture of base colors within a material.
+pub(super) const BASE_COLOR: &str = "pbrMetallicRoughness/baseColorTexture";
+
 /// A texture of a material, with the way to resample it or the reason why that is impossible.
 pub(super) struct Slot {
     pub texture: TextureUse,
@@ -93,7 +96,7 @@ impl Resampled {
         }
         let invalid = |error: DocumentError| error.to_string();
         let object = item(json, "textures", texture.texture).map_err(invalid)?;
-        let image = images::source(object).map_err(invalid)?;
+        let image = images::readable(object).map_err(invalid)?;
         let image = image.ok_or_else(|| no_image(object))?;
         let sampler = unsigned(object, "sampler").map_err(invalid)?;
         let sampler = sampler.and_then(|sampler| item(json, "samplers", sampler).ok());
@@ -114,7 +117,7 @@ impl Resampled {
 
 /// Returns the reason why a texture has no image that can be read, with the extension and the image that it names.
 fn no_image(texture: &Value) -> String {
-    let readable = "its image is not PNG, JPEG or WebP";
+    let readable = "its image is not PNG, JPEG, WebP or KTX2";
     let extensions = texture.get("extensions").and_then(Value::as_object);
     let named = extensions.into_iter().flatten().find_map(|(name, object)| {
         let image = unsigned(object, "source").ok().flatten()?;

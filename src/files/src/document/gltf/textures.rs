@@ -7,11 +7,12 @@ use super::json::{
     array_mut, as_unsigned, extension, invalid, item, items, object_mut, primitive_mut, remove,
     remove_extension, unsigned,
 };
+use super::vertex_colors;
 use crate::document::bake::MaterialPlanes;
 use crate::document::error::listed;
 use crate::document::{
-    AffectedTexture, BakedTexture, BakedTextures, DocumentError, MergeNote, MergedNote, Primitive,
-    Warning, WriteNotes, uri,
+    AffectedTexture, BakePlan, BakedTexture, BakedTextures, DocumentError, KeptTexture, MergeNote,
+    MergedNote, Primitive, Warning, WriteNotes, uri,
 };
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
@@ -193,17 +194,35 @@ pub(super) fn affected(json: &Value, texture: &TextureUse) -> AffectedTexture {
 
 // Warnings about textures that the new UVs do not fit.
 
+impl GltfDocument {
+    /// Returns the warning about a texture that is not resampled.
+    pub fn kept_warning(&self, kept: &KeptTexture) -> Warning {
+        let texture = named(self, &kept.slot, kept.material);
+        let text = format!(
+            "{texture} is not resampled and keeps its UVs: {}",
+            kept.reason
+        );
+        Warning::new("textures_kept", text)
+    }
+
+    /// Returns the name of a texture by its place in a material.
+    pub fn texture_name(&self, slot: &str, material: usize) -> String {
+        named(self, slot, Some(material))
+    }
+}
+
+fn named(document: &GltfDocument, slot: &str, material: Option<usize>) -> String {
+    let slot = slot.rsplit('/').next().unwrap_or_default();
+    match material {
+        Some(material) => format!("{slot} of {}", document::material_name(document, material)),
+        None => slot.to_owned(),
+    }
+}
+
 /// Returns warnings about textures that show the old layout, and about those that could not be resampled, with the reason.
 pub(super) fn texture_warnings(document: &GltfDocument, notes: &WriteNotes) -> Vec<Warning> {
-    let named = |slot: &str, material: Option<usize>| {
-        let slot = slot.rsplit('/').next().unwrap_or_default();
-        match material {
-            Some(material) => format!("{slot} of {}", document::material_name(document, material)),
-            None => slot.to_owned(),
-        }
-    };
     let stale: Vec<String> = (notes.textures_affected.iter())
-        .map(|texture| named(&texture.slot, texture.material))
+        .map(|texture| named(document, &texture.slot, texture.material))
         .collect();
     let mut warnings = Vec::new();
     if !stale.is_empty() {
@@ -211,14 +230,8 @@ pub(super) fn texture_warnings(document: &GltfDocument, notes: &WriteNotes) -> V
         let text = format!("textures show the old layout ({stale}); `--rebake` resamples them");
         warnings.push(Warning::new("textures_stale", text));
     }
-    warnings.extend(notes.textures_kept.iter().map(|kept| {
-        let texture = named(&kept.slot, kept.material);
-        let text = format!(
-            "{texture} is not resampled and keeps its UVs: {}",
-            kept.reason
-        );
-        Warning::new("textures_kept", text)
-    }));
+    let kept = notes.textures_kept.iter();
+    warnings.extend(kept.map(|kept| document.kept_warning(kept)));
     warnings.extend(apart_warnings(notes));
     warnings
 }
@@ -294,8 +307,40 @@ pub(super) fn insert(
         }
     }
     insert_merged(document, body, baked, &textures, set, notes)?;
+    remove_colors(document, body, &baked.plan)?;
     notes.textures_kept.clone_from(&baked.plan.kept);
+    notes.colors_baked = baked.plan.colored.len();
+    (notes.warnings).extend(colors_kept(document, &baked.plan));
     Ok(resources)
+}
+
+/// Removes the vertex colors that textures have now.
+fn remove_colors(
+    document: &GltfDocument,
+    body: &mut GltfBody,
+    plan: &BakePlan,
+) -> Result<(), DocumentError> {
+    for &index in &plan.colored {
+        let primitive = &document.primitives[index];
+        let object = primitive_mut(&mut body.json, primitive.mesh, primitive.primitive)?;
+        remove(&mut object["attributes"], vertex_colors::COLOR);
+    }
+    Ok(())
+}
+
+/// Returns a warning for each reason why vertex colors stay.
+fn colors_kept(document: &GltfDocument, plan: &BakePlan) -> Vec<Warning> {
+    let mut of_reason: BTreeMap<&str, BTreeSet<usize>> = BTreeMap::new();
+    for (&index, reason) in &plan.colors_kept {
+        let meshes = of_reason.entry(reason).or_default();
+        meshes.insert(document.primitives[index].mesh);
+    }
+    let warning = |(reason, meshes): (&str, BTreeSet<usize>)| {
+        let meshes = document::listed_meshes(document, &meshes);
+        let text = format!("the vertex colors of {meshes} stay as they are: {reason}");
+        Warning::new("colors_kept", text)
+    };
+    of_reason.into_iter().map(warning).collect()
 }
 
 /// Adds the merged materials with their `textures`, and assigns them to their primitives.
@@ -402,17 +447,24 @@ fn sampler(json: &mut Value, [mag, min]: [Option<usize>; 2]) -> Result<usize, Do
     }
 }
 
-/// Returns the material itself if only these primitives have it, else a copy, which is assigned to them.
+/// Returns the material itself if only these primitives have it, else a copy, which is assigned to them. Primitives
+/// without a material get a new one that shows the same.
 fn own_material(
     document: &GltfDocument,
     body: &mut GltfBody,
     of_material: &MaterialPlanes,
 ) -> Result<usize, DocumentError> {
-    let old = of_material.material;
     let primitives: BTreeSet<[usize; 2]> = (of_material.primitives.iter())
         .map(|&index| &document.primitives[index])
         .map(|primitive| [primitive.mesh, primitive.primitive])
         .collect();
+    let Some(old) = of_material.material else {
+        let new = push(&mut body.json, "materials", json!({}))?;
+        for [mesh, primitive] in primitives {
+            primitive_mut(&mut body.json, mesh, primitive)?["material"] = json!(new);
+        }
+        return Ok(new);
+    };
     if users(&body.json, old)?.is_subset(&primitives) {
         return Ok(old);
     }

@@ -118,7 +118,7 @@ fn write(
     // Remove objects that have lost their last reference.
     let places = document.origin.clean(&mut body)?;
     if baked.is_some() {
-        let mut gone = vec![images::WEBP];
+        let mut gone = vec![images::WEBP, images::KTX2];
         if notes.merged.is_some() {
             gone.extend([EMISSIVE_STRENGTH, TRANSFORM]);
         }

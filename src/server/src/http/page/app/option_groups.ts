@@ -20,6 +20,7 @@ const GROUPS: Record<string, Record<string, Words>> = {
   },
   "UV sets and textures": {
     texcoord: words("Write to UV set"), source_texcoord: words("Take islands of UV set"), overwrite: words("Overwrite the UV set"), rebake: words("Move the textures"),
+    bake_tiled: words("Move textures that repeat"), bake_colors: words("Draw vertex colors into the texture"),
     bake_size: words("Size of moved textures", "px"), image_format: words("Format of moved textures"),
     merge_materials: words("Merge materials"),
   },
