@@ -6,8 +6,8 @@ use unwrapd_files::document::{OutputFormat, Upload};
 use unwrapd_layout::charts::Cut;
 use unwrapd_maps::certificate::outline;
 use unwrapd_pipeline::{
-    Cutting, KeptMaps, Layout, Mapping, Options, Outcome, PipelineError, Preset, RepackOptions,
-    Stacking, Unobserved, Verified, VerifyOptions, repack_document, unwrap_document,
+    Cutting, IslandControl, KeptMaps, Layout, Mapping, Options, Outcome, PipelineError, Preset,
+    RepackOptions, Stacking, Unobserved, Verified, VerifyOptions, repack_document, unwrap_document,
     verify_document,
 };
 
@@ -482,6 +482,36 @@ fn charts_of_one_shape_are_stacked() {
     let apart = stacked(&upload, Stacking::Off, false);
     let density = |outcome: &Outcome| outcome.report.groups[0].texels_per_unit.expect("an area");
     assert!(density(&together) > 1.05 * density(&apart));
+}
+
+#[test]
+fn islands_that_keep_something_of_their_own_get_no_uvs_of_others() {
+    let apart = stacked(&boxes(4, 5.0, true), Stacking::Off, false);
+    let upload = written(&apart);
+    let before = uvs(&upload);
+    let repacked = |rule: &str| {
+        let options = RepackOptions {
+            layout: Layout {
+                stack: Some(Stacking::Identical),
+                ..Layout::default()
+            },
+            control: IslandControl {
+                control: vec![rule.parse().expect("a rule")],
+                ..IslandControl::default()
+            },
+            format: OutputFormat::Obj,
+            ..RepackOptions::default()
+        };
+        repack_document(&upload, &options, &Unobserved).expect("it fits")
+    };
+    let locked = repacked("all: lock");
+    assert_eq!(uvs(&written(&locked)), before);
+    for rule in ["all: group", "all: density keep"] {
+        let outcome = repacked(rule);
+        assert!(outcome.report.certified, "{:?}", outcome.report.warnings);
+        assert_eq!(n_box_places(&outcome), 4, "{rule}");
+    }
+    assert_eq!(n_box_places(&repacked("all: density 20")), 1);
 }
 
 /// Maps the parts of a scene, stacked by shape.

@@ -24,7 +24,7 @@ pub struct Copies {
 }
 
 impl Copies {
-    /// Finds the copies among parts that are given by their faces.
+    /// Finds the copies among parts that are given by their faces. Parts whose rules hold for each by itself have none.
     pub fn among(
         mesh: Soup,
         parts: impl IntoIterator<Item = Vec<u32>>,
@@ -42,6 +42,10 @@ impl Copies {
         let mut used: HashSet<EdgeUse> = HashSet::new();
         for faces in parts {
             let part = Part::new(mesh, faces);
+            if !may_share(mesh.seams, &part.faces) {
+                used.extend(edge_uses(mesh, &part.itself()));
+                continue;
+            }
             let key = |step: i64| (part.faces.len(), part.positions.len(), step);
             let step = (part.size.ln() / LARGEST_TOLERANCE)
                 .floor()
@@ -90,6 +94,15 @@ impl Copies {
         }
         holds
     }
+}
+
+/// Returns whether the rules of some faces allow that they share the UVs of others.
+fn may_share(seams: &Seams, faces: &[u32]) -> bool {
+    let is_by_itself = |&face: &u32| {
+        let control = seams.control.as_ref();
+        control.is_some_and(|control| control.of(face).is_by_itself())
+    };
+    !faces.iter().any(is_by_itself)
 }
 
 /// A mesh without the parts that are copies of others.
