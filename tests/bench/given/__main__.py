@@ -5,7 +5,7 @@
     python3 tests/bench/given [--unwrapd target/release/unwrapd] stacks | control | polygons [FILE...]
 
 The interpreter needs numpy and shapely. `islands` compares what the certificate calls each island with an own reading of the
-file, and repacks it with the options off, also with the program OTHER. `stacks` unwraps models whose parts repeat, plants near
+file, and repacks it with the options off, also with the program OTHER; odd UV sets are made here. `stacks` unwraps models whose parts repeat, plants near
 misses and overlaps, and finds the parts that coincide again. `control` has one scene per rule. `polygons` counts polygons of OBJ
 files, made here or given, that are not written as they were. Exits with 1 if anything is not as it should be.
 """

@@ -97,12 +97,14 @@ def triangulation(uv):
 
 
 def obj_mesh(path):
-    """The polygons of an OBJ as triangles."""
+    """The polygons of an OBJ that have UVs, as triangles."""
     obj = read_obj(path)
-    if not obj.corners or any(texcoords is None for texcoords in obj.texcoords):
-        raise Unreadable("a face without UVs")
+    if all(texcoords is None for texcoords in obj.texcoords):
+        raise Unreadable("no UVs")
     faces, uv, materials = [], [], []
     for corners, texcoords, material in zip(obj.corners, obj.texcoords, obj.materials):
+        if texcoords is None:
+            continue
         for triangle in triangulation(obj.uvs[texcoords].tolist()):
             faces.append([corners[k] for k in triangle])
             uv.append([texcoords[k] for k in triangle])
@@ -111,7 +113,7 @@ def obj_mesh(path):
 
 
 def write_obj(path, positions, polygons, uvs=None, materials=None, colors=None):
-    """Writes polygons; `uvs` holds a list of UVs per polygon, `materials` a name, and `colors` belong to vertices."""
+    """Writes polygons; `uvs` holds a list of UVs per polygon or None, `materials` a name, and `colors` belong to vertices."""
     lines, texcoord, last = [], 1, None
     colored = colors if colors is not None else [()] * len(positions)
     lines += ["v " + " ".join(repr(float(x)) for x in (*p, *c)) for p, c in zip(positions, colored)]
@@ -119,7 +121,7 @@ def write_obj(path, positions, polygons, uvs=None, materials=None, colors=None):
         if materials is not None and materials[k] != last:
             last = materials[k]
             lines.append(f"usemtl {last}")
-        if uvs is None:
+        if uvs is None or uvs[k] is None:
             lines.append("f " + " ".join(str(v + 1) for v in polygon))
         else:
             lines += [f"vt {u!r} {v!r}" for u, v in np.asarray(uvs[k], float).tolist()]
@@ -208,7 +210,7 @@ def triangles(indices, mode):
 
 
 def gltf_meshes(path, texcoord=0):
-    """The atlases of a glTF: one per material, and one per mesh for what has none."""
+    """The atlases of the primitives with UVs: one per material, and one per mesh for what has none."""
     gltf = Gltf(path)
     parts = {}
     for mesh, primitive, positions, faces in gltf.primitives():
@@ -216,11 +218,11 @@ def gltf_meshes(path, texcoord=0):
         key = (0, material) if material is not None else (1, mesh)
         attribute = primitive["attributes"].get(f"TEXCOORD_{texcoord}")
         if attribute is None:
-            raise Unreadable("a primitive without UVs")
+            continue
         uv = np.asarray(gltf.accessor(attribute), float)[faces].reshape(-1, 3, 2)
         parts.setdefault(key, []).append((positions, faces, uv))
     if not parts:
-        raise Unreadable("no triangles")
+        raise Unreadable("no UVs")
     meshes = []
     for (kind, number), all_parts in parts.items():
         first = np.cumsum([0] + [len(positions) for positions, _, _ in all_parts])

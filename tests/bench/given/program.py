@@ -5,6 +5,9 @@ from pathlib import Path
 
 # Exit statuses with a file: done, or not certified.
 WRITTEN = (0, 4)
+# Seconds after which a run counts as endless, and its status. Most take less than one.
+PATIENCE = 60
+ENDLESS = -1
 
 
 class Program:
@@ -12,7 +15,11 @@ class Program:
         self.path = str(path)
 
     def run(self, *arguments):
-        return subprocess.run([self.path, *map(str, arguments)], capture_output=True, text=True, check=False)
+        command = [self.path, *map(str, arguments)]
+        try:
+            return subprocess.run(command, capture_output=True, text=True, check=False, timeout=PATIENCE)
+        except subprocess.TimeoutExpired:
+            return subprocess.CompletedProcess(command, ENDLESS, "", f"no end after {PATIENCE} s")
 
     def written(self, command, path, out, *options):
         """The report and the exit status; no report if there is no file."""

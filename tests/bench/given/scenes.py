@@ -192,6 +192,27 @@ def squares(random, n=12):
     return found
 
 
+# Odd UVs.
+
+
+def odd_uvs():
+    """UV sets that nobody would make on purpose: positions, polygons and UVs each."""
+    part = grid(4, 4, lambda u, v: (u, v, 0.1 * u * v))
+    plain = [part.positions[polygon][:, :2] for polygon in part.polygons]
+    maps = {
+        "zero": lambda p: 0 * p, "on a line": lambda p: p * (1, 0), "huge": lambda p: 1e30 * p, "tiny": lambda p: 1e-30 * p,
+        "far": lambda p: p + 1e6, "negative": lambda p: -p, "mirrored": lambda p: p * (-1, 1), "tiled": lambda p: 7.3 * p,
+        "folded over": lambda p: np.abs(p - (0.5, 0)), "one spot per face": lambda p: 0 * p + p[0], "NaN": lambda p: p + np.nan,
+        "infinite": lambda p: p + np.inf, "each face by itself": lambda p: 0.9 * p + 0.1 * p.mean(0),
+        "all faces in one place": lambda p: p - p.min(0),
+    }
+    found = {name: [of(uv) for uv in plain] for name, of in maps.items()}
+    found["a face of NaN"] = [plain[0] + np.nan, *plain[1:]]
+    found["a face without UVs"] = [None, *plain[1:]]
+    found["half of the faces without UVs"] = [None if k % 2 else uv for k, uv in enumerate(plain)]
+    return {name: (part.positions, part.polygons, uvs) for name, uvs in found.items()}
+
+
 # Meshes of polygons.
 
 

@@ -63,16 +63,16 @@ def recomputed(path):
     return len(stacks), sum(map(len, stacks)), gained, len(overlapping)
 
 
-def shown(program, name, parts, wanted, stacking, folder):
+def shown(program, name, parts, wanted, stacking, folder, *options):
     """One line of the table. Returns the number of faults."""
     given, out = folder / "parts.obj", folder / "stacked.obj"
     ranges = write_parts(given, parts)
-    report, status = program.written("unwrap", given, out, "--stack", stacking, "--resolution", SIDE)
+    report, status = program.written("unwrap", given, out, "--stack", stacking, "--resolution", SIDE, *options)
     if report is None:
         print(f"{name} | {stacking} | refused")
         return 1
     said = report["groups"][0].get("stacks") or {"stacks": 0, "charts": 0, "texels_gained": 0}
-    plain, _ = program.written("unwrap", given, folder / "plain.obj", "--resolution", SIDE)
+    plain, _ = program.written("unwrap", given, folder / "plain.obj", "--resolution", SIDE, *options)
     density = report["groups"][0]["texels_per_unit"] / plain["groups"][0]["texels_per_unit"]
     n_stacks, n_islands, gained, overlapping = recomputed(out)
     accepted, refused = (program.verified(out, option)[1] for option in ("--stacks", "--bijective"))
@@ -161,6 +161,8 @@ def run(program, _before, files, folder):
         for stacking in ("identical", "mirrored"):
             parts, wanted = model(np.random.default_rng(3))
             faults += shown(program, name, parts, wanted, stacking, folder)
+            if wanted is None:
+                faults += shown(program, f"{name}, --cut fast", parts, wanted, stacking, folder, "--cut", "fast")
     parts, identical, mirrored = near_misses(np.random.default_rng(4))
     for stacking, wanted in (("identical", identical), ("mirrored", mirrored)):
         faults += shown(program, "near misses", parts, wanted, stacking, folder)
@@ -169,4 +171,5 @@ def run(program, _before, files, folder):
             obj = read_obj(path)
             whole = type("Whole", (), {"positions": obj.positions, "polygons": obj.corners, "material": ""})
             faults += shown(program, path.stem, [whole], None, stacking, folder)
+            faults += shown(program, f"{path.stem}, --cut fast", [whole], None, stacking, folder, "--cut", "fast")
     return faults + plants(program, folder)
