@@ -2,8 +2,8 @@
 use proptest::prelude::*;
 use std::sync::Mutex;
 use unwrapd_layout::atlas::{
-    AtlasError, AtlasOptions, ChartMap, CoarseLayout, Effort, GRID_BITS, Placed, Rotation, Texture,
-    pack,
+    AtlasError, AtlasOptions, ChartMap, CoarseLayout, Effort, GRID_BITS, Placed, Positions,
+    Rotation, Texture, pack,
 };
 use unwrapd_maps::mesh::Resolution;
 use unwrapd_maps::plane::are_disjoint;
@@ -74,9 +74,22 @@ fn charts_without_area_keep_their_shape_and_have_a_place() {
         flattened(0.0, 0.0),
         flattened(1e-39, 1.0),
     );
+    let elsewhere = (
+        point.0.iter().map(|[u, v]| [u + 1.0, *v]).collect(),
+        point.1.clone(),
+    );
     let mixed = [good.clone(), line.clone(), point.clone(), hair.clone()];
-    for charts in [&mixed[..], &[line], &[point], &[hair]] {
-        let atlas = pack(&maps(charts), &AtlasOptions::default()).unwrap();
+    let points = [point, elsewhere];
+    let sets = [&mixed[..], &[line], &points[..1], &[hair], &points];
+    for (charts, positions) in sets
+        .iter()
+        .flat_map(|charts| [(charts, Positions::Unrelated), (charts, Positions::Layout)])
+    {
+        let options = AtlasOptions {
+            positions,
+            ..AtlasOptions::default()
+        };
+        let atlas = pack(&maps(charts), &options).unwrap();
         assert!(atlas.scale.is_finite() && atlas.scale > 0.0);
         let unit = atlas.scale * f64::from(1 << GRID_BITS);
         for ((uv, _), placed) in charts.iter().zip(&atlas.placed) {

@@ -4,8 +4,8 @@ use unwrapd_files::document::{Document, OutputFormat, Upload};
 use unwrapd_maps::certificate::chart_ids;
 use unwrapd_maps::mesh::{CornerUvs, Resolution};
 use unwrapd_pipeline::{
-    Island, IslandError, Layout, Options, Outcome, PipelineError, RepackOptions, Unobserved,
-    VerifyOptions, repack_document, unwrap_document, verify_document,
+    Island, IslandError, Layout, MeasureOptions, Options, Outcome, PipelineError, RepackOptions,
+    Unobserved, VerifyOptions, repack_document, unwrap_document, verify_document,
 };
 
 use crate::places;
@@ -139,15 +139,70 @@ fn a_part_without_uvs_stays_without() {
             .to_string()
             .contains("left out: 2 primitives")
     );
-    // An OBJ has one mesh: no part of it can be left out.
-    let mut obj = options(Vec::new());
-    obj.format = OutputFormat::Obj;
-    let error = repack_document(&upload, &obj, &Unobserved).expect_err("it is refused");
-    assert_eq!(error.code(), "no_uvs");
+}
+
+#[test]
+fn polygons_of_an_obj_without_uvs_stay_without() {
+    let mut given = String::from_utf8(squares(&FOUR).bytes).expect("text");
+    given += "\nf 1 2 3 4\nusemtl bare\nf 5 6 7\n";
+    let upload = Upload::single("partly.obj", given.clone().into_bytes());
+    let repack = RepackOptions {
+        format: OutputFormat::Obj,
+        ..options(Vec::new())
+    };
+    let outcome = repacked(&upload, &repack);
+    assert!(outcome.report.certified, "{:?}", outcome.report.warnings);
+    let mut warnings = outcome.report.warnings.iter();
+    let missing = warnings.find(|warning| warning.code == "uvs_missing");
+    let missing = &missing.expect("a warning").message;
+    assert!(missing.starts_with("3 of 11 triangles"), "{missing}");
+    assert_eq!(outcome.report.groups[0].certificate.faces, 8);
+    // The lines are those of the file.
+    let written = written(&outcome);
+    let text = String::from_utf8(written.bytes.clone()).expect("text");
+    let faces: Vec<&str> = text.lines().filter(|line| line.starts_with("f ")).collect();
+    assert_eq!(faces.len(), 10);
+    assert_eq!(faces[8..], ["f 1 2 3 4", "f 5 6 7"]);
+    assert!(faces[..8].iter().all(|line| line.contains('/')));
+    // They are judged on request only.
+    let judged = |skip_missing: bool| {
+        let judged = MeasureOptions {
+            skip_missing,
+            ..MeasureOptions::default()
+        };
+        let options = VerifyOptions {
+            bijective: true,
+            judged,
+            ..VerifyOptions::default()
+        };
+        verify_document(&written, &options)
+    };
+    let verified = judged(true).expect("a judgment");
+    assert!(verified.certified, "{:?}", verified.lacking);
+    assert_eq!(verified.judged.skipped_faces, 3);
+    let first_line = verified.judged.to_string();
     assert!(
-        error.to_string().starts_with("2 of 10 triangles"),
-        "{error}"
+        first_line.ends_with("left out: 3 triangles without UVs"),
+        "{first_line}"
     );
+    assert_eq!(judged(false).expect_err("refused").code(), "no_uvs");
+    // Islands are named by the faces of the file, of which the first two have none.
+    let bare_first = given.replacen("f 1/1", "f 1 2 3 4\nf 1/1", 1);
+    let upload = Upload::single("partly.obj", bare_first.into_bytes());
+    let of_face = |face: u32| RepackOptions {
+        islands: vec![island(face)],
+        ..repack.clone()
+    };
+    let stayed = repacked(&upload, &of_face(4));
+    let text = String::from_utf8(self::written(&stayed).bytes).expect("text");
+    let uvs = text.lines().filter_map(|line| {
+        let numbers = line.strip_prefix("vt ")?.split(' ');
+        Some(numbers.map(|x| x.parse().expect("a number")).collect())
+    });
+    let is_at = |uv: Vec<f64>| (0..2).all(|k| (uv[k] - FOUR[1].0[k]).abs() < 1e-6);
+    assert!(uvs.into_iter().any(is_at), "{text}");
+    let error = repack_document(&upload, &of_face(1), &Unobserved).expect_err("no island");
+    assert_eq!(error.code(), "unknown_face");
 }
 
 #[test]

@@ -4,9 +4,10 @@ use crate::islands::{island, squares, uvs, written};
 use std::collections::BTreeSet;
 use unwrapd_files::document::{OutputFormat, Upload};
 use unwrapd_layout::charts::Cut;
+use unwrapd_maps::certificate::outline;
 use unwrapd_pipeline::{
-    Cutting, KeptMaps, Layout, Mapping, Options, Outcome, PipelineError, Preset, RepackOptions,
-    Stacking, Unobserved, Verified, VerifyOptions, repack_document, unwrap_document,
+    Cutting, IslandControl, KeptMaps, Layout, Mapping, Options, Outcome, PipelineError, Preset,
+    RepackOptions, Stacking, Unobserved, Verified, VerifyOptions, repack_document, unwrap_document,
     verify_document,
 };
 
@@ -393,6 +394,124 @@ fn a_part_that_is_there_twice_is_not_stacked_on_itself() {
     let certificate = &outcome.report.groups[0].certificate;
     assert!(certificate.is_valid());
     assert_eq!(certificate.overlapping_pairs_same_chart, Some(0));
+}
+
+/// Boxes in an OBJ file, each turned about an axis, this far from the one before. Their sides begin at various corners and are
+/// quads, or triangles with various diagonals.
+fn boxes(n: usize, apart: f64, as_triangles: bool) -> Upload {
+    const SIDES: [[usize; 4]; 6] = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let mut lines = Vec::new();
+    for k in 0..n {
+        let (sin, cos) = (0.37 * k as f64).sin_cos();
+        for v in 0..8 {
+            let at = |axis: usize, side: f64| if v >> axis & 1 == 1 { side } else { 0.0 };
+            let [x, y, z] = [at(0, 1.0), at(1, 1.5), at(2, 2.25)];
+            let [x, y] = [cos * x - sin * y, sin * x + cos * y];
+            lines.push(format!("v {} {y} {z}", x + apart * k as f64));
+        }
+        for (side, corners) in SIDES.iter().enumerate() {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|c| 8 * k + corners[(c + k + side) % 4] + 1);
+            if as_triangles {
+                lines.extend([format!("f {a} {b} {c}"), format!("f {a} {c} {d}")]);
+            } else {
+                lines.push(format!("f {a} {b} {c} {d}"));
+            }
+        }
+    }
+    Upload::single("boxes.obj", lines.join("\n").into_bytes())
+}
+
+/// Number of boxes that lie apart: outlines of their twelve triangles.
+fn n_box_places(outcome: &Outcome) -> usize {
+    let faces = uvs(&written(outcome));
+    faces.chunks(12).map(outline).collect::<BTreeSet<_>>().len()
+}
+
+#[test]
+fn copies_may_have_other_triangles_in_flat_areas() {
+    for as_triangles in [false, true] {
+        let outcome = stacked(&boxes(40, 5.0, as_triangles), Stacking::Identical, false);
+        assert!(outcome.report.certified, "{:?}", outcome.report.warnings);
+        assert_eq!(n_box_places(&outcome), 1, "{as_triangles}");
+        assert!(verified(&outcome, true).certified);
+    }
+}
+
+#[test]
+fn copies_far_from_the_origin_are_found_in_spite_of_rounding() {
+    // At 10,000 units, numbers are multiples of 1/1024, and boxes differ by more than a ten-thousandth.
+    let outcome = stacked(&boxes(6, 2000.0, true), Stacking::Identical, false);
+    assert!(outcome.report.certified, "{:?}", outcome.report.warnings);
+    assert_eq!(n_box_places(&outcome), 1);
+}
+
+#[test]
+fn charts_of_one_shape_are_stacked() {
+    // Both caps of a prism over a polygon that is its own mirror image, cut off by hard edges.
+    let n = 12;
+    let mut lines = Vec::new();
+    for z in [0.0, 0.5] {
+        for k in 0..n {
+            let radius = if k % 2 == 0 { 1.0 } else { 1.4 };
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(n)).sin_cos();
+            lines.push(format!("v {} {} {z}", radius * cos, radius * sin));
+        }
+    }
+    let polygon = |vertices: Vec<i32>| {
+        let numbers: Vec<String> = vertices.iter().map(ToString::to_string).collect();
+        format!("f {}", numbers.join(" "))
+    };
+    lines.push(polygon((1..=n).rev().collect()));
+    lines.push(polygon((n + 1..=2 * n).collect()));
+    for k in 0..n {
+        let next = (k + 1) % n;
+        lines.push(polygon(vec![k + 1, next + 1, n + next + 1, n + k + 1]));
+    }
+    let upload = Upload::single("prism.obj", lines.join("\n").into_bytes());
+    let together = stacked(&upload, Stacking::Identical, false);
+    assert!(together.report.certified, "{:?}", together.report.warnings);
+    assert!(together.report.groups[0].stacks.is_some());
+    assert!(verified(&together, true).certified && !verified(&together, false).certified);
+    let apart = stacked(&upload, Stacking::Off, false);
+    let density = |outcome: &Outcome| outcome.report.groups[0].texels_per_unit.expect("an area");
+    assert!(density(&together) > 1.05 * density(&apart));
+}
+
+#[test]
+fn islands_that_keep_something_of_their_own_get_no_uvs_of_others() {
+    let apart = stacked(&boxes(4, 5.0, true), Stacking::Off, false);
+    let upload = written(&apart);
+    let before = uvs(&upload);
+    let repacked = |rule: &str| {
+        let options = RepackOptions {
+            layout: Layout {
+                stack: Some(Stacking::Identical),
+                ..Layout::default()
+            },
+            control: IslandControl {
+                control: vec![rule.parse().expect("a rule")],
+                ..IslandControl::default()
+            },
+            format: OutputFormat::Obj,
+            ..RepackOptions::default()
+        };
+        repack_document(&upload, &options, &Unobserved).expect("it fits")
+    };
+    let locked = repacked("all: lock");
+    assert_eq!(uvs(&written(&locked)), before);
+    for rule in ["all: group", "all: density keep"] {
+        let outcome = repacked(rule);
+        assert!(outcome.report.certified, "{:?}", outcome.report.warnings);
+        assert_eq!(n_box_places(&outcome), 4, "{rule}");
+    }
+    assert_eq!(n_box_places(&repacked("all: density 20")), 1);
 }
 
 /// Maps the parts of a scene, stacked by shape.

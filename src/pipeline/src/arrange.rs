@@ -120,6 +120,16 @@ impl LiveIslands {
             ..
         } = Prepared::read(upload, &unwrap, &plan)?;
         let primitives = document.primitives();
+        // Islands are named by the faces of the file.
+        let missing = document.n_left_out();
+        if missing > 0 {
+            return Err(PipelineError::PartlyNoUvs {
+                group: document.groups(group_by)[0].label.clone(),
+                texcoord: unwrap.sets.source(),
+                missing,
+                triangles: missing + primitives[0].triangles.len(),
+            });
+        }
         let texture = Texture {
             resolution: options.layout.resolution,
             pages: options.layout.pages,

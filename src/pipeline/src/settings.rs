@@ -42,7 +42,7 @@ pub enum Stacking {
     Off,
     /// Islands that coincide stay together.
     Keep,
-    /// Parts that are equal but for a rigid motion are mapped once and stacked, too.
+    /// Parts and charts that are equal but for a rigid motion are mapped once and stacked, too.
     Identical,
     /// Parts that are mirror images of each other, too.
     Mirrored,
@@ -72,8 +72,10 @@ options! {
         /// Islands that share their texels, stacked on each other. off: none. keep: those that
         /// coincide stay together, which requires `cut` keep and `kept_maps` as-given. identical:
         /// parts of one shape and material are mapped once, too; parts are what is connected, and
-        /// shapes may differ by a rigid motion and by a ten-thousandth of their radius. mirrored:
-        /// mirror images, too. The default is keep for `repack`, otherwise off.
+        /// the charts into which that is cut. Shapes may differ by a rigid motion, by the triangles
+        /// of flat areas, and by a ten-thousandth of their radius or what the rounding of their
+        /// coordinates explains, up to a thousandth. mirrored: mirror images, too. The default is
+        /// keep for `repack`, otherwise off.
         pub stack: Option<Stacking>;
         /// Move all islands of a stack but the first by one tile along u, so that baking tools draw
         /// the first one alone. Textures repeat, so they still share its texels, and the report is

@@ -132,6 +132,32 @@ impl Document {
         }
     }
 
+    /// Leaves out the faces of an OBJ that have no UVs, if others have: they are written as they are. In glTF, whole primitives
+    /// have none.
+    #[must_use]
+    pub fn with_mapped_faces(self) -> Self {
+        match self {
+            Self::Obj(document) => Self::Obj(document.with_mapped_faces()),
+            other => other,
+        }
+    }
+
+    /// Returns the numbers of the faces that [`with_mapped_faces`](Self::with_mapped_faces) has kept; `None` if all are.
+    pub fn kept_faces(&self) -> Option<&[u32]> {
+        match self {
+            Self::Obj(document) => document.kept_faces(),
+            Self::Gltf(_) | Self::Soup(_) => None,
+        }
+    }
+
+    /// Returns the number of faces that [`with_mapped_faces`](Self::with_mapped_faces) has left out.
+    pub fn n_left_out(&self) -> usize {
+        match self {
+            Self::Obj(document) => document.n_left_out(),
+            Self::Gltf(_) | Self::Soup(_) => 0,
+        }
+    }
+
     /// Returns for each corner of a primitive's faces the index of its corner of a polygon, and the number of those;
     /// `None` for a file that is not written back with polygons.
     pub fn polygon_corners(&self, primitive: usize) -> Option<(&[[u32; 3]], u32)> {

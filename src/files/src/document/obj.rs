@@ -27,6 +27,8 @@ pub struct ObjDocument {
     bytes: Vec<u8>,
     obj: Obj,
     primitives: Vec<Primitive>,
+    /// Numbers of the triangles that are not left out; `None` if none is.
+    kept: Option<Vec<u32>>,
     resources: BTreeMap<String, Vec<u8>>,
     warnings: Vec<Warning>,
 }
@@ -47,9 +49,45 @@ impl ObjDocument {
             bytes,
             obj,
             primitives: vec![primitive],
+            kept: None,
             resources,
             warnings,
         })
+    }
+
+    /// Leaves out the polygons without texture coordinates, which are written as they are, unless that is all.
+    #[must_use]
+    pub fn with_mapped_faces(mut self) -> Self {
+        let (mut kept, mut first) = (Vec::new(), 0);
+        for polygon in self.obj.polygons() {
+            let end = first + polygon.len().saturating_sub(2) as u32;
+            if polygon.iter().all(|corner| corner.texcoord.is_some()) {
+                kept.extend(first..end);
+            }
+            first = end;
+        }
+        if kept.is_empty() || kept.len() == self.obj.corner_triangles.len() {
+            return self;
+        }
+        for triangles in [
+            &mut self.obj.corner_triangles,
+            &mut self.primitives[0].triangles,
+        ] {
+            *triangles = kept.iter().map(|&face| triangles[face as usize]).collect();
+        }
+        self.kept = Some(kept);
+        self
+    }
+
+    /// Returns the numbers of the triangles that are not left out; `None` if none is.
+    pub fn kept_faces(&self) -> Option<&[u32]> {
+        self.kept.as_deref()
+    }
+
+    /// Returns the number of triangles that are left out.
+    pub fn n_left_out(&self) -> usize {
+        let all: usize = self.polygon_sizes().map(|n| n.saturating_sub(2)).sum();
+        all - self.obj.corner_triangles.len()
     }
 
     /// Moves the triangles of the document by a map.

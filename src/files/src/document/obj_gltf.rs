@@ -25,8 +25,11 @@ impl ObjDocument {
     /// Returns the material of each triangle; `None` for one without.
     pub fn face_materials(&self) -> Vec<Option<usize>> {
         let parts = parts_of_faces(self, &ObjParts::of(self.bytes()));
-        let materials = parts.iter().map(|part| part.material);
-        materials.map(|material| Some(material? as usize)).collect()
+        let material = |face: usize| Some(parts[face].material? as usize);
+        match self.kept_faces() {
+            Some(kept) => kept.iter().map(|&face| material(face as usize)).collect(),
+            None => (0..parts.len()).map(material).collect(),
+        }
     }
 
     /// Returns the color of each vertex, linear; `None` if no vertex has one.

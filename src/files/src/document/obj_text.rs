@@ -138,6 +138,8 @@ struct ObjFaces<'a> {
     positions: &'a [[f32; 3]],
     /// Numbers per triangle.
     numbers: Vec<[u32; 3]>,
+    /// `true` if polygons without texture coordinates stay without, and their triangles are not in `obj`.
+    leaves_out: bool,
     line_end: &'static str,
     n_polygons: usize,
     n_corners: usize,
@@ -157,10 +159,12 @@ impl<'a> ObjFaces<'a> {
             let vertices = corners.map(|corner| obj.corners[corner as usize].vertex);
             [0, 1, 2].map(|c| lines.number(vertices[c], uvs[c], line_end))
         });
+        let n_all: usize = obj.polygons().map(|p| p.len().saturating_sub(2)).sum();
         Self {
             obj,
             positions,
             numbers: numbers.collect(),
+            leaves_out: obj.corner_triangles.len() < n_all,
             line_end,
             n_polygons: 0,
             n_corners: 0,
@@ -178,7 +182,8 @@ impl<'a> ObjFaces<'a> {
         let polygon = &self.obj.corners[start..end];
         self.n_polygons += 1;
         // A polygon without triangles has no texture coordinates.
-        if polygon.len() < 3 {
+        let is_unmapped = || polygon.iter().any(|corner| corner.texcoord.is_none());
+        if polygon.len() < 3 || (self.leaves_out && is_unmapped()) {
             let corners = polygon.iter().map(|corner| (corner, None));
             push_face(text, corners, self.line_end);
             return;

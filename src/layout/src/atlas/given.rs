@@ -29,8 +29,8 @@ pub(super) enum Tidiness {
     Leaning,
 }
 
-/// Squeezes the charts where they lie. Returns `None` for a crowd, for several pages, if outlines meet, or if the charts cannot be
-/// separated where they are.
+/// Squeezes the charts where they lie. Returns `None` for a crowd, for several pages, without an area, if outlines meet, or if the
+/// charts cannot be separated where they are.
 pub(super) fn given(
     charts: &[ChartMap],
     options: &AtlasOptions,
@@ -42,7 +42,7 @@ pub(super) fn given(
     let plan = Plan::largest_first(limited.collect(), Rotation::None);
     let outlines = &plan.outlines;
     let is_one_page = (1..=MOST_CHARTS).contains(&plan.order.len()) && texture.pages == 1;
-    if !is_one_page || do_meet(outlines) {
+    if !is_one_page || !plan.has_area() || do_meet(outlines) {
         return Ok(None);
     }
     // The smallest page around all charts.

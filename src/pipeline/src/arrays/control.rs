@@ -72,6 +72,13 @@ impl FaceRules {
         )
     }
 
+    /// Returns whether each island keeps something of its own, so that it cannot get the UVs of another one.
+    pub fn is_by_itself(&self) -> bool {
+        self.lock.is_some()
+            || self.group.is_some()
+            || matches!(self.density, Some(DensityRule::Kept))
+    }
+
     /// Returns the number of the rule that an action contradicts, if there is one.
     fn contradicted(&self, action: &Action) -> Option<u32> {
         match action {

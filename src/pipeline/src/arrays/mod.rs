@@ -20,6 +20,7 @@ pub(super) mod placement;
 pub(super) mod plan;
 pub(super) mod position_key;
 pub(super) mod repeated;
+mod same_shape;
 pub(super) mod seams;
 pub(super) mod settings;
 pub(super) mod soup;

@@ -172,6 +172,11 @@ impl Plan {
         })
     }
 
+    /// Returns whether parts and charts of one shape are stacked.
+    pub fn stacks_by_shape(&self) -> bool {
+        matches!(self.stacking, Stacking::Identical | Stacking::Mirrored)
+    }
+
     /// Returns whether the present UVs are read.
     pub fn reads_uvs(&self) -> bool {
         self.start != Start::New

@@ -74,7 +74,11 @@ impl Prepared {
             let edges = renumbered(edges, vertices, primitives);
             seams.seams = Some(GivenSeams::Edges(edges));
         }
-        let document = options.nodes().prepared(conversion.document)?;
+        let mut document = options.nodes().prepared(conversion.document)?;
+        if plan.reads_uvs() && options.format == OutputFormat::Obj {
+            document = document.with_mapped_faces();
+        }
+        let kept = document.kept_faces().map(<[u32]>::to_vec);
         Ok(Self {
             merge: rebake::merge_plan(&document, options)?,
             document,
@@ -82,7 +86,7 @@ impl Prepared {
             seams,
             origins: Origins {
                 vertices: conversion.vertices,
-                faces: conversion.faces,
+                faces: kept.or(conversion.faces),
             },
             texture,
         })
@@ -138,8 +142,7 @@ impl Mapped {
     /// Returns all primitives of a document, or those with UVs where the plan begins with these.
     ///
     /// # Errors
-    /// Fails if there are none, or if others cannot be left as they are: textures are resampled for all of a material,
-    /// and an OBJ has one mesh.
+    /// Fails if there are none, or if others cannot be left as they are: textures are resampled for all of a material.
     pub fn of(
         document: &Document,
         options: &Options,
@@ -148,12 +151,22 @@ impl Mapped {
     ) -> Result<Self, PipelineError> {
         let mut groups = document.groups(group_by);
         let set = options.sets.source();
+        let primitives = document.primitives();
+        let missing_of = |missing: usize, all: usize| {
+            let text =
+                format!("{missing} of {all} triangles have no UV set {set} and stay without");
+            Some(Warning::new("uvs_missing", text))
+        };
+        let left_out = document.n_left_out();
+        if left_out > 0 {
+            let warning = missing_of(left_out, left_out + primitives[0].triangles.len());
+            return Ok(Self { groups, warning });
+        }
         let can_leave = options.format != OutputFormat::Obj && !options.baking.rebake;
         if !plan.reads_uvs() || !can_leave {
             let warning = None;
             return Ok(Self { groups, warning });
         }
-        let primitives = document.primitives();
         let has_uvs = (0..primitives.len())
             .map(|index| Ok(document.corner_uvs(index, set)?.is_some()))
             .collect::<Result<Vec<bool>, DocumentError>>()?;
@@ -170,12 +183,8 @@ impl Mapped {
             group.primitives.retain(|&index| has_uvs[index]);
         }
         groups.retain(|group| !group.primitives.is_empty());
-        let all = count(&|_| true);
-        let text = format!("{missing} of {all} triangles have no UV set {set} and stay without");
-        Ok(Self {
-            groups,
-            warning: Some(Warning::new("uvs_missing", text)),
-        })
+        let warning = missing_of(missing, count(&|_| true));
+        Ok(Self { groups, warning })
     }
 }
 

@@ -33,7 +33,10 @@ impl FaceAttributes {
         };
         for &index in &group.primitives {
             let triangles = &document.primitives()[index].triangles;
-            let numbers = 0..triangles.len() as u32;
+            // Rules count the faces of the file.
+            let kept = document.kept_faces();
+            let number = |face: usize| kept.map_or(face as u32, |kept| kept[face]);
+            let numbers = (0..triangles.len()).map(number);
             all.faces.extend(numbers.map(|face| [index as u32, face]));
             all.materials.extend(document.face_materials(index));
             let colors = document.vertex_colors(index)?;

@@ -106,9 +106,8 @@ fn unwrap_in_pool(
     };
     let meshes: Vec<Merged> =
         (groups.iter().zip(placed).map(merged)).collect::<Result<_, PipelineError>>()?;
-    let n_faces = document.primitives().iter().map(|it| it.triangles.len());
     let rules = options.control.rules();
-    check_faces(&rules, &n_faces.collect::<Vec<_>>())?;
+    check_faces(&rules, &faces_of_file(&document))?;
     let all_seams: Vec<&Seams> = meshes.iter().map(|mesh| &mesh.seams).collect();
     check_selections(&rules, &all_seams)?;
     seconds.read = watch.lap();
@@ -238,6 +237,13 @@ fn write(
 
 // Islands named by the user, located in the meshes of a document.
 
+/// Returns the number of faces of each primitive, with those that are left out.
+fn faces_of_file(document: &Document) -> Vec<usize> {
+    let primitives = document.primitives().iter();
+    let n_faces = primitives.map(|it| it.triangles.len() + document.n_left_out());
+    n_faces.collect()
+}
+
 /// Returns for each group its islands with fixed placements.
 pub fn placements(
     document: &Document,
@@ -250,7 +256,12 @@ pub fn placements(
         let unknown = || IslandError::UnknownFace(number);
         let index = island.primitive as usize;
         let primitive = primitives.get(index).ok_or_else(unknown)?;
-        if island.face as usize >= primitive.triangles.len() {
+        // Islands are named by faces of the file.
+        let face = match document.kept_faces() {
+            Some(kept) => kept.binary_search(&island.face).map_err(|_| unknown())?,
+            None => island.face as usize,
+        };
+        if face >= primitive.triangles.len() {
             return Err(unknown());
         }
         let group = groups
@@ -259,7 +270,7 @@ pub fn placements(
             .ok_or_else(unknown)?;
         let before = (groups[group].primitives.iter()).take_while(|&&own| own != index);
         let first: usize = before.map(|&own| primitives[own].triangles.len()).sum();
-        let face = first as u32 + island.face;
+        let face = (first + face) as u32;
         placed[group].push(island.placement(number, face, document.v_axis()));
     }
     Ok(placed)

@@ -35,7 +35,7 @@ impl WrittenUvs {
         let sets: HashMap<[usize; 2], u32> = notes
             .map(|note| ([note.mesh, note.primitive], note.texcoord))
             .collect();
-        let document = written.read_again()?;
+        let document = written.read_again()?.with_mapped_faces();
         let Some(joined) = &written.notes.joined else {
             return Self::of_sets(&document, group_by, nodes, &sets);
         };

@@ -45,6 +45,8 @@ pub struct Judged {
     pub exempt_faces: usize,
     /// Primitives without the UV set, left out on request or because they had none when the file was recorded.
     pub skipped_primitives: usize,
+    /// Faces of an OBJ without UVs, left out on request.
+    pub skipped_faces: usize,
     /// Stacks of charts that coincide, accepted on request.
     pub stacks: Option<ProvenStacks>,
 }
@@ -66,6 +68,10 @@ impl fmt::Display for Judged {
         if self.skipped_primitives > 0 {
             let n = self.skipped_primitives;
             write!(f, "; left out: {n} primitives without UVs")?;
+        }
+        if self.skipped_faces > 0 {
+            let n = self.skipped_faces;
+            write!(f, "; left out: {n} triangles without UVs")?;
         }
         if let Some(stacks) = self.stacks.as_ref().filter(|stacks| stacks.stacks > 0) {
             write!(f, "; accepted: {stacks}")?;
@@ -113,6 +119,7 @@ pub fn verify_document(
         let uvs = WrittenUvs::asked(document, question)?;
         let mut verified = Verified::new(uvs, question, promise);
         verified.judged.group_by = question.options.spaces(document).0;
+        verified.judged.skipped_faces = document.n_left_out();
         verified.mark.clone_from(&question.mark);
         verified.warnings = warnings(document, question);
         Ok(verified)
@@ -163,6 +170,7 @@ impl Verified {
             group_by: question.options.group_by.unwrap_or(GroupBy::Scene),
             exempt_faces,
             skipped_primitives: uvs.n_skipped,
+            skipped_faces: 0,
             stacks: Proven::of(certificates.iter()).stacks,
         };
         let groups: Vec<VerifiedGroup> = (uvs.groups.into_iter().zip(certificates))
@@ -200,8 +208,11 @@ fn with_uvs<T: Send>(
 ) -> Result<T, PipelineError> {
     options.check()?;
     in_pool(options.caller.workers(options.workers), || {
-        let document = Document::read(upload)?;
+        let mut document = Document::read(upload)?;
         limits::check(&options.caller.limits, &document)?;
+        if options.skip_missing {
+            document = document.with_mapped_faces();
+        }
         let question = Question::new(options, &document)?;
         let (_, nodes) = question.options.spaces(&document);
         let document = nodes.prepared(document)?;

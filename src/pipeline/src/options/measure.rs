@@ -25,8 +25,8 @@ options! {
         /// Judge each node that shows a mesh separately, with its transform in the scene. Nodes
         /// that share a mesh share its UVs.
         pub separate_nodes: bool;
-        /// Leave out primitives that lack the UV set, and count them. By default such a file is
-        /// refused.
+        /// Leave out primitives that lack the UV set, and faces of an OBJ without UVs, and count
+        /// them. By default such a file is refused.
         pub skip_missing: bool;
         /// Prove this minimum distance between charts, in texels of the coarsest mip level that
         /// counts. The default is what the file records, otherwise nothing.
