@@ -158,21 +158,16 @@ fn unwrap_in_pool(
     let judged: Vec<_> = uvs.groups.iter().zip(&groups).collect();
     let missing = shortfalls(&judged, Mirrored::of(&plan));
     promise_kept(&plan, &groups, &missing)?;
-    let unstacked = nothing_stacked(&groups, options);
-    let unmapped = warning
-        .into_iter()
-        .chain(unstacked)
-        .chain(tracker.bent_borders());
-    let warnings = [
-        noticed,
-        written.notes.warnings.clone(),
-        unmapped.collect(),
-        missing,
-    ];
     let ended_early = tracker.warning();
     let is_ended_early = ended_early.is_some();
-    let warnings = warnings.into_iter().flatten().chain(ended_early);
-    let mut report = Report::new(groups, warnings.collect(), Mirrored::of(&plan));
+    let mut warnings = noticed;
+    warnings.extend(written.notes.warnings.iter().cloned());
+    warnings.extend(warning);
+    warnings.extend(nothing_stacked(&groups, options));
+    warnings.extend(tracker.bent_borders());
+    warnings.extend(missing);
+    warnings.extend(ended_early);
+    let mut report = Report::new(groups, warnings, Mirrored::of(&plan));
     report.ended_early = is_ended_early;
     report.partly_done = baked.is_some_and(|baked| baked.is_partial());
     report.options = Some(Options {
