@@ -835,7 +835,7 @@ fn borders_become_straight_as_asked() {
     let mut lines = Vec::new();
     for i in 0..=12_u32 {
         let (sin, cos) = (f64::from(i) / 8.0).sin_cos();
-        for r in [3.0, 4.0] {
+        for r in [3.6, 4.0] {
             lines.push(format!("v {} {} {}", r * cos, r * sin, r / 2.0));
         }
     }

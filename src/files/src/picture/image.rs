@@ -137,7 +137,7 @@ fn decoded(bytes: &[u8]) -> Result<DynamicImage, ImageError> {
 }
 
 /// Returns the columns and rows of a picture, unless it has too many pixels.
-pub(super) fn checked_size(width: u32, height: u32) -> Result<[u32; 2], ImageError> {
+fn checked_size(width: u32, height: u32) -> Result<[u32; 2], ImageError> {
     if u64::from(width) * u64::from(height) > MOST_PIXELS {
         return Err(ImageError::TooLarge { width, height });
     }
@@ -147,12 +147,23 @@ pub(super) fn checked_size(width: u32, height: u32) -> Result<[u32; 2], ImageErr
 /// Returns columns and rows of a PNG, JPEG, `WebP` or KTX2 file as stored, without decoding its pixels.
 pub fn picture_size(bytes: &[u8]) -> Result<[u32; 2], ImageError> {
     if ktx2::is_ktx2(bytes) {
-        return ktx2::size(bytes);
+        return ktx2_size(bytes);
     }
     let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
     let size = reader.map_err(|error| unreadable(error.into()))?;
     let (width, height) = size.into_dimensions().map_err(unreadable)?;
     Ok([width, height])
+}
+
+fn ktx2_size(bytes: &[u8]) -> Result<[u32; 2], ImageError> {
+    let size = ktx2::size(bytes);
+    let [width, height] =
+        size.ok_or_else(|| invalid_ktx2("its header is cut off or has no size"))?;
+    checked_size(width, height)
+}
+
+fn invalid_ktx2(reason: &str) -> ImageError {
+    ImageError::Invalid(format!("KTX2: {reason}"))
 }
 
 // Pictures with the bits of their files.
@@ -171,7 +182,14 @@ impl Picture {
     /// bits stay so.
     pub fn decode(bytes: &[u8]) -> Result<Self, ImageError> {
         if ktx2::is_ktx2(bytes) {
-            return ktx2::decoded(bytes).map(Self::Eight);
+            let size = ktx2_size(bytes)?;
+            let pixels = ktx2::pixels(bytes, size).map_err(|reason| invalid_ktx2(&reason))?;
+            let [width, height] = size.map(|side| side as usize);
+            return Ok(Self::Eight(Image {
+                width,
+                height,
+                pixels,
+            }));
         }
         let decoded = decoded(bytes)?;
         let is_deep = matches!(

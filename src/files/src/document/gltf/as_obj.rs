@@ -2,7 +2,7 @@
 
 use super::accessor::Accessor;
 use super::body::GltfBody;
-use super::document::GltfDocument;
+use super::document::{COLOR, GltfDocument};
 use super::images;
 use super::json::{extension, item, items, unsigned};
 use super::scene::is_in_place;
@@ -125,7 +125,7 @@ impl GltfDocument {
         index: usize,
     ) -> Result<Option<Vec<Color>>, DocumentError> {
         let attributes = &self.object(&self.primitives[index])?["attributes"];
-        let Some(accessor) = unsigned(attributes, "COLOR_0")? else {
+        let Some(accessor) = unsigned(attributes, COLOR)? else {
             return Ok(None);
         };
         let accessor = Accessor::open(body, accessor)?;

@@ -15,6 +15,9 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use unwrapd_maps::mesh::CornerUvs;
 
+/// Attribute of vertex colors that multiply the base color.
+pub(super) const COLOR: &str = "COLOR_0";
+
 /// A glTF document, decompressed.
 #[derive(Clone)]
 pub struct GltfDocument {
@@ -218,7 +221,7 @@ impl GltfDocument {
     pub fn has_vertex_colors(&self) -> bool {
         self.primitives.iter().any(|primitive| {
             let object = self.object(primitive);
-            object.is_ok_and(|object| object["attributes"].get("COLOR_0").is_some())
+            object.is_ok_and(|object| object["attributes"].get(COLOR).is_some())
         })
     }
 

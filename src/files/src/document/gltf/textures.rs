@@ -7,7 +7,6 @@ use super::json::{
     array_mut, as_unsigned, extension, invalid, item, items, object_mut, primitive_mut, remove,
     remove_extension, unsigned,
 };
-use super::vertex_colors;
 use crate::document::bake::MaterialPlanes;
 use crate::document::error::listed;
 use crate::document::{
@@ -323,7 +322,7 @@ fn remove_colors(
     for &index in &plan.colored {
         let primitive = &document.primitives[index];
         let object = primitive_mut(&mut body.json, primitive.mesh, primitive.primitive)?;
-        remove(&mut object["attributes"], vertex_colors::COLOR);
+        remove(&mut object["attributes"], document::COLOR);
     }
     Ok(())
 }

@@ -3,16 +3,13 @@
 //! A renderer multiplies the base color of a surface by its vertex colors. Drawn into the base-color texture of every
 //! material that the surface can have, they are no longer needed as an attribute.
 
-use super::document::GltfDocument;
+use super::document::{COLOR, GltfDocument};
 use super::json::{extension, item, items, unsigned};
 use super::slots::{BASE_COLOR, Slot};
 use super::textures::materials;
 use crate::document::DocumentError;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Attribute that multiplies the base color.
-pub(super) const COLOR: &str = "COLOR_0";
 
 /// Extension whose model has another texture of colors.
 const SPECULAR_GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
