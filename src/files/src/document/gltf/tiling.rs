@@ -8,6 +8,7 @@ use super::slots::{slots, users};
 use crate::document::{DocumentError, Group, Primitive, TextureSource, Wrap};
 use std::collections::{BTreeMap, HashMap};
 use unwrapd_maps::mesh::{CornerUvs, UnionFind};
+use unwrapd_method::numerics::vec3::{area_vector, norm};
 
 /// Length of an island, in multiples of the picture, up to which the picture counts as shown once: layouts overshoot
 /// the square by their padding.
@@ -157,12 +158,10 @@ fn islands(primitive: &Primitive, uvs: &[CornerUvs]) -> Vec<u32> {
 }
 
 fn surface_area(primitive: &Primitive) -> f64 {
-    let area = |[a, b, c]: [[f64; 3]; 3]| {
-        let [e, f] = [b, c].map(|p| [0, 1, 2].map(|k| p[k] - a[k]));
-        let normal = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| e[i] * f[j] - e[j] * f[i]);
-        0.5 * normal.iter().map(|x| x * x).sum::<f64>().sqrt()
-    };
     let position = |vertex: u32| primitive.positions[vertex as usize].map(f64::from);
-    let faces = primitive.triangles.iter();
-    faces.map(|face| area(face.map(position))).sum()
+    let area = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(position);
+        0.5 * norm(area_vector(a, b, c))
+    };
+    primitive.triangles.iter().map(area).sum()
 }
