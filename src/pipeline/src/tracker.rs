@@ -222,10 +222,12 @@ impl<'a> Tracker<'a> {
         Some(Warning::new("ended_early", message))
     }
 
-    /// Returns a warning if islands that were to become straight keep bent borders.
+    /// Returns a warning if islands that were to become straight keep bent borders, although the work did not end early.
     pub(super) fn bent_borders(&self) -> Option<Warning> {
-        let islands = match self.state().n_bent {
+        let state = self.state();
+        let islands = match state.n_bent {
             0 => return None,
+            _ if state.ended.is_some() => return None,
             1 => "an island that `straighten` names keeps a bent border".to_owned(),
             n => format!("{n} islands that `straighten` names keep bent borders"),
         };
