@@ -186,7 +186,7 @@ fn polygons_of_an_obj_without_uvs_stay_without() {
         "{first_line}"
     );
     assert_eq!(judged(false).expect_err("refused").code(), "no_uvs");
-    // Islands are named by the faces of the file, of which the first two have none.
+    // Islands are named by the faces of the file. Its first two faces have no UVs.
     let bare_first = given.replacen("f 1/1", "f 1 2 3 4\nf 1/1", 1);
     let upload = Upload::single("partly.obj", bare_first.into_bytes());
     let of_face = |face: u32| RepackOptions {

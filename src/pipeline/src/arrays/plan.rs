@@ -132,7 +132,7 @@ impl Plan {
                 _ => Refinement::None,
             },
             straighten: match &settings.straighten {
-                // Given maps, and those that may flip, stay as they are unless they are named.
+                // Given maps, and those that may flip, stay as they are unless the caller asks for more.
                 None if start == Start::New && has_barrier => StraightCharts::All,
                 None | Some(Straightening::Off) => StraightCharts::None,
                 Some(Straightening::Auto) => StraightCharts::All,

@@ -368,7 +368,7 @@ impl Part {
         Some(copy)
     }
 
-    /// Returns whether some triangles of this part's vertices lie in one plane, none of them upside down.
+    /// Returns whether some triangles of this part's vertices lie in one plane and face the same way.
     fn is_flat(&self, triangles: &[[u32; 3]], area: &[usize], tolerance: f64) -> bool {
         let corners = |&k: &usize| triangles[k].map(|v| self.positions[v as usize]);
         let normal = |[a, b, c]: [[f64; 3]; 3]| area_vector(a, b, c);
