@@ -17,7 +17,7 @@ use std::sync::Arc;
 use unwrapd_layout::charts::{
     Bound, Bounded, MappedChart, Symmetry, Unobserved, charts_under_bound, seam_length,
 };
-use unwrapd_layout::search::{CutProblem, Effort, Terms, from_charts, from_surface};
+use unwrapd_layout::search::{CutProblem, SearchEffort, Terms, from_charts, from_surface};
 use unwrapd_maps::embed::Options;
 use unwrapd_maps::mesh::{Surface, canonical_order};
 use unwrapd_method::energy::SymmetricDirichlet;
@@ -58,11 +58,11 @@ fn report(file: &str, bound: &Bound) {
     };
     let clock = Clock::start();
     let cut = charts_under_bound(&surface, bound, &options, Symmetry::Off, &Unobserved);
-    line(file, "cutters", &cut, &clock, Effort::UNBOUNDED);
+    line(file, "cutters", &cut, &clock, SearchEffort::UNBOUNDED);
     let faces = surface.triangles.len();
     let efforts = [
-        ("", Effort::for_surface(faces, faces)),
-        (", unbounded", Effort::UNBOUNDED),
+        ("", SearchEffort::for_surface(faces, faces)),
+        (", unbounded", SearchEffort::UNBOUNDED),
     ];
     for (limit, effort) in efforts {
         let terms = Terms {
@@ -102,7 +102,7 @@ fn report(file: &str, bound: &Bound) {
     }
 }
 
-fn line(file: &str, way: &str, charts: &[MappedChart], clock: &Clock, effort: Effort) {
+fn line(file: &str, way: &str, charts: &[MappedChart], clock: &Clock, effort: SearchEffort) {
     let area: f64 = charts.iter().map(MappedChart::surface_area).sum();
     let faces: usize = charts.iter().map(|map| map.chart.corners.len()).sum();
     let per_face = |n: usize| n as f64 / faces as f64;

@@ -236,16 +236,16 @@ fn a_minimum_cut_takes_the_cheapest_edges() {
     for h in [10, 13] {
         capacity[h] = 2;
     }
-    let side = min_cut(&twin, &capacity, (&[0], &[7]), &go_on);
+    let side = min_cut(&twin, &capacity, &[0], &[7], &go_on);
     assert_eq!(side, [true, true, true, true, false, false, false, false]);
     // Cut off on both sides, and nearest to the source where all edges cost the same.
-    let side = min_cut(&twin, &vec![3; twin.len()], (&[4], &[0, 7]), &go_on);
+    let side = min_cut(&twin, &vec![3; twin.len()], &[4], &[0, 7], &go_on);
     assert_eq!(side.iter().filter(|&&inside| inside).count(), 1);
     // Nothing to cut: there is no way.
     let mut apart = strip(4);
     apart[10] = CUT;
     apart[13] = CUT;
-    let side = min_cut(&apart, &capacity, (&[0], &[7]), &go_on);
+    let side = min_cut(&apart, &capacity, &[0], &[7], &go_on);
     assert_eq!(side.iter().filter(|&&inside| inside).count(), 4);
 }
 
@@ -261,7 +261,7 @@ fn two_ways_are_cut_at_once() {
     for h in [10, 13, 22, 25] {
         capacity[h] = 1;
     }
-    let side = min_cut(&twin, &capacity, (&[4], &[11]), &go_on);
+    let side = min_cut(&twin, &capacity, &[4], &[11], &go_on);
     let inside: Vec<usize> = (0..side.len()).filter(|&f| side[f]).collect();
     assert_eq!(inside, [4, 5, 6, 7]);
 }
@@ -304,13 +304,13 @@ fn a_cut_that_is_ended_early_still_parts() {
         questions.set(questions.get() + 1);
         Control::Finish
     };
-    let side = min_cut(&twin, &capacity, (&sources, &sinks), &end);
+    let side = min_cut(&twin, &capacity, &sources, &sinks, &end);
     assert_eq!(questions.get(), 1);
     assert!(sources.iter().all(|&f| side[f as usize]));
     assert!(sinks.iter().all(|&f| !side[f as usize]));
     let parts = n_parts(&twin, &side);
     assert_eq!(parts, 2);
-    let whole = min_cut(&twin, &capacity, (&sources, &sinks), &go_on);
+    let whole = min_cut(&twin, &capacity, &sources, &sinks, &go_on);
     assert!(n_seams(&twin, &whole) <= n_seams(&twin, &side));
 }
 
@@ -345,7 +345,7 @@ proptest! {
         let edges: Vec<usize> = (0..36).filter(|&h| h < across(h)).collect();
         let edge = |h: usize| edges.iter().position(|&e| e == h.min(across(h))).expect("an edge");
         let capacity: Vec<u64> = (0..36).map(|h| costs[edge(h)]).collect();
-        let found = min_cut(&twin, &capacity, (&[0], &[sink as u32]), &go_on);
+        let found = min_cut(&twin, &capacity, &[0], &[sink as u32], &go_on);
         prop_assert_eq!(found, nearest_minimum(&twin, &capacity, [0, sink]));
     }
 }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use unwrapd_layout::charts::{
     Bound, Bounded, MappedChart, Symmetry, Unobserved, charts_under_bound,
 };
-use unwrapd_layout::search::{CutProblem, Effort, Terms, from_surface};
+use unwrapd_layout::search::{CutProblem, SearchEffort, Terms, from_surface};
 use unwrapd_maps::certificate::{Claims, certify};
 use unwrapd_maps::embed::{Options, rest_shapes};
 use unwrapd_maps::mesh::Surface;
@@ -47,13 +47,13 @@ fn unfolded(mesh: &Mesh) -> Vec<MappedChart> {
 }
 
 fn unfolded_under(mesh: &Mesh, bound: &Bound) -> Vec<MappedChart> {
-    unfolded_with(mesh, bound, Effort::for_surface)
+    unfolded_with(mesh, bound, SearchEffort::for_surface)
 }
 
 fn unfolded_with(
     mesh: &Mesh,
     bound: &Bound,
-    effort: impl Fn(usize, usize) -> Effort,
+    effort: impl Fn(usize, usize) -> SearchEffort,
 ) -> Vec<MappedChart> {
     let surface = surface(mesh);
     let problem = CutProblem::new(&surface, bound, &Unobserved);
@@ -244,7 +244,7 @@ fn walls_of_many_steps_are_not_stretched() {
 fn no_effort_makes_no_charts_of_single_faces() {
     let bar = zoo::voxels(&[[0, 0, 0], [1, 0, 0], [2, 0, 0]]);
     let charts = unfolded_with(&bar, &BOUND, |n, of_all| {
-        Effort::for_surface(n, of_all).share(0.0)
+        SearchEffort::for_surface(n, of_all).share(0.0)
     });
     assert_planes_whole(&charts);
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use unwrapd_layout::charts::{
     Bound, Bounded, Cut, Folds, MappedChart, Symmetry, Unobserved, charts, map_chart, seam_length,
 };
-use unwrapd_layout::search::{CutProblem, Effort, Terms, from_charts, from_surface};
+use unwrapd_layout::search::{CutProblem, SearchEffort, Terms, from_charts, from_surface};
 use unwrapd_maps::certificate::{Claims, certify};
 use unwrapd_maps::embed::Options;
 use unwrapd_maps::mesh::{Surface, canonical_order};
@@ -189,7 +189,7 @@ fn panels_are_slit_open_where_that_is_cheaper() {
     let start: Vec<MappedChart> = (charts(&facets, Cut::Keep).into_iter())
         .flat_map(|chart| map_chart(chart, &options(), Folds::Cut, &Unobserved))
         .collect();
-    let mut effort = Effort::for_surface(surface.triangles.len(), surface.triangles.len());
+    let mut effort = SearchEffort::for_surface(surface.triangles.len(), surface.triangles.len());
     effort.most = 8.0 * surface.triangles.len() as f64;
     let terms = Terms {
         effort,
@@ -269,7 +269,7 @@ fn charts_beyond_the_bound_are_slit() {
             .collect();
         assert!(energy(&whole) > 4.1 && seam(&whole) < 1e-6);
         let terms = Terms {
-            effort: Effort::for_surface(surface.triangles.len(), surface.triangles.len()),
+            effort: SearchEffort::for_surface(surface.triangles.len(), surface.triangles.len()),
             ..Terms::default()
         };
         let (found, _) = from_charts(
@@ -361,11 +361,11 @@ fn charts_stay_without_effort_and_at_the_bound() {
     let surface = surface(&mesh);
     let cut = cut(&surface);
     let idle = Terms {
-        effort: Effort::for_surface(0, 1),
+        effort: SearchEffort::for_surface(0, 1),
         ..Terms::default()
     };
     let usual = Terms {
-        effort: Effort::for_surface(1, 1),
+        effort: SearchEffort::for_surface(1, 1),
         ..Terms::default()
     };
     for (terms, mean) in [(idle, 4.1), (usual, 4.0 + (energy(&cut) - 4.0) * 1.000_001)] {

@@ -5,11 +5,10 @@
 use rayon::prelude::*;
 use std::sync::Arc;
 
-use super::coarse::{FINE, raster_side};
 use super::effort::OnRead;
 use super::layout::{Layout, Place, Problem, stretch};
 use super::outline::Outline;
-use super::page::Region;
+use super::page::{FINE, Region};
 use super::problem::{AtlasOptions, Scale};
 use super::squeeze::{Body, End, FixedBody, Pose, Squeezed};
 use unwrapd_maps::plane::{BoxIndex, Segment, Visit, search_budget, segment_distance};
@@ -67,7 +66,7 @@ impl Squeezing<'_> {
         let (mut room, mut best) = (padding - kept, None);
         for _ in 0..ROUNDS {
             let words = self.options.budget_words / SHARE;
-            if !squeezed.loosen(bodies, room, (words, self.on_read)) {
+            if !squeezed.loosen(bodies, room, words, self.on_read) {
                 break;
             }
             let (places, missing) = self.measured(&squeezed);
@@ -202,7 +201,7 @@ pub(super) fn squeezed(problem: &Problem, found: &Layout) -> Option<Layout> {
     if found.padding_texels < f64::from(options.padding_texels) {
         return None;
     }
-    let page = FINE * f64::from(texture.raster(raster_side(plan.order.len(), texture)));
+    let page = FINE * f64::from(texture.raster(texture.coarse_cells(plan.order.len())));
     let padding = options.padding_share() * page;
     let obstacles = problem.obstacles.iter();
     let fixed = obstacles.map(|it| FixedBody::new(&it.outline, page, padding));

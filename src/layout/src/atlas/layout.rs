@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::effort::OnRead;
-use super::mask::{Distances, Mask, Rounding, Run, Turned};
+use super::mask::{CellRun, Distances, Mask, Rounding, Turned};
 use super::occupancy::{Corner, Occupancy, Spot, Window};
 use super::outline::Outline;
 use super::page::{Form, Region, Texture};
@@ -117,7 +117,12 @@ pub(super) struct Obstacle {
 impl Obstacle {
     /// Returns the cells that the outline touches on its page, and the position of the lower left one, counted from the inner corner of
     /// borders that are `border` cells wide.
-    pub(super) fn body(&self, texture: Texture, cells: u32, border: f64) -> (Vec<Run>, [i64; 2]) {
+    pub(super) fn body(
+        &self,
+        texture: Texture,
+        cells: u32,
+        border: f64,
+    ) -> (Vec<CellRun>, [i64; 2]) {
         let cells = f64::from(cells);
         let around = self.slack * cells;
         let corners: Vec<[f64; 2]> = self.outline.edges().map(|edge| edge[0]).collect();
@@ -170,7 +175,7 @@ impl<'a> Problem<'a> {
     /// may be moved by its `slack`, in cells.
     pub(super) fn layout(&self, slack: &[f64], most_cells: u32) -> Option<Layout> {
         let packing = Packing::new(self, slack, most_cells);
-        let (scale, attempt) = match self.options.scale {
+        let places = match self.options.scale {
             Scale::Largest => {
                 let found = best(&packing)?;
                 let is_crowded = self.plan.order.len() > MOST_CHARTS;
@@ -183,23 +188,22 @@ impl<'a> Problem<'a> {
                 } else {
                     let is_tried = |share: &f64| *share <= 1.0 || !is_crowded;
                     let mut shares = ALIKE.into_iter().filter(is_tried);
-                    let alike = shares.find_map(|share| alike(&packing, share * found.0));
+                    let alike = shares.find_map(|share| alike(&packing, share * found.scale));
                     alike.unwrap_or(found)
                 }
             }
             Scale::TexelsPerUnit(texels) => {
                 let longer = f64::from(packing.texture.resolution.longer());
                 let scale = texels * f64::from(packing.cells) / longer;
-                let any = || Some((scale, packing.attempt(scale, &mut 0).ok()?));
-                alike(&packing, scale).or_else(any)?
+                alike(&packing, scale).or_else(|| packing.attempt(scale, &mut 0).ok())?
             }
         };
-        Some(packing.layout(scale, attempt))
+        Some(packing.layout(places))
     }
 }
 
 /// Returns a layout with copies alike at a scale; `None` if there are no copies or they do not fit.
-fn alike(packing: &Packing, scale: f64) -> Option<(f64, Attempt)> {
+fn alike(packing: &Packing, scale: f64) -> Option<ScaledPlaces> {
     let plan = packing.plan();
     if !plan.outlines.iter().any(|outline| outline.has_copies) {
         return None;
@@ -209,12 +213,11 @@ fn alike(packing: &Packing, scale: f64) -> Option<(f64, Attempt)> {
         taken: packing.taken.clone(),
         ..*packing
     };
-    let attempt = alike.attempt(scale, &mut 0).ok()?;
-    Some((scale, attempt))
+    alike.attempt(scale, &mut 0).ok()
 }
 
-/// Searches for the largest scale, in cells per mesh unit, at which all charts fit. Returns it with its layout.
-fn best(packing: &Packing) -> Option<(f64, Attempt)> {
+/// Returns the places of all charts at the largest scale that is found.
+fn best(packing: &Packing) -> Option<ScaledPlaces> {
     let most_words = packing.problem.options.budget_words.min(MOST_WORDS);
     let demand = Demand::of(packing);
     let mut scale = demand.scale(if packing.problem.is_constrained() {
@@ -222,15 +225,15 @@ fn best(packing: &Packing) -> Option<(f64, Attempt)> {
     } else {
         HOPE_IF_FREE
     });
-    let mut best: Option<(f64, Attempt)> = None;
+    let mut best: Option<ScaledPlaces> = None;
     let mut failed = f64::INFINITY;
     let mut work = 0;
     for tried in 1..=ATTEMPTS[1] {
         let next = match packing.attempt(scale, &mut work) {
             Ok(attempt) => {
-                let next = grown(packing, &demand, scale, &attempt);
-                if best.as_ref().is_none_or(|&(good, _)| scale > good) {
-                    best = Some((scale, attempt));
+                let next = grown(packing, &demand, &attempt);
+                if best.as_ref().is_none_or(|best| scale > best.scale) {
+                    best = Some(attempt);
                 }
                 next.max(NEAR * scale)
             }
@@ -247,7 +250,7 @@ fn best(packing: &Packing) -> Option<(f64, Attempt)> {
             }
         };
         let before = std::mem::replace(&mut scale, next);
-        if let Some((good, _)) = best {
+        if let Some(good) = best.as_ref().map(|best| best.scale) {
             let is_ended = (packing.problem.on_read)(0) == Control::Finish;
             let is_read = work > most_words && failed.min(scale) < good * FAIR;
             let enough = tried >= ATTEMPTS[0] || is_read || failed < good * NEAR;
@@ -264,13 +267,13 @@ fn best(packing: &Packing) -> Option<(f64, Attempt)> {
 
 /// Returns the scale at which a layout would fill the page if the share of the used rows that charts fill stayed the same. Within
 /// constraints, nothing tells that scale, and the result is infinite.
-fn grown(packing: &Packing, demand: &Demand, scale: f64, attempt: &Attempt) -> f64 {
+fn grown(packing: &Packing, demand: &Demand, attempt: &ScaledPlaces) -> f64 {
     if packing.problem.is_constrained() {
         return f64::INFINITY;
     }
     let [_, rows] = packing.form().reach(packing.whole());
     let used = f64::from(attempt.rows.max(1)) / f64::from(rows * packing.texture.pages);
-    demand.scale(HASTE * demand.share(scale) / used)
+    demand.scale(HASTE * demand.share(attempt.scale) / used)
 }
 
 /// Factor of the scale for each trial order, and number of failed trials in a row, per unit of patience, that end the search. Without
@@ -280,7 +283,7 @@ const MOST_IDLE: u64 = 100;
 const SEED: u64 = 1;
 
 /// Tries random changes of the order and of quarter turns, and keeps those that allow a larger scale.
-fn fuller(packing: &Packing, (mut scale, mut best): (f64, Attempt)) -> (f64, Attempt) {
+fn fuller(packing: &Packing, mut best: ScaledPlaces) -> ScaledPlaces {
     let options = packing.problem.options;
     let mut plan = packing.plan().clone();
     let n = plan.order.len();
@@ -316,14 +319,14 @@ fn fuller(packing: &Packing, (mut scale, mut best): (f64, Attempt)) -> (f64, Att
             taken: packing.taken.clone(),
             ..*packing
         };
-        match tried.attempt(GROWTH * scale, &mut work) {
+        match tried.attempt(GROWTH * best.scale, &mut work) {
             Ok(attempt) => {
-                (scale, best, plan, idle) = (GROWTH * scale, attempt, trial, 0);
+                (best, plan, idle) = (attempt, trial, 0);
             }
             Err(_) => idle += 1,
         }
     }
-    (scale, best)
+    best
 }
 
 /// Cells that charts take with their padding and the raster's rounding, as a polynomial of the scale in cells per mesh unit.
@@ -436,7 +439,9 @@ struct Packing<'a> {
 }
 
 /// Places of all charts at one scale.
-struct Attempt {
+struct ScaledPlaces {
+    /// In cells per mesh unit.
+    scale: f64,
     /// Place of each chart, and the factor by which it exceeds the common scale.
     spots: Vec<(Spot, f64)>,
     /// Rows used of all pages.
@@ -503,7 +508,7 @@ impl<'a> Packing<'a> {
     }
 
     /// Places all charts at one scale. If one does not fit, returns the share of their area that was placed.
-    fn attempt(&self, scale: f64, work: &mut u64) -> Result<Attempt, f64> {
+    fn attempt(&self, scale: f64, work: &mut u64) -> Result<ScaledPlaces, f64> {
         let plan = self.plan();
         let mut occupancy = Occupancy::clone(&self.taken);
         let mut spots = vec![(Spot::default(), 1.0); plan.outlines.len()];
@@ -538,19 +543,21 @@ impl<'a> Packing<'a> {
                 placed += plan.outlines[i].size * plan.outlines[i].size;
             }
         }
-        Ok(Attempt {
+        Ok(ScaledPlaces {
+            scale,
             spots,
             rows: occupancy.tops.iter().sum(),
         })
     }
 
-    /// Returns the layout of an attempt at a scale.
-    fn layout(&self, scale: f64, attempt: Attempt) -> Layout {
+    /// Returns the layout that places charts there.
+    fn layout(&self, places: ScaledPlaces) -> Layout {
+        let scale = places.scale;
         let cell = self.texture.grid_side() / f64::from(self.cells);
         let longer = f64::from(self.texture.resolution.longer());
         let padding = self.padding * longer / f64::from(self.cells);
         let most = f64::from(self.problem.options.padding_texels);
-        let spots = attempt.spots.into_iter().enumerate();
+        let spots = places.spots.into_iter().enumerate();
         Layout {
             scale: scale * cell,
             cell,

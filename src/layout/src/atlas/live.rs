@@ -5,12 +5,11 @@
 //! lay at first. So they do once the islands that are held rest, if they are still too small.
 use std::sync::Arc;
 
-use super::coarse::{FINE, RASTER};
 use super::effort::UNHEARD;
 use super::gap::poses;
 use super::layout::{Obstacle, Problem, SLACK};
 use super::outline::{Outline, outlines};
-use super::page::{Region, Texture};
+use super::page::{FINE, RASTER, Region, Texture};
 use super::plan::Plan;
 use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation, Scale};
 use super::squeeze::{Body, FixedBody, Pose, Squeezed};
@@ -35,12 +34,12 @@ pub struct LiveLayout {
     side_anew: f64,
     /// Islands as they lay at first.
     first: Squeezed,
-    motion: Motion,
+    motion: HeldState,
 }
 
 /// Motion of the islands that are held since room was made for them.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Motion {
+enum HeldState {
     Moved,
     AtRest,
 }
@@ -119,7 +118,7 @@ impl LiveLayout {
         Ok(Self {
             first: squeezed.clone(),
             squeezed,
-            motion: Motion::Moved,
+            motion: HeldState::Moved,
             bodies: bodies.collect(),
             options,
             held: held.into_iter().map(Held::new).collect(),
@@ -137,7 +136,7 @@ impl LiveLayout {
             return;
         }
         (held.middle, held.angle) = (middle, angle);
-        self.motion = Motion::Moved;
+        self.motion = HeldState::Moved;
         let mut fixed = self.squeezed.fixed.to_vec();
         fixed[island] = fixed[island].moved(middle, angle);
         self.squeezed.fixed = fixed.into();
@@ -148,10 +147,10 @@ impl LiveLayout {
     pub fn make_room(&mut self) -> Followers {
         let mut pushed = self.squeezed.clone();
         let mut is_apart = pushed.follow(&self.bodies, self.side);
-        let is_stuck = self.motion == Motion::AtRest
+        let is_stuck = self.motion == HeldState::AtRest
             && pushed.side > self.side
             && pushed.side >= self.squeezed.side;
-        self.motion = Motion::AtRest;
+        self.motion = HeldState::AtRest;
         if (!is_apart || is_stuck || pushed.side > CROWDED * self.side_anew)
             && let Some(anew) = self.anew()
         {

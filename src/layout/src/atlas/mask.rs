@@ -68,8 +68,8 @@ impl Mask {
             thicken(&mut reach, outward, around + padding);
         }
         for run in body.runs() {
-            let Run { row, start, end } = run;
-            reach.set(Run {
+            let CellRun { row, start, end } = run;
+            reach.set(CellRun {
                 row: row + margin,
                 start: start + margin,
                 end: end + margin,
@@ -113,7 +113,7 @@ fn fill(bitmap: &mut Bitmap, segments: impl Iterator<Item = [[f64; 2]; 2]>) {
         winding += sign;
         // The winding number of closed lines is 0 at the end of a row.
         if winding != 0 && start < end {
-            bitmap.set(Run { row, start, end });
+            bitmap.set(CellRun { row, start, end });
         }
     }
 }
@@ -156,7 +156,7 @@ fn sweep(bitmap: &mut Bitmap, [low, high]: [f64; 2], range: impl Fn([f64; 2]) ->
             let start = low.max(0.0) as u32;
             let end = (high.max(0.0) as u32 + 1).min(bitmap.width);
             if start < end {
-                bitmap.set(Run { row, start, end });
+                bitmap.set(CellRun { row, start, end });
             }
         }
     }
@@ -202,7 +202,7 @@ impl Range {
 
 /// Cells `start..end` of one row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Run {
+pub(super) struct CellRun {
     pub row: u32,
     pub start: u32,
     pub end: u32,
@@ -229,7 +229,7 @@ impl Bitmap {
     }
 
     /// Sets the cells of a run.
-    pub(super) fn set(&mut self, run: Run) {
+    pub(super) fn set(&mut self, run: CellRun) {
         let row = &mut self.bits[run.row as usize * self.words..][..self.words];
         set_bits(row, run.start, run.end);
     }
@@ -255,7 +255,7 @@ impl Bitmap {
     }
 
     /// Returns all runs of set cells, row by row.
-    pub(super) fn runs(&self) -> Vec<Run> {
+    pub(super) fn runs(&self) -> Vec<CellRun> {
         let mut runs = Vec::new();
         for row in 0..self.height {
             let words = &self.bits[row as usize * self.words..][..self.words];
@@ -266,7 +266,7 @@ impl Bitmap {
                 if start >= end {
                     break;
                 }
-                runs.push(Run { row, start, end });
+                runs.push(CellRun { row, start, end });
             }
         }
         runs
@@ -319,10 +319,10 @@ fn transpose(block: &mut [u64; 64]) {
 /// A mask after quarter turns, with the cells of its reach in the order in which they are tested.
 pub(super) struct Turned {
     pub turns: u32,
-    pub body: Vec<Run>,
+    pub body: Vec<CellRun>,
     /// Width and height, in cells.
     pub size: [u32; 2],
-    pub reach: Vec<Run>,
+    pub reach: Vec<CellRun>,
     pub probes: Vec<Probe>,
     pub margin: u32,
 }
@@ -373,15 +373,15 @@ impl Turned {
 
 /// Orders runs so that an occupied place is detected early: the longest run first, then runs far from each other before their
 /// neighbors.
-fn scattered(mut runs: Vec<Run>) -> Vec<Run> {
+fn scattered(mut runs: Vec<CellRun>) -> Vec<CellRun> {
     let bits = usize::BITS - runs.len().leading_zeros();
-    let mut keyed: Vec<(usize, Run)> = runs
+    let mut keyed: Vec<(usize, CellRun)> = runs
         .drain(..)
         .enumerate()
         .map(|(i, run)| (i.reverse_bits() >> (usize::BITS - bits.max(1)), run))
         .collect();
     keyed.sort_unstable_by_key(|&(key, _)| key);
-    let mut runs: Vec<Run> = keyed.into_iter().map(|(_, run)| run).collect();
+    let mut runs: Vec<CellRun> = keyed.into_iter().map(|(_, run)| run).collect();
     let longest = (0..runs.len()).max_by_key(|&i| (runs[i].end - runs[i].start, usize::MAX - i));
     if let Some(longest) = longest {
         runs.swap(0, longest);
@@ -405,7 +405,7 @@ pub(super) struct Probe {
 
 impl Probe {
     /// Returns the probes that test whether all cells of some runs are free, in the order of the runs.
-    pub(super) fn of(runs: &[Run]) -> Vec<Self> {
+    pub(super) fn of(runs: &[CellRun]) -> Vec<Self> {
         let mut probes = Vec::with_capacity(runs.len());
         for run in runs {
             let k = (run.end - run.start).ilog2().min(WIDTHS as u32 - 1);

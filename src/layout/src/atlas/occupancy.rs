@@ -5,7 +5,7 @@
 //! [`Probe`](super::mask::Probe).
 use std::array::from_fn;
 
-use super::mask::{Run, Turned, WIDTHS, set_bits};
+use super::mask::{CellRun, Turned, WIDTHS, set_bits};
 use super::page::Form;
 
 /// Number of words in a row from which on the length of its longest free run is stored, so that full rows are skipped. In shorter
@@ -240,7 +240,7 @@ impl Occupancy {
 
     /// Occupies the cells of a body whose lower left cell is at `corner`, including cells in the frame but none beyond it. The used
     /// part stays as it is.
-    pub(super) fn cover(&mut self, body: &[Run], page: u32, corner: [i64; 2]) {
+    pub(super) fn cover(&mut self, body: &[CellRun], page: u32, corner: [i64; 2]) {
         let stride = self.words * WIDTHS;
         let frame = i64::from(self.frame);
         let width = i64::from(self.form.reach(self.capacity)[0]) + 2 * frame;

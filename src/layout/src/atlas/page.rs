@@ -7,6 +7,18 @@ pub const GRID_BITS: u32 = 23;
 /// Side of a page in grid units.
 pub(super) const GRID_SIDE: f64 = (1 << GRID_BITS) as f64;
 
+/// Cells along the side of the square page that the charts are expected to need. With 64, worse cuts are chosen. With 256, a trial
+/// costs four times as much, and less is found in the same time.
+pub(super) const RASTER: u32 = 96;
+/// Value that replaces [`RASTER`] with more than [`SEARCHED`] charts per page, as each of them then has fewer cells.
+const FINE_RASTER: u32 = 256;
+/// Maximum number of charts per page on the raster of [`RASTER`] cells, and of those whose order is searched, where several small
+/// charts count as one. With more charts, a trial takes too long, and a layout on the raster that keeps the padding
+/// is squeezed.
+const SEARCHED: usize = 64;
+/// Factor by which the raster of the final layout is finer along each side.
+pub(super) const FINE: f64 = 2.0;
+
 /// Texture of an atlas: pages of one size, side by side along u.
 ///
 /// Page k covers u from k to k + 1 and v from 0 to 1. It is tile 1001 + k in UDIM numbering. There is only one row of pages, the
@@ -42,6 +54,20 @@ impl Texture {
     pub(super) fn raster(self, cells: u32) -> u32 {
         let shrunk: u32 = self.resolution.halvings().iter().sum();
         cells << shrunk.div_ceil(2)
+    }
+
+    /// Returns whether there are too many charts to search their order.
+    pub(super) fn is_crowded(self, n_charts: usize) -> bool {
+        n_charts > SEARCHED * self.pages as usize
+    }
+
+    /// Returns the cells along the side of a square page with this many charts.
+    pub(super) fn coarse_cells(self, n_charts: usize) -> u32 {
+        if self.is_crowded(n_charts) {
+            FINE_RASTER
+        } else {
+            RASTER
+        }
     }
 
     /// Returns for u and v the exponent of the step of the grid on which charts are rounded: the step is 2^exponent units of

@@ -23,7 +23,8 @@ const WAYS_PER_QUESTION: u32 = 256;
 pub fn min_cut(
     twin: &[u32],
     capacity: &[u64],
-    (sources, sinks): (&[u32], &[u32]),
+    sources: &[u32],
+    sinks: &[u32],
     control: &dyn Fn() -> Control,
 ) -> Vec<bool> {
     let mut flow = Flow::new(twin, capacity);

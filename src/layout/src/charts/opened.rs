@@ -26,7 +26,7 @@ pub(super) fn charts_alike(surface: &Surface, cut: Cut, mirror: Option<MirrorPla
         Cut::Auto | Cut::Keep | Cut::Seams => Branches::None,
         Cut::Fast | Cut::Disk => Branches::ToLimbs,
     };
-    let mut twin = opened(surface, (&region, n_regions), (branches, mirror));
+    let mut twin = opened(surface, &region, n_regions, branches, mirror);
     if cut == Cut::Disk && !surface.is_cut() {
         join_disks(surface, &mut twin);
     }
@@ -41,26 +41,31 @@ pub(super) fn charts_in_ways(
     most: usize,
 ) -> Vec<Vec<Chart>> {
     let adjacency = surface.adjacency();
-    let regions = (&*adjacency.piece, adjacency.n_pieces);
-    let ways = opened_in_ways(surface, regions, (Branches::None, mirror), most).into_iter();
-    ways.map(|twin| charts_glued(surface, &twin, mirror))
+    let (region, n_regions) = (&*adjacency.piece, adjacency.n_pieces);
+    let ways = opened_in_ways(surface, region, n_regions, Branches::None, mirror, most);
+    (ways.into_iter())
+        .map(|twin| charts_glued(surface, &twin, mirror))
         .collect()
 }
 
 /// The gluing that is left when regions are parted and opened to disks.
 fn opened(
     surface: &Surface,
-    regions: (&[u32], usize),
-    how: (Branches, Option<MirrorPlane>),
+    region: &[u32],
+    n_regions: usize,
+    branches: Branches,
+    mirror: Option<MirrorPlane>,
 ) -> Vec<u32> {
-    opened_in_ways(surface, regions, how, 1).swap_remove(0)
+    opened_in_ways(surface, region, n_regions, branches, mirror, 1).swap_remove(0)
 }
 
 /// The same in several ways, at least one and at most so many.
 fn opened_in_ways(
     surface: &Surface,
-    (region, n_regions): (&[u32], usize),
-    (branches, mirror): (Branches, Option<MirrorPlane>),
+    region: &[u32],
+    n_regions: usize,
+    branches: Branches,
+    mirror: Option<MirrorPlane>,
     most: usize,
 ) -> Vec<Vec<u32>> {
     let adjacency = surface.adjacency();

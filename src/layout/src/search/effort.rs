@@ -4,7 +4,7 @@
 ///
 /// It is counted, not timed, so equal input gives equal charts on any machine.
 #[derive(Clone, Copy, Debug)]
-pub struct Effort {
+pub struct SearchEffort {
     /// Faces of all maps.
     pub mapped_faces: usize,
     /// Faces of all predictions.
@@ -22,7 +22,7 @@ const FOR_ALL: f64 = 60_000.0;
 /// Maps of each face beyond that, about 0.1 milliseconds: as long as all other work on a machine part of 9,000 faces takes.
 const PER_FACE: f64 = 5.0;
 
-impl Effort {
+impl SearchEffort {
     /// Effort without a limit.
     pub const UNBOUNDED: Self = Self::new(f64::INFINITY);
 

@@ -21,11 +21,11 @@ pub enum Laid {
     /// The best map: no map of the union has less excess than the best maps of its parts together, and laying these together adds none.
     Best(Box<Net>),
     /// A start for the map.
-    Start(Start),
+    Start(UnionStart),
 }
 
 /// Start of the map of a union of two nets.
-pub enum Start {
+pub enum UnionStart {
     /// The maps of both, laid together: the chart of the union, and the places of its vertices.
     LaidTogether(Chart, Vec<[f64; 2]>),
     /// A map of its own: the opening joins what is cut inside of one of them.
@@ -39,7 +39,7 @@ impl Laid {
         let mesh = CutMesh::new(metric, &faces, &opening.slits);
         let laid = laid_together(&mesh, [a, b], contact, opening);
         let Some((places, chart)) = laid.zip(chart(&mesh)) else {
-            return Self::Start(Start::Own);
+            return Self::Start(UnionStart::Own);
         };
         let uv: Vec<[f64; 2]> = (places.into_iter())
             .map(|p| p.map(|x| x * metric.unit))
@@ -56,7 +56,7 @@ impl Laid {
         if are_off_hinge(metric, &chart, &pairs, &hinge) {
             return Self::Collides;
         }
-        Self::Start(Start::LaidTogether(chart, uv))
+        Self::Start(UnionStart::LaidTogether(chart, uv))
     }
 }
 
@@ -65,12 +65,12 @@ impl Net {
     pub fn of_union(
         metric: &Metric,
         faces: &[u32],
-        start: Start,
+        start: UnionStart,
         opening: &Opening,
         options: &embed::Options,
         observer: &dyn Observer,
     ) -> Option<Self> {
-        let Start::LaidTogether(chart, uv) = start else {
+        let UnionStart::LaidTogether(chart, uv) = start else {
             return Self::map(metric, faces, opening, options, observer);
         };
         let weighted = &weighted(options, metric, faces);

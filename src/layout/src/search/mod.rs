@@ -56,7 +56,7 @@ mod state;
 use crate::charts::{
     Bound, Bounded, MappedChart, Observer, Symmetry, mirror_plane, smoothed_where_rough,
 };
-pub use effort::Effort;
+pub use effort::SearchEffort;
 use metric::Metric;
 use net::Net;
 use nets::Nets;
@@ -85,7 +85,7 @@ const SYMMETRY: f64 = 0.1;
 #[derive(Clone, Copy, Debug)]
 pub struct Terms {
     /// The most work that may be done.
-    pub effort: Effort,
+    pub effort: SearchEffort,
     /// Weight of the fill of a square page beside the cost of the seams: 1 over the weight of a seam.
     pub fill_weight: f64,
 }
@@ -93,7 +93,7 @@ pub struct Terms {
 impl Default for Terms {
     fn default() -> Self {
         Self {
-            effort: Effort::UNBOUNDED,
+            effort: SearchEffort::UNBOUNDED,
             fill_weight: GIVEN_PAGE,
         }
     }

@@ -1,7 +1,7 @@
 //! Ways to cut a set of faces open, by the predicted price.
 
 use super::cut_mesh::CutMesh;
-use super::effort::Effort;
+use super::effort::SearchEffort;
 use super::metric::Metric;
 use super::prediction::{Grounded, Prediction, is_saddle};
 use super::sets::union;
@@ -75,7 +75,7 @@ impl Ways {
         faces: &Arc<[u32]>,
         lambda: f64,
         most: f64,
-        effort: &mut Effort,
+        effort: &mut SearchEffort,
     ) -> Option<&Opening> {
         let bar = |openings: &[Opening]| openings.last().map_or(most, |it| it.price(lambda));
         while let Some((_, slits)) =
@@ -106,7 +106,7 @@ impl Ways {
 /// a plan pay, so each is made once.
 pub struct Plans<'a> {
     metric: &'a Metric<'a>,
-    known: HashMap<Start, Option<Plan>>,
+    known: HashMap<Start, Option<SlitPlan>>,
 }
 
 /// Faces to open, and the slits that are there.
@@ -117,7 +117,7 @@ struct Start {
 }
 
 /// Slits to add one by one, each the one that relieves most for its length.
-struct Plan {
+struct SlitPlan {
     /// Price of the excess at which no further slit pays.
     lambda: f64,
     /// Starting slits, which open the faces to a disk.
@@ -152,7 +152,7 @@ impl<'a> Plans<'a> {
         start: &Start,
         lambda: f64,
         most: f64,
-        effort: &mut Effort,
+        effort: &mut SearchEffort,
     ) -> Option<Opening> {
         let is_known = match self.known.get(start) {
             Some(Some(plan)) => lambda <= plan.lambda,
@@ -170,7 +170,7 @@ impl<'a> Plans<'a> {
     }
 }
 
-impl Plan {
+impl SlitPlan {
     /// Returns the cheapest opening with the first slits of the plan.
     fn opening(&self, lambda: f64, most: f64) -> Option<Opening> {
         let (mut length, mut best) = (self.start.length, (self.start.price(lambda), 0));
@@ -199,8 +199,8 @@ fn planned(
     start: &Start,
     lambda: f64,
     most: f64,
-    effort: &mut Effort,
-) -> Option<Plan> {
+    effort: &mut SearchEffort,
+) -> Option<SlitPlan> {
     let (faces, mut slits) = (&start.faces, start.slits.clone());
     let mut mesh = CutMesh::new(metric, faces, &slits);
     if mesh.loops.is_empty() {
@@ -212,7 +212,7 @@ fn planned(
     let mut prediction = Prediction::new(&mesh)?;
     let neighbors = Neighbors::new(&mesh.sheet);
     let mut length = metric.length_of(&slits);
-    let mut plan = Plan {
+    let mut plan = SlitPlan {
         lambda,
         start: Opening {
             length,
@@ -245,7 +245,7 @@ pub fn slits_along(
     mesh: &CutMesh,
     prediction: &mut Prediction,
     relieved: impl Fn(&[u32]) -> Vec<u32>,
-    effort: &mut Effort,
+    effort: &mut SearchEffort,
 ) -> Vec<(Slit, Grounded)> {
     let before = prediction.excess();
     let mut slits = Vec::with_capacity(paths.len());

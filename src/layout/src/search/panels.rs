@@ -23,7 +23,7 @@ const STRAIGHT: f64 = 0.01;
 
 /// A connected part of a surface; sums over its border are weighted by length.
 #[derive(Clone, Copy, Default)]
-struct Part {
+struct SurfacePart {
     area: f64,
     /// Length of the border to other parts.
     border: f64,
@@ -31,7 +31,7 @@ struct Part {
     area_across: f64,
 }
 
-impl Part {
+impl SurfacePart {
     /// Returns whether the folds to other parts are sharp on average, or there are none.
     fn is_set_apart(&self) -> bool {
         self.border <= 0.0 || self.fold > SET_APART * self.border
@@ -49,7 +49,8 @@ impl Part {
 pub fn panels(metric: &Metric, observer: &dyn Observer) -> Vec<bool> {
     let mut pieces = Pieces::of_facets(metric);
     let facets = parts(metric, &pieces.label);
-    let is_flat = |part: &Part| part.area > LEAST && (part.is_set_apart() || part.is_larger());
+    let is_flat =
+        |part: &SurfacePart| part.area > LEAST && (part.is_set_apart() || part.is_larger());
     let mut is_panel: Vec<bool> = (pieces.label.iter())
         .map(|&facet| is_flat(&facets[facet as usize]))
         .collect();
@@ -68,9 +69,9 @@ pub fn panels(metric: &Metric, observer: &dyn Observer) -> Vec<bool> {
 }
 
 /// Returns the parts into which labels divide the faces.
-fn parts(metric: &Metric, label: &[u32]) -> Vec<Part> {
+fn parts(metric: &Metric, label: &[u32]) -> Vec<SurfacePart> {
     let n = label.iter().max().map_or(0, |&last| last as usize + 1);
-    let mut parts = vec![Part::default(); n];
+    let mut parts = vec![SurfacePart::default(); n];
     for (&label, &area) in label.iter().zip(&metric.area) {
         parts[label as usize].area += area;
     }

@@ -78,7 +78,7 @@ pub struct Pieces<'a> {
     metric: &'a Metric<'a>,
     /// For each face the piece that holds it.
     pub label: Vec<u32>,
-    list: Vec<Piece>,
+    list: Vec<SurfacePiece>,
     /// Faces around each vertex.
     around: Vec<Vec<u32>>,
     /// Absolute angle defect of each vertex, 0 on the boundary.
@@ -86,7 +86,7 @@ pub struct Pieces<'a> {
 }
 
 #[derive(Default)]
-struct Piece {
+struct SurfacePiece {
     faces: Vec<u32>,
     joined_from: Option<[u32; 2]>,
     is_current: bool,
@@ -101,10 +101,10 @@ impl<'a> Pieces<'a> {
     /// Makes each facet a piece.
     pub fn of_facets(metric: &'a Metric<'a>) -> Self {
         let (label, n) = facets(metric);
-        let mut list: Vec<Piece> = Vec::new();
-        list.resize_with(n, || Piece {
+        let mut list: Vec<SurfacePiece> = Vec::new();
+        list.resize_with(n, || SurfacePiece {
             is_current: true,
-            ..Piece::default()
+            ..SurfacePiece::default()
         });
         for (face, &label) in (0u32..).zip(&label) {
             list[label as usize].faces.push(face);
@@ -249,7 +249,7 @@ impl<'a> Pieces<'a> {
             of_other.insert(number, edges.clone());
         }
         faces.sort_unstable();
-        self.list.push(Piece {
+        self.list.push(SurfacePiece {
             faces,
             joined_from: Some([a, b]),
             is_current: true,

@@ -6,7 +6,7 @@
 //! component is parted; the search glues the parts again where that pays.
 
 use super::cut_mesh::CutMesh;
-use super::effort::Effort;
+use super::effort::SearchEffort;
 use super::metric::Metric;
 use super::net::{Net, chart, weighted};
 use super::nets::Nets;
@@ -74,7 +74,7 @@ impl<'a> Slitting<'a> {
     /// Returns the next slit, the one that relieves most for its length; `None` where nothing is distorted.
     ///
     /// A slit may be predicted to relieve nothing: where most of a component shrinks alike, some of it has to be opened first.
-    fn next_slit(&mut self, effort: &mut Effort) -> Option<&Slit> {
+    fn next_slit(&mut self, effort: &mut SearchEffort) -> Option<&Slit> {
         if self.n_made == self.plan.len() {
             let (slit, grounded) = self.best_slit(effort)?;
             self.prediction.accept(grounded);
@@ -83,7 +83,7 @@ impl<'a> Slitting<'a> {
         Some(&self.plan[self.n_made])
     }
 
-    fn best_slit(&mut self, effort: &mut Effort) -> Option<(Slit, Grounded)> {
+    fn best_slit(&mut self, effort: &mut SearchEffort) -> Option<(Slit, Grounded)> {
         let paths = paths(self.mesh, &self.neighbors, &self.prediction);
         // Saddles at its end count as relieved: what overlaps there is parted later.
         let relieved = |path: &[u32]| {

@@ -1,7 +1,7 @@
 //! State of the search, and its passes at falling prices of distortion.
 
 use super::Terms;
-use super::effort::Effort;
+use super::effort::SearchEffort;
 use super::laid_together::Laid;
 use super::metric::Metric;
 use super::net::Net;
@@ -41,7 +41,7 @@ pub struct Search<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct Counts {
     /// Faces mapped and predicted.
-    pub effort: Effort,
+    pub effort: SearchEffort,
     /// Moves whose openings were predicted.
     pub predicted: usize,
     /// Maps.
@@ -60,7 +60,7 @@ pub struct Counts {
 
 impl Counts {
     /// Creates counts of nothing, with the most that may be done.
-    pub fn new(effort: Effort) -> Self {
+    pub fn new(effort: SearchEffort) -> Self {
         Self {
             effort,
             predicted: 0,

@@ -11,7 +11,7 @@ use unwrapd_layout::charts::{
     Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, Straighten, Straightened, charts,
     charts_under_bound, given_back, map_chart, map_chart_from, straightened,
 };
-use unwrapd_layout::search::{CutProblem, Effort, Terms, from_charts, from_surface};
+use unwrapd_layout::search::{CutProblem, SearchEffort, Terms, from_charts, from_surface};
 use unwrapd_maps::measure::cost::GIVEN_PAGE;
 use unwrapd_maps::mesh::{CornerUvs, Resolution, Surface};
 use unwrapd_method::solver::Control;
@@ -33,7 +33,7 @@ pub fn mapped_charts(
             .map(|(index, surface)| {
                 let faces = surface.triangles.len();
                 let portion = Portion::of_surface(tracker, index, faces);
-                let effort = Effort::for_surface(faces, of_all);
+                let effort = SearchEffort::for_surface(faces, of_all);
                 let charts = under_bound(surface, seams[index], plan, effort, &portion);
                 portion.all_mapped(charts.len());
                 charts
@@ -109,7 +109,7 @@ fn under_bound(
     surface: &Surface,
     seams: &Seams,
     plan: &Plan,
-    effort: Effort,
+    effort: SearchEffort,
     portion: &Portion,
 ) -> Vec<MappedChart> {
     let most = plan.most_charts.map_or(usize::MAX, |n| n as usize);

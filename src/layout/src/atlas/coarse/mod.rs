@@ -10,21 +10,12 @@ use super::layout::{Layout, padding};
 use super::mask::{Distances, Rounding};
 use super::occupancy::{Corner, Occupancy};
 use super::outline::{Outline, outlines};
-use super::page::{Form, Region, Texture, page_side};
+use super::page::{FINE, Form, RASTER, Region, Texture, page_side};
 use super::plan::{HOPE, MOST_CHARTS, Plan};
 use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation};
 use super::squeeze::{Pose, Squeezed};
 use arrangement::{Arrangement, Poses};
 
-/// Cells along the side of the square page that the charts are expected to need. With 64, worse cuts are chosen. With 256, a trial
-/// costs four times as much, and less is found in the same time.
-pub(in crate::atlas) const RASTER: u32 = 96;
-/// Value that replaces [`RASTER`] with more than [`FEW`] charts per page, as each of them then has fewer cells.
-const FINE_RASTER: u32 = 256;
-/// Maximum number of charts per page on the raster of [`RASTER`] cells, and of those whose order is searched, where several small
-/// charts count as one. With more charts, a trial takes too long, and a layout on the raster that keeps the padding
-/// is squeezed.
-const FEW: usize = 64;
 /// A chart is small if the half perimeter of its rectangle is at most this share of that side: it finds a place between the others.
 const SMALL: f64 = 0.12;
 /// Sides of the squares in which all charts are first placed, in sides of the page; tried in this order until the charts fit.
@@ -102,7 +93,7 @@ impl CoarseLayout {
         }
         let area = plan.area();
         let texture = options.texture;
-        let side = raster_side(plan.order.len(), texture);
+        let side = texture.coarse_cells(plan.order.len());
         let cells = f64::from(texture.raster(side));
         let raster = CoarseRaster {
             side,
@@ -256,26 +247,12 @@ impl CoarseLayout {
 
     /// Returns `true` if there are too many charts to search their order.
     pub fn is_crowded(&self) -> bool {
-        is_crowd(self.n_charts(), self.raster.texture)
+        self.raster.texture.is_crowded(self.n_charts())
     }
 
     /// Returns the longer side of the largest page, in cells.
     fn side(&self) -> f64 {
         (self.squeezed.as_ref()).map_or(self.state.cost, |squeezed| squeezed.side)
-    }
-}
-
-/// Returns whether there are too many charts to search their order.
-pub(super) fn is_crowd(n_charts: usize, texture: Texture) -> bool {
-    n_charts > FEW * texture.pages as usize
-}
-
-/// Returns the cells along the side of a square page with this many charts.
-pub(super) fn raster_side(n_charts: usize, texture: Texture) -> u32 {
-    if is_crowd(n_charts, texture) {
-        FINE_RASTER
-    } else {
-        RASTER
     }
 }
 
@@ -311,9 +288,6 @@ impl CoarseRaster {
         Occupancy::new(form, side, self.padding.ceil() as u32 + 2, 0)
     }
 }
-
-/// Factor by which the raster of the final layout is finer along each side.
-pub(in crate::atlas) const FINE: f64 = 2.0;
 
 impl CoarseLayout {
     /// Returns an arrangement as poses of charts.

@@ -177,7 +177,8 @@ impl Squeezed {
         &mut self,
         bodies: &[Arc<Body>],
         room: f64,
-        (words, on_read): (u64, &OnRead),
+        words: u64,
+        on_read: &OnRead,
     ) -> bool {
         let limit = ReadLimit::new(words, on_read);
         self.squeeze(bodies, room, LEAP, limit) != End::Overlapping

@@ -1,6 +1,6 @@
 //! Where closed components are opened.
 
-use super::pending_chart::Piece;
+use super::pending_chart::PendingChart;
 use super::quality::Bound;
 use super::simplified::Simplified;
 use crate::charts::chart::Chart;
@@ -21,7 +21,7 @@ pub enum Opened {
     /// Nothing is planned in it.
     Whole(Chart),
     /// With the slits that decided for it.
-    Slit(Box<Piece>),
+    Slit(Box<PendingChart>),
 }
 
 /// The charts of a surface that is opened in several ways: of each component the chart that promises to keep the bound with the
@@ -68,7 +68,7 @@ fn best_of(
             .flatten();
         let is_simple = simple.is_some();
         let mut piece =
-            Piece::unmapped(simple.map_or_else(|| chart.clone(), |simple| simple.chart));
+            PendingChart::unmapped(simple.map_or_else(|| chart.clone(), |simple| simple.chart));
         let price = price(&mut piece, bound, observer);
         let opened = if is_whole && !is_simple {
             Opened::Slit(Box::new(piece))
@@ -83,7 +83,7 @@ fn best_of(
 }
 
 /// Slits a chart until it is expected to keep the bound: the length of its seams times the excess that is left.
-fn price(piece: &mut Piece, bound: &Bound, observer: &dyn Observer) -> f64 {
+fn price(piece: &mut PendingChart, bound: &Bound, observer: &dyn Observer) -> f64 {
     let allowed = bound.budget() * piece.area;
     while piece.excess > allowed && observer.control() == Control::Continue {
         if !piece.cut(piece.excess > 2.0 * allowed) {

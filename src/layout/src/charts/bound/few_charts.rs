@@ -1,7 +1,7 @@
 //! Few charts under a bound on their distortion.
 
 use super::best_way::{Opened, best_opened};
-use super::pending_chart::Piece;
+use super::pending_chart::PendingChart;
 use super::planned::parted_as_simplified;
 use super::quality::{Bound, Bounded};
 use super::rounds::{mean_excess, rounds};
@@ -98,7 +98,7 @@ fn charts_of_surface(
     let given_back = |pieces| {
         given_back(
             surface,
-            Piece::maps(pieces).collect(),
+            PendingChart::maps(pieces).collect(),
             bound,
             options,
             observer,
@@ -108,7 +108,7 @@ fn charts_of_surface(
         return given_back(slit);
     }
     let divided = map_all(charts_alike(surface, Cut::Fast, mirror), options, observer);
-    let divided: Vec<Piece> = divided.into_iter().map(Piece::of).collect();
+    let divided: Vec<PendingChart> = divided.into_iter().map(PendingChart::of).collect();
     let better = if mean_excess(&divided) < mean_excess(&slit) {
         divided
     } else {
@@ -144,13 +144,16 @@ fn slit_and_mapped(
     bound: &Bound,
     options: &embed::Options,
     observer: &dyn Observer,
-) -> Vec<Piece> {
+) -> Vec<PendingChart> {
     let pieces = (opened.into_par_iter().with_max_len(1)).flat_map_iter(|opened| match opened {
         Opened::Whole(chart) if chart.disk.triangles.len() >= LARGE => {
             let parts = parted_as_simplified(chart, bound, options, observer);
-            (map_all(parts, options, observer).into_iter().map(Piece::of)).collect()
+            (map_all(parts, options, observer)
+                .into_iter()
+                .map(PendingChart::of))
+            .collect()
         }
-        Opened::Whole(chart) => vec![Piece::unmapped(chart)],
+        Opened::Whole(chart) => vec![PendingChart::unmapped(chart)],
         Opened::Slit(piece) => vec![*piece],
     });
     rounds(pieces.collect(), bound, options, observer)

@@ -18,7 +18,7 @@ const MAPPED_OVER_PREDICTED: f64 = 0.17;
 const LEAST_AND_MOST_RATIO: [f64; 2] = [0.05, 0.5];
 
 /// A chart on its way below the bound.
-pub struct Piece {
+pub struct PendingChart {
     slits: Option<Predicted>,
     pub map: Option<MappedChart>,
     /// What the map costs, or is expected to cost with the slits that are planned; and the area it is spent on.
@@ -28,7 +28,7 @@ pub struct Piece {
     ratio: f64,
 }
 
-impl Piece {
+impl PendingChart {
     /// A chart without slits.
     pub fn unmapped(chart: Chart) -> Self {
         let slits = Predicted::new(chart);

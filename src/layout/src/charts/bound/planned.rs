@@ -1,6 +1,6 @@
 //! The seams of a large chart, planned on a simplification of it.
 
-use super::pending_chart::Piece;
+use super::pending_chart::PendingChart;
 use super::quality::Bound;
 use super::redrawn::parted_along;
 use super::rounds::{mean_excess, rounds};
@@ -50,7 +50,7 @@ fn planned(
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
     let under = |bound: &Bound| {
-        let whole = vec![Piece::unmapped(simple.chart.clone())];
+        let whole = vec![PendingChart::unmapped(simple.chart.clone())];
         let pieces = rounds(whole, bound, options, observer);
         // Only the parts of the chart itself count.
         let n_mapped = pieces.len() as isize;
@@ -68,7 +68,7 @@ fn planned(
             pieces = fewer;
         }
     }
-    let parts = Piece::maps(pieces).collect();
+    let parts = PendingChart::maps(pieces).collect();
     match simple.surface() {
         Some(surface) => given_back(&surface, parts, bound, options, observer),
         None => parts,

@@ -46,7 +46,7 @@ struct Drawing {
 }
 
 /// Edges that follow each other, and their vertices.
-struct Line {
+struct EdgeChain {
     edges: Vec<u32>,
     vertices: Vec<u32>,
 }
@@ -95,7 +95,7 @@ impl Drawing {
     }
 
     /// The lines from end to end. Closed ones without any are left out.
-    fn lines(&self) -> Vec<Line> {
+    fn lines(&self) -> Vec<EdgeChain> {
         let mut is_done = vec![false; self.is_cut.len()];
         let mut lines = Vec::new();
         for end in (0..self.n_at.len() as u32).filter(|&v| self.is_end(v)) {
@@ -118,8 +118,8 @@ impl Drawing {
     }
 
     /// The line that begins at an end with an edge.
-    fn line(&self, end: u32, first: u32) -> Line {
-        let mut line = Line {
+    fn line(&self, end: u32, first: u32) -> EdgeChain {
+        let mut line = EdgeChain {
             edges: vec![first],
             vertices: vec![end, opposite_end(&self.sheet, first, end)],
         };
@@ -136,7 +136,7 @@ impl Drawing {
     }
 
     /// Moves a line to the cheapest way between its ends.
-    fn redraw(&mut self, line: &Line, most_off: usize) {
+    fn redraw(&mut self, line: &EdgeChain, most_off: usize) {
         let (first, last) = (line.vertices[0], line.vertices[line.vertices.len() - 1]);
         if first == last {
             return;
@@ -161,7 +161,7 @@ impl Drawing {
     }
 
     /// The vertices at most so many edges off a line that no other seam and no boundary touches, and its ends.
-    fn near(&self, line: &Line, most_off: usize) -> HashSet<u32> {
+    fn near(&self, line: &EdgeChain, most_off: usize) -> HashSet<u32> {
         let is_free = |v: u32| self.n_at[v as usize] == 0 && !self.is_on_boundary[v as usize];
         let mut near: HashSet<u32> = line.vertices.iter().copied().collect();
         let mut front = line.vertices[1..line.vertices.len() - 1].to_vec();

@@ -1,7 +1,7 @@
 //! Charts slit and mapped in rounds.
 
 use super::distortion::stretched_area;
-use super::pending_chart::Piece;
+use super::pending_chart::PendingChart;
 use super::quality::Bound;
 use crate::charts::chart::Chart;
 use crate::charts::observer::Observer;
@@ -32,12 +32,12 @@ const HOPELESS_AT_ONCE: f64 = 1_000.0;
 
 /// Slits and maps pieces in rounds until their maps keep the bound, or that is hopeless.
 pub fn rounds(
-    mut pieces: Vec<Piece>,
+    mut pieces: Vec<PendingChart>,
     bound: &Bound,
     options: &embed::Options,
     observer: &dyn Observer,
-) -> Vec<Piece> {
-    let n_faces: usize = pieces.iter().map(Piece::n_faces).sum();
+) -> Vec<PendingChart> {
+    let n_faces: usize = pieces.iter().map(PendingChart::n_faces).sum();
     let budget = bound.budget();
     let mut wanted = budget;
     let mut before = f64::INFINITY;
@@ -78,7 +78,7 @@ pub fn rounds(
 /// Slits where the excess that is to be expected is largest, until its mean is as wanted.
 ///
 /// Ends early when the observer wants the work to end: then fewer slits have to do.
-fn slit(pieces: &mut [Piece], wanted: f64, observer: &dyn Observer) {
+fn slit(pieces: &mut [PendingChart], wanted: f64, observer: &dyn Observer) {
     let area: f64 = pieces.iter().map(|piece| piece.area).sum();
     let mut is_done = vec![false; pieces.len()];
     let counterpart = counterparts_of(pieces);
@@ -110,25 +110,25 @@ fn slit(pieces: &mut [Piece], wanted: f64, observer: &dyn Observer) {
 }
 
 /// For each piece the other that is its mirror image.
-fn counterparts_of(pieces: &[Piece]) -> Vec<Option<usize>> {
-    let charts: Option<Vec<&Chart>> = pieces.iter().map(Piece::chart).collect();
+fn counterparts_of(pieces: &[PendingChart]) -> Vec<Option<usize>> {
+    let charts: Option<Vec<&Chart>> = pieces.iter().map(PendingChart::chart).collect();
     let charts = charts.filter(|charts| charts.iter().any(|chart| chart.mirror.is_some()));
     charts.map_or(vec![None; pieces.len()], |charts| counterparts(&charts))
 }
 
 /// The excess of all pieces over their area.
-pub fn mean_excess(pieces: &[Piece]) -> f64 {
+pub fn mean_excess(pieces: &[PendingChart]) -> f64 {
     let excess: f64 = pieces.iter().map(|piece| piece.excess).sum();
     excess / total_area(pieces)
 }
 
-fn total_area(pieces: &[Piece]) -> f64 {
+fn total_area(pieces: &[PendingChart]) -> f64 {
     let area: f64 = pieces.iter().map(|piece| piece.area).sum();
     area.max(f64::MIN_POSITIVE)
 }
 
 /// Whether more of the area is stretched beyond the bound than may be.
-fn is_stretched(pieces: &[Piece], bound: &Bound) -> bool {
+fn is_stretched(pieces: &[PendingChart], bound: &Bound) -> bool {
     let Some(most) = bound.stretch else {
         return false;
     };

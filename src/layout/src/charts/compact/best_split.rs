@@ -36,7 +36,7 @@ impl MappedChart {
 
 fn best_of(splitter: &Splitter, control: &dyn Fn() -> Control) -> Option<Split> {
     let mut chords = chords(&splitter.clusters, splitter.crumb, splitter.square);
-    let worth = |chord: &Chord| splitter.worth(chord.gain, chord.area, (chord.length, 1));
+    let worth = |chord: &Chord| splitter.worth(chord.gain, chord.area, chord.length, 1);
     chords.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
     chords.dedup_by(|a, b| a.is_like(b));
     let tried = chords.iter().take(TRIED);

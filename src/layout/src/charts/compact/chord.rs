@@ -35,7 +35,7 @@ impl Chord {
 }
 
 /// A connected part of a map.
-struct Part {
+struct MapPart {
     area: f64,
     border: f64,
     support: Support,
@@ -55,7 +55,7 @@ pub fn chords(clusters: &Clusters, crumb: f64, square: f64) -> Vec<Chord> {
     (0..SWEEPS)
         .flat_map(|k| {
             let (sin, cos) = (TAU * f64::from(k) / f64::from(SWEEPS)).sin_cos();
-            sweep(clusters, crumb, (square, whole), [cos, sin])
+            sweep(clusters, crumb, square, whole, [cos, sin])
         })
         .collect()
 }
@@ -64,7 +64,8 @@ pub fn chords(clusters: &Clusters, crumb: f64, square: f64) -> Vec<Chord> {
 fn sweep(
     clusters: &Clusters,
     crumb: f64,
-    (square, whole): (f64, f64),
+    square: f64,
+    whole: f64,
     direction: [f64; 2],
 ) -> Vec<Chord> {
     let reach: Vec<f64> = (clusters.centre.iter())
@@ -154,7 +155,7 @@ struct Beyond<'a> {
     sets: UnionFind,
     has_passed: Vec<bool>,
     /// For each cluster the part that it was the last to join.
-    parts: Vec<Part>,
+    parts: Vec<MapPart>,
     /// For each cluster that represents a part where that is.
     place: Vec<Option<u32>>,
 }
@@ -162,7 +163,7 @@ struct Beyond<'a> {
 impl<'a> Beyond<'a> {
     fn new(clusters: &'a Clusters) -> Self {
         let n = clusters.area.len();
-        let alone = (clusters.area.iter().zip(&clusters.support)).map(|(&area, support)| Part {
+        let alone = (clusters.area.iter().zip(&clusters.support)).map(|(&area, support)| MapPart {
             area,
             border: 0.0,
             support: support.clone(),
@@ -202,11 +203,11 @@ impl<'a> Beyond<'a> {
 
     /// Each part that may be a piece, a cluster of it, and the hull of the rest of the map, given the clusters that were added and
     /// the hull of the others.
-    fn parts(&self, passed: &[u32], before: &Support, crumb: f64) -> Vec<(u32, &Part, Support)> {
+    fn parts(&self, passed: &[u32], before: &Support, crumb: f64) -> Vec<(u32, &MapPart, Support)> {
         let part = |&c: &u32| Some((c, &self.parts[self.place[c as usize]? as usize]));
         let all = passed.iter().filter_map(part);
         let is_piece =
-            |&(_, part): &(u32, &Part)| part.area >= crumb && part.area <= self.whole - crumb;
+            |&(_, part): &(u32, &MapPart)| part.area >= crumb && part.area <= self.whole - crumb;
         let (pieces, others): (Vec<_>, Vec<_>) = all.partition(is_piece);
         let mut beside = before.clone();
         for (_, other) in others {

@@ -70,7 +70,7 @@ impl<'a> Splitter<'a> {
         let directions = Directions::default();
         let square = unit * unit / HOPE;
         let whole = vec![0; sheet.triangles.len()];
-        let hull = hulls_of(sheet, &uv, &directions, (&whole, 1)).swap_remove(0);
+        let hull = hulls_of(sheet, &uv, &directions, &whole, 1).swap_remove(0);
         let cost = edge_costs(sheet);
         let planes = Planes::of(sheet, &uv, &cost, hull.area());
         let clusters = Clusters::new(sheet, &uv, &cost, planes);
@@ -135,13 +135,13 @@ impl<'a> Splitter<'a> {
         if n_parts < 2 || areas.iter().any(|&area| area < self.crumb) {
             return None;
         }
-        let hulls = hulls_of(self.sheet, &self.uv, &self.directions, (&part, n_parts));
+        let hulls = hulls_of(self.sheet, &self.uv, &self.directions, &part, n_parts);
         let rooms = hulls.iter().map(|hull| hull.room(self.square));
         let gain = self.room - rooms.sum::<f64>();
         let smallest = areas.iter().copied().fold(f64::INFINITY, f64::min);
         let length = seam().map(|(h, _)| cost(h)).sum();
         Some(Split {
-            worth: self.worth(gain, smallest, (length, n_parts - 1)),
+            worth: self.worth(gain, smallest, length, n_parts - 1),
             part,
             length,
             planes: self.planes,
@@ -150,7 +150,7 @@ impl<'a> Splitter<'a> {
 
     /// What a cut of some length into so many parts more is worth that gains so much room and of which the smallest part has some
     /// area.
-    pub(super) fn worth(&self, gain: f64, area: f64, (length, n_new): (f64, usize)) -> f64 {
+    pub(super) fn worth(&self, gain: f64, area: f64, length: f64, n_new: usize) -> f64 {
         let cost = length + n_new as f64 * self.per_seam;
         (gain + SMALLER * area.min(self.area - area)) / cost
     }
@@ -220,7 +220,8 @@ impl<'a> Splitter<'a> {
         let stays = min_cut(
             &twin,
             &capacities(&twin, &cost),
-            (&beside(true), &beside(false)),
+            &beside(true),
+            &beside(false),
             control,
         );
         let mut refined = is_piece.to_vec();
@@ -257,7 +258,8 @@ fn hulls_of(
     sheet: &Sheet,
     uv: &[[f64; 2]],
     directions: &Directions,
-    (part, n_parts): (&[u32], usize),
+    part: &[u32],
+    n_parts: usize,
 ) -> Vec<Support> {
     let mut hulls = vec![Support::EMPTY; n_parts];
     for (h, &t) in (0u32..).zip(&sheet.twin) {

@@ -3,7 +3,7 @@
 use super::border::Run;
 use super::cost::Cost;
 use super::given_back::{Giving, MOST_PAIRS};
-use super::laid::Laid;
+use super::laid::MovedChart;
 use super::occupied::Ground;
 use crate::charts::mapped::MappedChart;
 use crate::charts::symmetry::counterpart::moment;
@@ -19,7 +19,7 @@ type Before = Vec<(u32, MappedChart, Cost)>;
 
 impl Giving<'_> {
     /// Glues a chart to a neighbor, and the mirror image of the chart to the neighbor's; both or none.
-    pub(super) fn join_alike(&mut self, number: u32, laid: Laid, run: &Run) -> bool {
+    pub(super) fn join_alike(&mut self, number: u32, laid: MovedChart, run: &Run) -> bool {
         let Some(plane) = self.charts[&number].chart.mirror else {
             return self.join(number, laid, run);
         };
@@ -54,11 +54,11 @@ impl Giving<'_> {
     }
 
     /// A chart laid on a neighbor along a line, if it can be.
-    fn laid_along(&self, number: u32, line: &[[f64; 3]]) -> Option<(Laid, Run)> {
+    fn laid_along(&self, number: u32, line: &[[f64; 3]]) -> Option<(MovedChart, Run)> {
         let chart = &self.charts[&number];
         let mut runs = self.borders.runs(number, &self.charts).into_iter();
         let run = runs.find_map(|run| part_along(&run, line, &chart.chart.positions))?;
-        let laid = Laid::new(chart, &self.charts[&run.neighbor], &run)?;
+        let laid = MovedChart::new(chart, &self.charts[&run.neighbor], &run)?;
         Some((laid, run))
     }
 

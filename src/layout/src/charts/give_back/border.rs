@@ -7,7 +7,7 @@ use unwrapd_maps::mesh::{CUT, Surface, next};
 use unwrapd_method::numerics::vec2::sub;
 
 /// Which chart each triangle of a surface is in.
-pub struct Borders<'a> {
+pub struct ChartBorders<'a> {
     surface: &'a Surface,
     /// For each triangle its chart and its number there.
     home: Vec<[u32; 2]>,
@@ -26,7 +26,7 @@ pub struct Run {
     pub halfedges: Vec<u32>,
 }
 
-impl<'a> Borders<'a> {
+impl<'a> ChartBorders<'a> {
     /// Of charts that have each triangle once.
     pub fn new<'b>(
         surface: &'a Surface,

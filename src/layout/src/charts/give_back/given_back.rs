@@ -1,8 +1,8 @@
 //! Small charts given back to their neighbors.
 
-use super::border::{Borders, Run, parts_of_runs};
+use super::border::{ChartBorders, Run, parts_of_runs};
 use super::cost::Cost;
-use super::laid::Laid;
+use super::laid::MovedChart;
 use super::occupied::Ground;
 use crate::charts::bound::quality::Bound;
 use crate::charts::mapped::MappedChart;
@@ -48,10 +48,10 @@ pub fn given_back(
 
 /// Where a chart was laid on a neighbor: its number and its faces, the neighbor's, the first halfedge of the run and its edges.
 /// With more faces either is another chart.
-type Place = [u32; 6];
+type GluingPlace = [u32; 6];
 
 pub(super) struct Giving<'a> {
-    pub(super) borders: Borders<'a>,
+    pub(super) borders: ChartBorders<'a>,
     pub(super) charts: BTreeMap<u32, MappedChart>,
     pub(super) costs: BTreeMap<u32, Cost>,
     /// What all may cost.
@@ -62,7 +62,7 @@ pub(super) struct Giving<'a> {
     /// Those that were pushed, once for each.
     were_pushed: BTreeSet<u32>,
     /// Where charts were laid in vain.
-    in_vain: BTreeSet<Place>,
+    in_vain: BTreeSet<GluingPlace>,
     /// Faces that may still be glued.
     pub(super) left: usize,
     pub(super) options: &'a embed::Options,
@@ -84,7 +84,7 @@ impl<'a> Giving<'a> {
         let sum = |of: fn(&Cost) -> f64| costs.values().map(of).sum::<f64>();
         let area = sum(|cost| cost.area);
         Self {
-            borders: Borders::new(surface, charts.iter().map(|(&n, map)| (n, &map.chart))),
+            borders: ChartBorders::new(surface, charts.iter().map(|(&n, map)| (n, &map.chart))),
             most: Cost {
                 area,
                 excess: sum(|cost| cost.excess).max(bound.budget() * area),
@@ -139,7 +139,7 @@ impl<'a> Giving<'a> {
                 continue;
             }
             let neighbor = &self.charts[&run.neighbor];
-            if let Some(laid) = Laid::new(&self.charts[&number], neighbor, &run) {
+            if let Some(laid) = MovedChart::new(&self.charts[&number], neighbor, &run) {
                 let ground = self.grounds.entry(run.neighbor);
                 let ground = ground.or_insert_with(|| Ground::new(neighbor));
                 match laid.n_overlaps(ground, most_pairs) {
@@ -161,7 +161,7 @@ impl<'a> Giving<'a> {
         for (_, run) in pushed {
             let neighbor = &self.charts[&run.neighbor];
             if self.observer.control() == Control::Continue
-                && let Some(laid) = Laid::new(&self.charts[&number], neighbor, &run)
+                && let Some(laid) = MovedChart::new(&self.charts[&number], neighbor, &run)
                 && self.join_alike(number, laid, &run)
             {
                 return Some(run.neighbor);
@@ -170,7 +170,7 @@ impl<'a> Giving<'a> {
         None
     }
 
-    fn place(&self, number: u32, run: &Run) -> Place {
+    fn place(&self, number: u32, run: &Run) -> GluingPlace {
         let faces = |number: u32| self.charts[&number].chart.disk.triangles.len() as u32;
         [
             number,

@@ -3,7 +3,7 @@
 use super::border::Run;
 use super::cost::Cost;
 use super::given_back::Giving;
-use super::laid::Laid;
+use super::laid::MovedChart;
 use crate::charts::mapped::MappedChart;
 use crate::charts::unfold::local_minimum::Local;
 use crate::charts::unfold::overlaps::overlaps_with;
@@ -24,7 +24,7 @@ const AROUND_SEAM: usize = 8;
 
 impl Giving<'_> {
     /// Glues a chart to a neighbor, if they can be kept from overlapping within the bound.
-    pub(super) fn join(&mut self, number: u32, laid: Laid, run: &Run) -> bool {
+    pub(super) fn join(&mut self, number: u32, laid: MovedChart, run: &Run) -> bool {
         let neighbor = &self.charts[&run.neighbor];
         let n_faces = |map: &MappedChart| map.chart.disk.triangles.len();
         let n_glued = n_faces(neighbor) + n_faces(&self.charts[&number]);

@@ -8,13 +8,13 @@ use unwrapd_maps::embed::{self, Embedding};
 use unwrapd_maps::mesh::Disk;
 
 /// A chart moved to where it might be glued to another.
-pub struct Laid {
+pub struct MovedChart {
     pub map: MappedChart,
     /// The common vertices: its own, and the other's.
     seam: Vec<[u32; 2]>,
 }
 
-impl Laid {
+impl MovedChart {
     /// The chart moved rigidly to where the vertices of a run fit best to the neighbor's, and these put to where the neighbor has
     /// them; none if a face is not positive so.
     pub fn new(map: &MappedChart, neighbor: &MappedChart, run: &Run) -> Option<Self> {

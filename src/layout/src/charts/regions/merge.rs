@@ -10,11 +10,11 @@ pub struct Regions {
     sets: UnionFind,
     normals: Vec<Normals>,
     /// For each representative its neighbors, with the length of the common border and the ticket of the queued merge.
-    borders: Vec<BTreeMap<u32, Border>>,
+    borders: Vec<BTreeMap<u32, SharedBorder>>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Border {
+struct SharedBorder {
     length: f64,
     ticket: u32,
 }
@@ -41,7 +41,7 @@ impl Regions {
         let mut maps = vec![BTreeMap::new(); normals.len()];
         for (a, b, length) in borders {
             for (from, to) in [(a, b), (b, a)] {
-                let none = Border {
+                let none = SharedBorder {
                     length: 0.0,
                     ticket: 0,
                 };

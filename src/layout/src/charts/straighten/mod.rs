@@ -70,7 +70,7 @@ pub fn straightened(
         all_area: charts.iter().map(MappedChart::surface_area).sum(),
         is_alone: charts.len() == 1,
     };
-    let mut attempts: Vec<Option<Attempt>> = (charts.par_iter().with_max_len(1))
+    let mut attempts: Vec<Option<StraightChart>> = (charts.par_iter().with_max_len(1))
         .map(|chart| {
             let page = match condition(chart) {
                 Straighten::Never => return None,
@@ -78,13 +78,13 @@ pub fn straightened(
                 Straighten::WhereCompact => Some(of_all),
                 Straighten::WhereBounded => None,
             };
-            Attempt::new(chart, weights, page, bound, options, observer)
+            StraightChart::new(chart, weights, page, bound, options, observer)
         })
         .collect();
     // Spend what the bound leaves where a length of straight border costs least.
     let all = attempts.iter().flatten();
     let mut left: f64 = all.map(|it| bound.budget() * it.area - it.excess).sum();
-    let price = |chart: usize| attempts[chart].as_ref().and_then(Attempt::price);
+    let price = |chart: usize| attempts[chart].as_ref().and_then(StraightChart::price);
     let mut order: Vec<(f64, usize)> = (0..charts.len())
         .filter_map(|chart| Some((price(chart)?, chart)))
         .collect();
@@ -109,7 +109,7 @@ pub fn straightened(
         }
     }
     // An attempt without a page is one on any page.
-    let is_bent = |attempt: &&Attempt| attempt.page.is_none() && 0 < attempt.n_bent;
+    let is_bent = |attempt: &&StraightChart| attempt.page.is_none() && 0 < attempt.n_bent;
     Straightened {
         n_bent: attempts.iter().flatten().filter(is_bent).count(),
         charts,
@@ -117,7 +117,7 @@ pub fn straightened(
 }
 
 /// A chart, and its map with straight sides if there is one.
-struct Attempt {
+struct StraightChart {
     rest: RestShapes,
     /// For each face how often its excess counts.
     factors: Vec<f64>,
@@ -140,7 +140,7 @@ struct Straight {
     length: f64,
 }
 
-impl Attempt {
+impl StraightChart {
     /// Returns the attempt at one chart; `None` if its map has no area. `page` is that of the surface, if it must not grow.
     fn new(
         mapped: &MappedChart,

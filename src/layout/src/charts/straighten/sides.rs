@@ -60,8 +60,8 @@ impl Sides {
     pub fn of(chart: &Chart, uv: &[[f64; 2]]) -> Option<Self> {
         let disk = &chart.disk;
         let around = angle_sums(chart);
-        let loops: Vec<Border> = (disk.loops.iter())
-            .map(|of| Border::new(of, uv, &around))
+        let loops: Vec<ClosedBorder> = (disk.loops.iter())
+            .map(|of| ClosedBorder::new(of, uv, &around))
             .collect();
         let outer = (0..loops.len()).max_by(|&a, &b| loops[a].area.total_cmp(&loops[b].area))?;
         let strip = loops[outer].strip_directions();
@@ -90,7 +90,7 @@ impl Sides {
 }
 
 /// A closed border; its edges go around the area to their left.
-struct Border {
+struct ClosedBorder {
     /// First vertex of each edge.
     vertices: Vec<u32>,
     length: Vec<f64>,
@@ -118,7 +118,7 @@ fn free_price() -> f64 {
 }
 
 /// Returns the angle of the axes that leave least of the borders free: the best of [`ANGLES`], then the mean over what is near it.
-fn main_angle(loops: &[Border]) -> f64 {
+fn main_angle(loops: &[ClosedBorder]) -> f64 {
     let edges = || {
         let edges = loops.iter().flat_map(|it| it.length.iter().zip(&it.angle));
         edges.map(|(&length, &angle)| (length, angle))
@@ -159,7 +159,7 @@ fn angle_sums(chart: &Chart) -> Vec<f64> {
     sums
 }
 
-impl Border {
+impl ClosedBorder {
     fn new(vertices: &[u32], uv: &[[f64; 2]], around: &[f64]) -> Self {
         let n = vertices.len();
         let at = |i: usize| uv[vertices[i % n] as usize];

@@ -47,7 +47,7 @@ fn sheet_of(chart: &Chart) -> Sheet {
 }
 
 /// A line to be drawn, and whether its ends shall lie on the boundary.
-struct Line {
+struct DrawnLine {
     points: Vec<[f64; 3]>,
     ends: [bool; 2],
 }
@@ -100,16 +100,16 @@ impl<'a> Canvas<'a> {
         Some(without(&self.sheet.twin, edges))
     }
 
-    fn line(&self, chain: &Chain) -> Option<Line> {
+    fn line(&self, chain: &Chain) -> Option<DrawnLine> {
         let is_end = |v: u32| self.on_boundary[v as usize];
-        Some(Line {
+        Some(DrawnLine {
             ends: [is_end(*chain.first()?), is_end(*chain.last()?)],
             points: self.mirrored(chain),
         })
     }
 
     /// The edges along a line.
-    fn image(&self, Line { points, ends }: &Line) -> Option<Vec<u32>> {
+    fn image(&self, DrawnLine { points, ends }: &DrawnLine) -> Option<Vec<u32>> {
         if points.first() != points.last() {
             return self.way(points, *ends).map(|way| way.edges);
         }

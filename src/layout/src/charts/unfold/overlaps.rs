@@ -96,7 +96,7 @@ pub fn one_side(
     let partners = Partners::new(twin.len() / 3, pairs);
     let (sources, sinks) = partners.sheet_and_its_partners(twin);
     let capacity = capacities(twin, length);
-    min_cut(twin, &capacity, (&sources, &sinks), control)
+    min_cut(twin, &capacity, &sources, &sinks, control)
 }
 
 /// Lengths as integers: the longest is 2²⁰, none is 0.
