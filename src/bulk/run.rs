@@ -401,29 +401,40 @@ impl RunScratch {
         let all = std::env::temp_dir();
         for entry in fs::read_dir(&all)?.filter_map(Result::ok) {
             let is_ours = entry.file_name().to_string_lossy().starts_with(PREFIX);
-            if is_ours && is_abandoned(&entry.path()) {
+            if is_ours && let Some(_lock) = lock_of_abandoned(&entry.path()) {
                 // Another process may be removing it too.
                 let _ = fs::remove_dir_all(entry.path());
             }
         }
-        let path = all.join(format!("{PREFIX}{}", uuid::Uuid::now_v7()));
-        fs::create_dir(&path)?;
-        let lock = File::create(path.join(LOCK))?;
-        lock.lock()?;
-        Ok(Self { path, _lock: lock })
+        loop {
+            let path = all.join(format!("{PREFIX}{}", uuid::Uuid::now_v7()));
+            fs::create_dir(&path)?;
+            let lock = File::create(path.join(LOCK))?;
+            lock.lock()?;
+            // Until it was locked, another process may have taken the folder for an abandoned one.
+            if path.join(LOCK).exists() {
+                return Ok(Self { path, _lock: lock });
+            }
+        }
     }
 
     /// Creates an empty subfolder.
-    pub(super) fn folder(&self, name: usize) -> io::Result<PathBuf> {
+    ///
+    /// # Errors
+    /// Fails if there is one of that name, or if it cannot be created.
+    pub fn folder(&self, name: usize) -> io::Result<PathBuf> {
         let path = self.path.join(name.to_string());
         fs::create_dir(&path)?;
         Ok(path)
     }
 }
 
-/// Returns whether the process that made a folder has ended. A folder without a lock file is just being made.
-fn is_abandoned(folder: &Path) -> bool {
-    File::open(folder.join(LOCK)).is_ok_and(|lock| lock.try_lock().is_ok())
+/// Returns the lock of a folder whose process has ended, which must be held until the folder is removed. A folder without a lock file is
+/// just being made.
+fn lock_of_abandoned(folder: &Path) -> Option<File> {
+    let lock = File::open(folder.join(LOCK)).ok()?;
+    lock.try_lock().ok()?;
+    Some(lock)
 }
 
 impl Drop for RunScratch {

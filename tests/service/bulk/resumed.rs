@@ -5,6 +5,7 @@ use std::fs;
 use super::{Folders, mesh};
 use crate::cli::{assert_status, unwrapd};
 use crate::meshes;
+use unwrapd::bulk::RunScratch;
 
 #[test]
 fn outputs_mirror_the_folder_and_a_second_run_does_nothing() {
@@ -108,6 +109,21 @@ fn files_that_belong_to_an_output_count_as_its_input() {
     folders.write("in/m.mtl", &text("0 1 0"));
     assert_status(&folders.batch(&["--format", "gltf"]), 0);
     assert_ne!(folders.written()["a.gltf"], before["a.gltf"]);
+}
+
+/// A run that begins takes no folder for abandoned that another one is just making.
+#[test]
+fn scratch_folders_made_at_once_stay() {
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                for _ in 0..200 {
+                    let scratch = RunScratch::new().expect("a folder");
+                    scratch.folder(0).expect("a subfolder");
+                }
+            });
+        }
+    });
 }
 
 #[test]
