@@ -37,6 +37,7 @@ export interface AtlasOptions extends Layout {
   mips?: number;
   cut?: 'auto' | 'fast' | 'disk' | 'keep' | 'seams';
   quality?: 'smooth' | 'balanced' | 'few';
+  cones?: number;
   keptMaps?: 'optimized' | 'as-given';
   maxCharts?: number;
   maxDistortion?: number;

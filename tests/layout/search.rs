@@ -6,7 +6,9 @@ use std::sync::Arc;
 use unwrapd_layout::charts::{
     Bound, Bounded, Cut, Folds, MappedChart, Symmetry, Unobserved, charts, map_chart, seam_length,
 };
-use unwrapd_layout::search::{CutProblem, SearchEffort, Terms, from_charts, from_surface};
+use unwrapd_layout::search::{
+    CutProblem, SearchEffort, Terms, charts_at_cones, from_charts, from_surface,
+};
 use unwrapd_maps::certificate::{Claims, certify};
 use unwrapd_maps::embed::Options;
 use unwrapd_maps::mesh::{Surface, canonical_order};
@@ -310,6 +312,54 @@ fn the_bound_is_kept_and_its_slack_is_spent() {
             before = cost;
         }
     }
+}
+
+/// Maps of the components of a mesh, slit to cones; they may overlap themselves.
+fn maps_at_cones(mesh: &Mesh, n_cones: usize) -> Vec<MappedChart> {
+    let charts = charts_at_cones(&surface(mesh), n_cones).expect("components can be opened");
+    (charts.into_iter())
+        .flat_map(|chart| map_chart(chart, &options(), Folds::Keep, &Unobserved))
+        .collect()
+}
+
+/// Each component becomes one disk; with more cones the seams are longer and the distortion is lower.
+#[test]
+fn more_cones_lower_the_distortion() {
+    for mesh in [zoo::sphere(24, 13), zoo::torus(20, 12), zoo::slab(2)] {
+        let mut before = (0.0, f64::INFINITY);
+        for n_cones in [2, 4, 8, 16] {
+            let maps = maps_at_cones(&mesh, n_cones);
+            let after = (seam(&maps), energy(&maps));
+            assert_eq!(maps.len(), 1);
+            assert!(
+                after.0 >= before.0,
+                "{n_cones} cones: {after:?} after {before:?}"
+            );
+            assert!(
+                after.1 <= before.1 + 1e-6,
+                "{n_cones} cones: {after:?} after {before:?}"
+            );
+            before = after;
+        }
+    }
+}
+
+/// The corners of a cube are its eight cones: with all of them it unfolds, along a tree of edges or nearly so, as the first slit takes the
+/// shortest way across a face.
+#[test]
+fn a_cube_has_eight_cones() {
+    let cube = zoo::voxels(&[[0; 3]]);
+    for n_cones in [8, 100] {
+        let maps = maps_at_cones(&cube, n_cones);
+        assert!((energy(&maps) - 4.0).abs() < 1e-6, "{}", energy(&maps));
+        let (shortest, longest) = (7.0 / 6_f64.sqrt(), (6.0 + 2_f64.sqrt()) / 6_f64.sqrt());
+        assert!(
+            (shortest - 1e-6..=longest + 1e-6).contains(&seam(&maps)),
+            "{}",
+            seam(&maps)
+        );
+    }
+    assert!(energy(&maps_at_cones(&cube, 7)) > 4.01);
 }
 
 /// Charts that are cut more than they need to be are glued and closed.

@@ -473,6 +473,35 @@ fn bounds_without_sense_are_refused() {
     assert!(!refused(Cut::Auto, Some(4.2), Some(2.0)));
 }
 
+/// One chart with less distortion; only `cut` disk has cones.
+#[test]
+fn cones_need_one_chart() {
+    let mesh = zoo::torus(20, 12);
+    let with = |cut, cones| Settings {
+        cutting: Cutting {
+            cones,
+            ..settings(cut).cutting
+        },
+        ..settings(cut)
+    };
+    let [before, after] = [None, Some(4)].map(|cones| measured(&with(Cut::Disk, cones), &mesh));
+    assert_eq!(after.seams.charts, 1);
+    assert!(after.distortion.sym_dirichlet_mean < before.distortion.sym_dirichlet_mean);
+    assert!(after.seams.seam_length > before.seams.seam_length);
+    for cut in [Cut::Auto, Cut::Fast, Cut::Seams] {
+        let made = unwrap(
+            &mesh.positions,
+            &mesh.triangles,
+            &with(cut, Some(4)),
+            &Unobserved,
+        );
+        assert!(
+            matches!(made, Err(PipelineError::InvalidOptions(_))),
+            "{cut:?}"
+        );
+    }
+}
+
 #[test]
 fn an_atlas_keeps_its_bound_with_few_charts() {
     let mesh = zoo::sphere(32, 24).with(&zoo::torus(32, 16).moved([4.0, 0.0, 0.0]));

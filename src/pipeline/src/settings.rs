@@ -182,6 +182,14 @@ options! {
         /// Where a surface is rough, as a noisy scan is, the bound is one on the smoothed surface,
         /// unless `max_distortion` or `max_stretch` is given. The report says so.
         pub quality: Quality = Quality::Balanced, arg(help_heading = None::<&'static str>);
+        /// Slit each component to this many cone singularities with `cut` disk: where the scale of
+        /// its map differs most. More cones lower the distortion, and their slits lengthen the
+        /// seams.
+        ///
+        /// A closed component of genus 0 has at least two. A hole that does not lie flat counts as
+        /// one. There are fewer where nothing is distorted. With many, the map often overlaps
+        /// itself.
+        pub cones: Option<u32>, in 0..=10_000, value "N";
         /// Treatment of the map of each island with `cut` keep.
         pub kept_maps: KeptMaps = KeptMaps::Optimized;
         /// Maximum number of charts that `cut` auto makes per atlas. If more are needed, it allows
@@ -221,6 +229,9 @@ impl Cutting {
 
     /// Checks dependencies between options. The error names the option.
     pub(crate) fn check(&self) -> Result<(), String> {
+        if self.cones.is_some() && self.cut != Cut::Disk {
+            return Err("`cones` requires `cut` disk".to_owned());
+        }
         for (name, given) in [
             ("max_distortion", self.max_distortion),
             ("max_stretch", self.max_stretch),

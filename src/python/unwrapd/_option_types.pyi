@@ -32,6 +32,7 @@ class UnwrapOptions(Layout, total=False):
     seams: Seams | None
     cut: Literal["auto", "fast", "disk", "keep", "seams"] | None
     quality: Literal["smooth", "balanced", "few"] | None
+    cones: int | None
     kept_maps: Literal["optimized", "as-given"] | None
     max_charts: int | None
     max_distortion: float | None

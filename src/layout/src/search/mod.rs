@@ -61,6 +61,7 @@ use metric::Metric;
 use net::Net;
 use nets::Nets;
 use panels::{PANEL_FACTOR, panels};
+pub use slitting::charts_at_cones;
 pub use state::Counts;
 use state::Search;
 use unwrapd_maps::embed;

@@ -14,10 +14,11 @@ use super::opening::{Slit, best, first_slit, paths, slits_along};
 use super::prediction::{Grounded, Prediction};
 use super::sets::union;
 use super::state::Search;
-use crate::charts::{MappedChart, Watching, overlaps, pushed_apart};
+use crate::charts::{Chart, MappedChart, Watching, overlaps, pushed_apart};
+use rayon::prelude::*;
 use unwrapd_maps::cut::{Branches, Neighbors, open_to_disk};
 use unwrapd_maps::embed;
-use unwrapd_maps::mesh::{CUT, UnionFind};
+use unwrapd_maps::mesh::{CUT, Surface, UnionFind};
 use unwrapd_method::numerics::ties::tied;
 
 /// Excess of a map over its prediction before one is known. Measured on 14 meshes: 0.2 to 0.6.
@@ -288,6 +289,43 @@ impl Search<'_> {
             .map(|part| Net::of_chart(metric, part))
             .collect()
     }
+}
+
+/// Opens each component to a disk, possibly with holes, by slits to `n_cones` cone singularities: one after the other, the vertex at
+/// which the predicted scale of the map differs most, or a hole that does not lie flat, whichever relieves more for the length of its
+/// slit. The slit that opens a closed component of genus 0 has two cones at its ends.
+///
+/// There are fewer cones where nothing is left to relieve. Returns `None` if a component cannot be opened.
+///
+/// The choice by the metric is that of Ben-Chen et al. 2008, *Conformal flattening by curvature prescription and metric scaling*. Test:
+/// `cones::more_of_them_lower_the_distortion`.
+pub fn charts_at_cones(surface: &Surface, n_cones: usize) -> Option<Vec<Chart>> {
+    let metric = Metric::new(surface);
+    let charts = components(&metric)
+        .into_par_iter()
+        .map(|faces| chart_at_cones(&metric, &faces, n_cones));
+    charts.collect()
+}
+
+fn chart_at_cones(metric: &Metric, faces: &[u32], n_cones: usize) -> Option<Chart> {
+    let is_sphere = CutMesh::new(metric, faces, &[]).is_sphere();
+    let n_slits = n_cones.saturating_sub(if is_sphere { 2 } else { 0 });
+    let mut best: Option<(f64, Vec<u32>)> = None;
+    for opening in ways_to_open(metric, faces) {
+        let mesh = CutMesh::new(metric, faces, &opening);
+        let Some(mut slitting) = Slitting::new(&mesh, &opening) else {
+            continue;
+        };
+        let mut effort = SearchEffort::UNBOUNDED;
+        while slitting.n_made < n_slits && slitting.next_slit(&mut effort).is_some() {
+            slitting.n_made += 1;
+        }
+        let excess = tied(slitting.predicted(slitting.n_made));
+        if best.as_ref().is_none_or(|(least, _)| excess < *least) {
+            best = Some((excess, slitting.slits()));
+        }
+    }
+    chart(&CutMesh::new(metric, faces, &best?.1))
 }
 
 /// Returns the faces of each component, in ascending order.

@@ -11,7 +11,9 @@ use unwrapd_layout::charts::{
     Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, Straighten, Straightened, charts,
     charts_under_bound, given_back, map_chart, map_chart_from, straightened,
 };
-use unwrapd_layout::search::{CutProblem, SearchEffort, Terms, from_charts, from_surface};
+use unwrapd_layout::search::{
+    CutProblem, SearchEffort, Terms, charts_at_cones, from_charts, from_surface,
+};
 use unwrapd_maps::measure::cost::GIVEN_PAGE;
 use unwrapd_maps::mesh::{CornerUvs, Resolution, Surface};
 use unwrapd_method::solver::Control;
@@ -43,7 +45,12 @@ pub fn mapped_charts(
     }
     let charts: Vec<Vec<Chart>> = surfaces
         .par_iter()
-        .map(|surface| charts(surface, plan.cut))
+        .map(|surface| {
+            let at_cones = plan
+                .cones
+                .and_then(|n| charts_at_cones(surface, n as usize));
+            at_cones.unwrap_or_else(|| charts(surface, plan.cut))
+        })
         .collect();
     let kept = |mesh: usize, chart: &Chart| {
         let uvs = plan.reads_uvs().then_some(seams[mesh].uvs.as_ref());

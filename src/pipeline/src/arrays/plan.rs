@@ -36,6 +36,8 @@ pub struct Plan {
     pub most_charts: Option<u32>,
     /// `true` if seams are moved off the diagonals of polygons: not where a caller says where to cut.
     pub keeps_polygons: bool,
+    /// Cone singularities to slit each component to.
+    pub cones: Option<u32>,
     /// Treatment of charts that overlap themselves.
     pub folds: Folds,
     /// Price of seams that only make the atlas fuller; `None` if no chart is cut for that.
@@ -139,6 +141,7 @@ impl Plan {
                 Some(Straightening::Selected(_)) => StraightCharts::Selected,
             },
             most_charts: cutting.max_charts,
+            cones: cutting.cones,
             keeps_polygons: is_promised && !matches!(cut, Cut::Keep | Cut::Seams),
             folds: if may_cut_again {
                 Folds::Cut

@@ -111,6 +111,22 @@ fn check(options: &Options) -> Result<(), String> {
             options.mapping.barrier_support != default.mapping.barrier_support,
         ],
     )?;
+    let of_auto = [
+        ("max_charts", options.cutting.max_charts.is_some()),
+        ("max_distortion", options.cutting.max_distortion.is_some()),
+        ("max_stretch", options.cutting.max_stretch.is_some()),
+        (
+            "seam_weight",
+            options.cutting.seam_weight != default.cutting.seam_weight,
+        ),
+        (
+            "symmetry",
+            options.cutting.symmetry != default.cutting.symmetry,
+        ),
+    ];
+    refused(
+        of_auto.map(|(name, is_given)| (name, "`cut` auto and a `barrier`", is_given && !is_auto)),
+    )?;
     refused([
         (
             "barrier_continuation",
@@ -124,29 +140,9 @@ fn check(options: &Options) -> Result<(), String> {
                 && options.mapping.barrier == BarrierKind::None,
         ),
         (
-            "max_charts",
-            "`cut` auto and a `barrier`",
-            options.cutting.max_charts.is_some() && !is_auto,
-        ),
-        (
-            "max_distortion",
-            "`cut` auto and a `barrier`",
-            options.cutting.max_distortion.is_some() && !is_auto,
-        ),
-        (
-            "max_stretch",
-            "`cut` auto and a `barrier`",
-            options.cutting.max_stretch.is_some() && !is_auto,
-        ),
-        (
-            "seam_weight",
-            "`cut` auto and a `barrier`",
-            options.cutting.seam_weight != default.cutting.seam_weight && !is_auto,
-        ),
-        (
-            "symmetry",
-            "`cut` auto and a `barrier`",
-            options.cutting.symmetry != default.cutting.symmetry && !is_auto,
+            "cones",
+            "`cut` disk",
+            options.cutting.cones.is_some() && options.cutting.cut != Cut::Disk,
         ),
         (
             "quality",
