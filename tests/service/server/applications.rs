@@ -404,6 +404,53 @@ async fn an_obj_comes_with_its_materials() {
     assert!(text.contains("image/png") && text.contains("image/jpeg"));
 }
 
+/// A square of 4 × 4 cells whose middle vertex lies outside, as OFF.
+fn folded(middle: [f64; 2]) -> Vec<u8> {
+    let place = |v: u32| match v {
+        12 => middle,
+        _ => [f64::from(v % 5), f64::from(v / 5)],
+    };
+    let mut text = String::from("OFF\n25 32 0\n");
+    for [x, y] in (0..25).map(place) {
+        text += &format!("{x} {y} 0\n");
+    }
+    for a in (0..16).map(|s| s / 4 * 5 + s % 4) {
+        text += &format!("3 {a} {} {}\n3 {a} {} {}\n", a + 1, a + 6, a + 6, a + 5);
+    }
+    text.into_bytes()
+}
+
+#[tokio::test]
+async fn folded_meshes_are_untangled() {
+    let server = Server::start();
+    let mesh = || ("folded.off", folded([3.6, 3.4]));
+    let (report, media_type, result) = outcome(&server, form("untangle", "{}", mesh())).await;
+    assert_eq!(report["elements"], 32, "{report}");
+    assert!(report["inverted_before"].as_u64() > Some(0), "{report}");
+    assert!(report["moved"].as_u64() > Some(0), "{report}");
+    assert!(report["smallest"].as_f64() > Some(0.0), "{report}");
+    assert!(result.starts_with(b"OFF"), "{media_type}");
+    // Rest shapes come in a part of their own.
+    let rest = Part::bytes(folded([2.0, 2.0])).file_name("rest.off");
+    let given = form(
+        "untangle",
+        r#"{"rest_mesh": "rest.off", "format": "obj"}"#,
+        mesh(),
+    );
+    let (report, _, _) = outcome(&server, given.part("resource", rest)).await;
+    assert!(report["inverted_before"].as_u64() > Some(0), "{report}");
+    // What cannot be is named.
+    let missing = form("untangle", r#"{"rest_mesh": "rest.off"}"#, mesh());
+    let job = ended(&server, missing).await;
+    assert_eq!(job["error"]["code"], "missing_resource", "{job}");
+    let unknown = form("untangle", r#"{"rest": "none"}"#, mesh());
+    assert_eq!(ended(&server, unknown).await["code"], "invalid_options");
+    let surface = form("untangle", "{}", ("surface.glb", meshes::small()));
+    let job = ended(&server, surface).await;
+    let code = [&job["code"], &job["error"]["code"]];
+    assert!(code.contains(&&"unknown_format".into()), "{job}");
+}
+
 /// An OBJ of two materials side by side, each a row of 4 cells; the vertices of the right end are red.
 fn two_materials() -> Vec<u8> {
     let mut text = String::new();

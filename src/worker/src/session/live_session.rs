@@ -64,7 +64,7 @@ impl LiveSession {
                 let islands = NamedHandles::new(IslandView::new(islands));
                 (Box::new(islands), json!(options.islands))
             }
-            Kind::Unwrap | Kind::Measure | Kind::Verify | Kind::Solve => {
+            Kind::Unwrap | Kind::Measure | Kind::Verify | Kind::Solve | Kind::Untangle => {
                 let detail = format!("a job of kind {} has no handles", kind.word());
                 return Err(Failure::new("invalid_options", detail));
             }
