@@ -27,16 +27,19 @@ fn allocations(body: Body, pool: &ThreadPool) -> Vec<usize> {
         Handle::Vertex {
             vertex: 0,
             to: body.rest[..dim].to_vec(),
+            weight: None,
         },
         Handle::Vertex {
             vertex: (last / dim) as u32,
             to: body.rest[last..].iter().map(|x| 1.5 * x).collect(),
+            weight: None,
         },
         Handle::Point {
             at: (0..dim)
                 .map(|k| (0.41 + 0.02 * k as f64) * length)
                 .collect(),
             to: (0..dim).map(|k| (0.5 + 0.02 * k as f64) * length).collect(),
+            weight: None,
         },
     ];
     let problem = Problem::new(body, &handles, &Model::default()).expect("a problem");

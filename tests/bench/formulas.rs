@@ -130,6 +130,7 @@ fn ends(body: &Body) -> [Handle; 2] {
             to,
             turn: 0.0,
             axis: None,
+            weight: None,
         }
     })
 }

@@ -89,6 +89,7 @@ impl InteractiveContinuation {
                 to: low.to_vec(),
                 turn: 0.0,
                 axis: None,
+                weight: None,
             },
             center: high.to_vec(),
             radius,
@@ -112,6 +113,7 @@ impl InteractiveContinuation {
             to: self.target(frame),
             turn: 0.0,
             axis: None,
+            weight: None,
         };
         [self.held.clone(), dragged]
     }

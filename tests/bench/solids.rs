@@ -116,6 +116,7 @@ fn ends(positions: &[[f64; 3]]) -> [Handle; 2] {
             to: to.to_vec(),
             turn: 0.0,
             axis: None,
+            weight: None,
         }
     };
     [end(false, 0.0), end(true, 0.2)]
@@ -192,7 +193,13 @@ fn handles(body: &Body) -> Vec<Handle> {
     };
     let numbered = (0..).zip(&points);
     numbered
-        .filter_map(|(vertex, p)| place(p).map(|to| Handle::Vertex { vertex, to }))
+        .filter_map(|(vertex, p)| {
+            place(p).map(|to| Handle::Vertex {
+                vertex,
+                to,
+                weight: None,
+            })
+        })
         .collect()
 }
 

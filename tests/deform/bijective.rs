@@ -180,6 +180,7 @@ fn ends(to: [[f64; 2]; 2]) -> [Handle; 2] {
     let vertex = |vertex: u32, to: [f64; 2]| Handle::Vertex {
         vertex,
         to: to.to_vec(),
+        weight: None,
     };
     [vertex(1, to[0]), vertex(3 * SECTIONS + 1, to[1])]
 }
@@ -195,6 +196,7 @@ fn pulled(mesh: &PlanarMesh, [first, second]: [Handle; 2], bijective: bool) -> S
     let held = Handle::Vertex {
         vertex: back,
         to: mesh.vertices()[back as usize].to_vec(),
+        weight: None,
     };
     let handles = [held, first, second];
     let model = Model {
@@ -234,6 +236,7 @@ fn ends_of_a_horseshoe_are_dragged_through_one_another() {
     let point = |at: &[f64], to: &[f64]| Handle::Point {
         at: at.to_vec(),
         to: to.to_vec(),
+        weight: None,
     };
     for ends in [vertices, [point(&a, &b), point(&b, &a)]] {
         let free = pulled(&mesh, ends.clone(), false);
@@ -270,6 +273,7 @@ fn what_cannot_be_kept_bijective_is_refused() {
     let held = Handle::Vertex {
         vertex: 0,
         to: vec![0.0, 0.0],
+        weight: None,
     };
     let of = |vertices: Vec<[f64; 2]>, model: &Model| {
         let mesh = PlanarMesh::new(vertices, vec![[0, 1, 2], [3, 4, 5]]).expect("triangles");

@@ -12,7 +12,15 @@ fn problem(body: Body, energy: EnergyKind) -> Problem {
         ..Model::default()
     };
     let to = body.rest[..body.dim()].to_vec();
-    let problem = Problem::new(body, &[Handle::Vertex { vertex: 0, to }], &model);
+    let problem = Problem::new(
+        body,
+        &[Handle::Vertex {
+            vertex: 0,
+            to,
+            weight: None,
+        }],
+        &model,
+    );
     Problem {
         units: Units::Given,
         ..problem.expect("a handle of the body")

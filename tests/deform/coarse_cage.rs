@@ -21,6 +21,7 @@ fn a_large_cage_starts_where_a_coarse_one_ends() {
         to: vec![0.5 + shift, 0.5, z],
         turn: 0.0,
         axis: None,
+        weight: None,
     };
     let caged = Caged {
         surfaces: &[surface],

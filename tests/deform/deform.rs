@@ -302,14 +302,17 @@ fn points_inside_elements_come_to_their_targets() {
             to: vec![0.0, 1.0],
             turn: 0.0,
             axis: None,
+            weight: None,
         },
         Handle::Point {
             at: vec![7.3, 1.4],
             to: vec![5.0, 4.0],
+            weight: None,
         },
         Handle::Vertex {
             vertex: 12,
             to: vec![4.5, 0.5],
+            weight: None,
         },
     ];
     let problem = Problem::new(body, &handles, &ARAP).expect("handles of the strip");
@@ -336,10 +339,12 @@ fn handles_that_cannot_be_have_names() {
     let vertex = |vertex, to: &[f64]| Handle::Vertex {
         vertex,
         to: to.to_vec(),
+        weight: None,
     };
     let point = |at: &[f64]| Handle::Point {
         at: at.to_vec(),
         to: vec![0.0, 0.0],
+        weight: None,
     };
     let disc = |radius, turn| Handle::Disc {
         center: vec![50.0, 50.0],
@@ -347,6 +352,7 @@ fn handles_that_cannot_be_have_names() {
         to: vec![0.0, 0.0],
         turn,
         axis: None,
+        weight: None,
     };
     for (handles, code) in [
         (vec![], "no_handle"),

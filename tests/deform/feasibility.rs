@@ -67,7 +67,11 @@ fn held_with<const D: usize>(
     let handle = |&vertex: &u32| {
         let place: [f64; D] = std::array::from_fn(|k| body.rest[D * vertex as usize + k]);
         let to = image(place).to_vec();
-        Handle::Vertex { vertex, to }
+        Handle::Vertex {
+            vertex,
+            to,
+            weight: None,
+        }
     };
     let handles: Vec<Handle> = vertices.iter().map(handle).collect();
     Problem::new(body.clone(), &handles, model).expect("a problem")

@@ -30,7 +30,11 @@ fn held<const D: usize>(
     let handle = |vertex: u32| {
         let place: [f64; D] = std::array::from_fn(|k| body.rest[D * vertex as usize + k]);
         let to = image(place).to_vec();
-        Handle::Vertex { vertex, to }
+        Handle::Vertex {
+            vertex,
+            to,
+            weight: None,
+        }
     };
     let handles: Vec<Handle> = boundary(&body, side).map(handle).collect();
     Problem::new(body, &handles, model).expect("a problem")
@@ -140,6 +144,7 @@ fn a_free_border_takes_no_start_at_the_targets() {
     let handles = corners.map(|(vertex, to)| Handle::Vertex {
         vertex,
         to: to.to_vec(),
+        weight: None,
     });
     let problem = Problem::new(body, &handles, &Model::default()).expect("a problem");
     assert_reached(&problem, &solved(&problem));

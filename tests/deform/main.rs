@@ -12,6 +12,7 @@ mod elsewhere;
 mod feasibility;
 mod handles;
 mod harmonic_start;
+mod lines;
 mod outline;
 mod own_energy;
 mod picture_warp;

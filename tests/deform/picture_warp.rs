@@ -62,6 +62,7 @@ fn with_a_fixed_border_extreme_moves_are_bijective() {
             .map(|_| PictureHandle::Point {
                 at: random.place(size),
                 to: random.place(size),
+                weight: None,
             })
             .collect();
         let options = WarpOptions {
@@ -103,10 +104,12 @@ fn a_target_outside_a_fixed_border_is_out_of_reach() {
     let handle = PictureHandle::Point {
         at: [16.0, 12.0],
         to: [100.0, 12.0],
+        weight: None,
     };
     let image = ramp(32, 24);
     let options = options(8, Boundary::Fixed);
-    let warp = warp_picture(&image, &[handle], &options, &go_on).expect("a warp");
+    let warp =
+        warp_picture(&image, std::slice::from_ref(&handle), &options, &go_on).expect("a warp");
     assert_eq!(warp.summary.status, Status::TargetsUnreachable);
     assert_bijective(&warp, "outside");
     assert!(warp.summary.residual > 68.0 * 68.0);
@@ -130,6 +133,7 @@ fn a_free_border_travels_with_its_handles() {
     let handles = at.map(|at| PictureHandle::Point {
         at,
         to: [at[0] - 7.0, at[1] + 12.0],
+        weight: None,
     });
     let warp =
         warp_picture(&image, &handles, &options(10, Boundary::Free), &go_on).expect("a warp");
@@ -168,7 +172,11 @@ fn a_handle_holds_the_very_point_it_names() {
         ([24.0, 8.0], [22.0, 7.0]),
         ([30.5, 13.1], [33.25, 9.75]),
     ];
-    let handles = pairs.map(|(at, to)| PictureHandle::Point { at, to });
+    let handles = pairs.map(|(at, to)| PictureHandle::Point {
+        at,
+        to,
+        weight: None,
+    });
     for boundary in [Boundary::Free, Boundary::Fixed] {
         let warp = warp_picture(&image, &handles, &options(10, boundary), &go_on).expect("a warp");
         assert_eq!(warp.summary.status, Status::Converged);
@@ -186,9 +194,11 @@ fn next_to_a_fixed_border_a_handle_moves_the_nearest_inner_vertex() {
     let handle = PictureHandle::Point {
         at: [13.0, 0.5],
         to: [14.0, 1.5],
+        weight: None,
     };
     let options = options(10, Boundary::Fixed);
-    let warp = warp_picture(&image, &[handle], &options, &go_on).expect("a warp");
+    let warp =
+        warp_picture(&image, std::slice::from_ref(&handle), &options, &go_on).expect("a warp");
     let vertex = (warp.grid.vertices().iter())
         .position(|p| *p == [12.0, 4.0])
         .expect("a grid vertex");
@@ -201,6 +211,7 @@ fn without_a_barrier_the_map_may_fold_and_the_report_says_so() {
     let handle = PictureHandle::Point {
         at: [8.0, 16.0],
         to: [28.0, 16.0],
+        weight: None,
     };
     let fold = |barrier| {
         let options = WarpOptions {
@@ -210,7 +221,7 @@ fn without_a_barrier_the_map_may_fold_and_the_report_says_so() {
             },
             ..options(8, Boundary::Fixed)
         };
-        warp_picture(&image, &[handle], &options, &go_on).expect("a warp")
+        warp_picture(&image, std::slice::from_ref(&handle), &options, &go_on).expect("a warp")
     };
     let without = fold(BarrierKind::None);
     let judged = certify_planar(&without.deformed, without.grid.triangles());
@@ -221,7 +232,11 @@ fn without_a_barrier_the_map_may_fold_and_the_report_says_so() {
 #[test]
 fn what_cannot_be_warped_has_a_code() {
     let image = ramp(32, 24);
-    let handle = |at: [f64; 2], to: [f64; 2]| PictureHandle::Point { at, to };
+    let handle = |at: [f64; 2], to: [f64; 2]| PictureHandle::Point {
+        at,
+        to,
+        weight: None,
+    };
     let middle = [16.0, 12.0];
     let code = |handles: &[PictureHandle], options: &WarpOptions| {
         warp_picture(&image, handles, options, &go_on)

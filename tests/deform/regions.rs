@@ -228,6 +228,7 @@ fn a_box_of_a_body_is_the_disc_with_its_vertices() {
             to: vec![5.0, 0.5],
             turn: 0.0,
             axis: None,
+            weight: None,
         };
         let problem = Problem::new(body(), &[stay, handle], &Model::default()).expect("a problem");
         problem.solve(&Settings::follow(), &go_on).expect("a map").x
@@ -239,12 +240,14 @@ fn a_box_of_a_body_is_the_disc_with_its_vertices() {
         to: vec![6.0, 8.0],
         turn: 30.0,
         axis: None,
+        weight: None,
     });
     let boxed = Region::Box {
         low: [5.0, 6.0],
         high: [6.0, 7.0],
         to: [6.0, 8.0],
         turn: 30.0,
+        weight: None,
     };
     assert_eq!(disc, solved(boxed.into()));
 }
@@ -256,10 +259,11 @@ fn handles_of_regions_are_read_as_they_are_written() {
         high: [3.0, 4.0],
         to: [5.0, 6.0],
         turn: 7.0,
+        weight: None,
     };
-    let written = serde_json::to_string(&Anchor::Region(region)).expect("JSON");
+    let written = serde_json::to_string(&Anchor::Region(region.clone())).expect("JSON");
     let read = parse_anchors(format!(r#"{{"anchors": [{written}]}}"#).as_bytes());
-    assert_eq!(read, Ok(vec![Anchor::Region(region)]));
+    assert_eq!(read, Ok(vec![Anchor::Region(region.clone())]));
     let bound = bind(&Body::from(&sheet(10)), &[region.into()]).expect("a box with vertices");
     assert_eq!(bound.aims[0].vertices.len(), 9);
 }

@@ -19,10 +19,12 @@ fn a_warp_that_searches_tries_bent_ways_too() {
         PictureHandle::Point {
             at: [16.0, 32.0],
             to: [24.0, 24.0],
+            weight: None,
         },
         PictureHandle::Point {
             at: [48.0, 32.0],
             to: [40.0, 44.0],
+            weight: None,
         },
     ];
     let of = |search| {
@@ -57,6 +59,7 @@ fn so_do_edits_of_uvs() {
     let anchors = [(36, 0.1), (84, -0.1)].map(|(vertex, by)| Anchor::Vertex {
         vertex,
         to: place(vertex).map(|x| x + by),
+        weight: None,
     });
     let of = |search| {
         let options = UvEditOptions {

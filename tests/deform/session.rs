@@ -9,6 +9,7 @@ pub fn vertex(vertex: u32, to: &[f64]) -> Handle {
     Handle::Vertex {
         vertex,
         to: to.to_vec(),
+        weight: None,
     }
 }
 
@@ -16,6 +17,7 @@ pub fn point(at: &[f64], to: &[f64]) -> Handle {
     Handle::Point {
         at: at.to_vec(),
         to: to.to_vec(),
+        weight: None,
     }
 }
 
@@ -26,6 +28,7 @@ pub fn disc(center: &[f64], radius: f64, to: &[f64]) -> Handle {
         to: to.to_vec(),
         turn: 0.0,
         axis: None,
+        weight: None,
     }
 }
 

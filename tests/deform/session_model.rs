@@ -70,15 +70,17 @@ fn an_edit_goes_on_where_a_session_was() {
         Anchor::Vertex {
             vertex: 0,
             to: mesh.uvs[0][0],
+            weight: None,
         },
         Anchor::Place {
             at: [0.7, 0.6],
             to: [0.5, 0.4],
+            weight: None,
         },
     ];
     let mut options = UvEditOptions::edit();
     let mut session = UvSession::new(&view, options.clone());
-    for anchor in anchors {
+    for anchor in anchors.clone() {
         session.add(anchor).expect("an anchor");
     }
     session.step_while(|_| true);

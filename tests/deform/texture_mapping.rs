@@ -58,10 +58,18 @@ fn anchor(mesh: &UvMesh, random: &mut Random) -> Anchor {
     if random.next() < 0.5 {
         let inner = |random: &mut Random| 1 + (random.next() * f64::from(SIDE - 1)) as u32;
         let vertex = inner(random) * (SIDE + 1) + inner(random);
-        return Anchor::Vertex { vertex, to };
+        return Anchor::Vertex {
+            vertex,
+            to,
+            weight: None,
+        };
     }
     let at = place(mesh, random);
-    Anchor::Place { at, to }
+    Anchor::Place {
+        at,
+        to,
+        weight: None,
+    }
 }
 
 /// A UV in a face.

@@ -28,6 +28,7 @@ fn solved(body: Body, held: [(u32, [f64; 2]); 2], energy: DensityKind) -> Soluti
     let handles = held.map(|(vertex, to)| Handle::Vertex {
         vertex,
         to: to.to_vec(),
+        weight: None,
     });
     let problem = Problem::new(body, &handles, &model).expect("a problem");
     let go_on = |_: &Iterate| Control::Continue;

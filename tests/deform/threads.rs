@@ -78,6 +78,7 @@ fn a_solid_is_the_same_with_two_threads() {
         to: vec![0.5, 0.5 + to, z],
         turn: 0.0,
         axis: None,
+        weight: None,
     };
     let body = Body::from(cage.mesh());
     let problem = Problem::new(body, &[end(0.0, 0.0), end(1.0, 0.5)], &Model::default());

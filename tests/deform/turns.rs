@@ -17,6 +17,7 @@ fn ball(x: f64, to: f64, turn: f64) -> Handle {
         to: vec![to, 0.5, 0.5],
         turn,
         axis: (turn != 0.0).then_some([2.0, 0.0, 0.0]),
+        weight: None,
     }
 }
 
@@ -120,6 +121,7 @@ fn a_strip_of_the_plane_curls() {
         to: vec![to, 1.0],
         turn,
         axis: None,
+        weight: None,
     };
     let handles = [disc(0.0, 0.0, 0.0), disc(40.0, 10.0, 720.0)];
     let problem = Problem::new(Body::from(&strip(40, 1.0)), &handles, &Model::default());
@@ -151,6 +153,7 @@ fn a_disc_in_a_fixed_border_keeps_its_turns_however_sheared() {
     let held = border.map(|vertex| Handle::Vertex {
         vertex,
         to: mesh.vertices()[vertex as usize].to_vec(),
+        weight: None,
     });
     let disc = Handle::Disc {
         center: vec![middle; 2],
@@ -158,6 +161,7 @@ fn a_disc_in_a_fixed_border_keeps_its_turns_however_sheared() {
         to: vec![middle; 2],
         turn: 720.0,
         axis: None,
+        weight: None,
     };
     let handles: Vec<Handle> = held.chain([disc]).collect();
     let problem = Problem::new(Body::from(&mesh), &handles, &Model::default()).expect("handles");
@@ -180,6 +184,7 @@ fn a_turn_needs_an_axis_in_space_and_has_none_in_the_plane() {
             to: vec![0.0; dim],
             turn,
             axis,
+            weight: None,
         };
         let made = Problem::new(body, &[handle], &Model::default());
         made.map_or_else(|error| error.code(), |_| "made")

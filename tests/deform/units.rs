@@ -15,6 +15,7 @@ fn bent(model: &Model) -> Problem {
         to: to.to_vec(),
         turn,
         axis: None,
+        weight: None,
     };
     let handles = [
         disc([0.0, 1.0], [0.0, 1.0], 0.0),
@@ -31,12 +32,14 @@ fn pulled(model: &Model, by_a_point: bool) -> Problem {
         to: to.to_vec(),
         turn: 0.0,
         axis: None,
+        weight: None,
     };
     let held = ball([0.0, 0.5, 0.5], [0.0, 0.5, 0.5]);
     let pulled = if by_a_point {
         Handle::Point {
             at: vec![5.6, 0.4, 0.7],
             to: vec![3.0, 3.0, 1.0],
+            weight: None,
         }
     } else {
         ball([6.0, 0.5, 0.5], [3.0, 3.0, 1.0])

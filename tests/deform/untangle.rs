@@ -9,7 +9,11 @@ const SIDE: u32 = 20;
 
 fn problem(body: Body) -> Problem {
     let to = body.rest[..body.dim()].to_vec();
-    let handle = Handle::Vertex { vertex: 0, to };
+    let handle = Handle::Vertex {
+        vertex: 0,
+        to,
+        weight: None,
+    };
     Problem::new(body, &[handle], &Model::default()).expect("a problem")
 }
 

@@ -108,7 +108,11 @@ fn go_on(_: &Iterate) -> Control {
 }
 
 fn to(vertex: u32, to: [f64; 2]) -> Anchor {
-    Anchor::Vertex { vertex, to }
+    Anchor::Vertex {
+        vertex,
+        to,
+        weight: None,
+    }
 }
 
 #[test]
@@ -125,7 +129,12 @@ fn anchors_arrive_and_other_charts_stay() {
         assert_eq!(edited.charts[0].chart, chart);
         assert_eq!(edited.charts[0].summary.status, Status::Converged);
         for anchor in &anchors {
-            if let Anchor::Vertex { vertex, to } = anchor {
+            if let Anchor::Vertex {
+                vertex,
+                to,
+                weight: None,
+            } = anchor
+            {
                 assert_eq!(sheets.uv(&edited, *vertex), *to);
             }
         }
@@ -169,7 +178,11 @@ fn assert_charts_of_the_certificate(mesh: &uv_meshes::UvMesh, n_charts: usize) {
         let [at, to] = [middle, [middle[0] + 0.01, middle[1]]];
         let edited = edit_uvs(
             &arrays,
-            &[Anchor::Place { at, to }],
+            &[Anchor::Place {
+                at,
+                to,
+                weight: None,
+            }],
             &UvEditOptions::edit(),
             &go_on,
         )
@@ -314,7 +327,14 @@ fn an_anchor_by_its_uv_holds_that_very_point() {
     let sheets = Sheets::new();
     let (at, to) = ([0.262, 0.53], [0.29, 0.51]);
     for options in [UvEditOptions::texture(), UvEditOptions::edit()] {
-        let edited = sheets.edit(&[Anchor::Place { at, to }], &options);
+        let edited = sheets.edit(
+            &[Anchor::Place {
+                at,
+                to,
+                weight: None,
+            }],
+            &options,
+        );
         sheets.assert_valid(&edited);
         let report = &edited.charts[0].summary;
         assert_eq!(report.status, Status::Converged);
@@ -340,6 +360,7 @@ fn an_anchor_hardly_outside_a_chart_moves_the_nearest_vertex() {
     let anchor = Anchor::Place {
         at: [0.0495, 0.0996],
         to: [0.03, 0.07],
+        weight: None,
     };
     let edited = sheets.edit(&[anchor], &UvEditOptions::edit());
     let uv = sheets.uv(&edited, 0);
@@ -380,7 +401,7 @@ fn what_cannot_be_edited_has_a_code() {
     assert_eq!(code(&sheets, &[unknown], &texture), "unknown_handle");
     let border = to(0, [0.3, 0.3]);
     assert_eq!(code(&sheets, &[border], &texture), "anchor_on_boundary");
-    let two = [middle, to(40, [0.26, 0.5])];
+    let two = [middle.clone(), to(40, [0.26, 0.5])];
     assert_eq!(code(&sheets, &two, &texture), "contradictory_handles");
 
     // A corner of the sheet, whose two boundary edges stay, is inside out.
@@ -403,6 +424,7 @@ fn what_cannot_be_edited_has_a_code() {
     let by_place = Anchor::Place {
         at: [0.25, 0.5],
         to: [0.27, 0.5],
+        weight: None,
     };
     assert_eq!(cut.edit(&[by_place], &free).charts.len(), 1);
 }
@@ -416,6 +438,7 @@ fn anchors_are_read_by_either_name() {
         let place = Anchor::Place {
             at: [0.5, 1.0],
             to: [1.0, 0.0],
+            weight: None,
         };
         let expected = vec![to(3, [0.0, 1.0]), place];
         assert_eq!(parse_anchors(text.as_bytes()), Ok(expected));
@@ -433,7 +456,11 @@ fn anchors_are_read_by_either_name() {
 #[test]
 fn an_anchor_outside_every_chart_is_refused() {
     let sheets = Sheets::new();
-    let place = |at: [f64; 2]| Anchor::Place { at, to: [0.2, 0.2] };
+    let place = |at: [f64; 2]| Anchor::Place {
+        at,
+        to: [0.2, 0.2],
+        weight: None,
+    };
     let edited = |at| edit_uvs(&sheets.mesh(), &[place(at)], &UvEditOptions::edit(), &go_on);
     let refused = edited([-5.0, -5.0]).expect_err("no chart");
     assert_eq!(refused.code(), "handle_outside");

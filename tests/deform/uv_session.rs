@@ -24,7 +24,11 @@ fn view(mesh: &uv_meshes::UvMesh) -> UvMesh<'_> {
 }
 
 fn to(vertex: u32, to: [f64; 2]) -> Anchor {
-    Anchor::Vertex { vertex, to }
+    Anchor::Vertex {
+        vertex,
+        to,
+        weight: None,
+    }
 }
 
 #[track_caller]
@@ -78,7 +82,10 @@ fn it_settles_where_an_edit_ends() {
             assert_valid(&mesh, &session.uvs());
         }
         settle(&mut session, &mesh);
-        let anchors: Vec<Anchor> = session.handles().map(|(_, anchor)| *anchor).collect();
+        let anchors: Vec<Anchor> = session
+            .handles()
+            .map(|(_, anchor)| anchor.clone())
+            .collect();
         let edited = edit_uvs(&view(&mesh), &anchors, &options, &|_: &Iterate| {
             Control::Continue
         });
@@ -108,6 +115,7 @@ fn undo_is_exact_over_charts() {
     let at = Anchor::Place {
         at: [0.73, 0.21],
         to: [0.75, 0.25],
+        weight: None,
     };
     session.add(at).expect("a place");
     session.add(to(49, [0.5, 0.0])).expect("an anchor");

@@ -15,6 +15,7 @@ fn vertex(vertex: u32, to: &[f64]) -> Handle {
     Handle::Vertex {
         vertex,
         to: to.to_vec(),
+        weight: None,
     }
 }
 

@@ -20,12 +20,17 @@ fn main() {
     for vertex in [0, 1] {
         let to = vec![0.0, f64::from(vertex)];
         session
-            .add(Handle::Vertex { vertex, to })
+            .add(Handle::Vertex {
+                vertex,
+                to,
+                weight: None,
+            })
             .expect("a handle");
     }
     let corner = Handle::Vertex {
         vertex: 21,
         to: vec![10.0, 1.0],
+        weight: None,
     };
     let corner = session.add(corner).expect("a handle");
     for step in 1..=20 {

@@ -7,9 +7,10 @@ from PIL import Image, ImageDraw
 
 from figure import Figure
 from maps import area_distortion, conformal, distance, flips, pulled, sizes
+from modeled import NAPE, cut_bust
 from paint import BLUE, column, common_box, planar, row, surface
 from plane import NEAR, both, merged, moved, rings_of
-from shapes import disk, turned
+from shapes import disk
 from work import read_obj, require
 
 SIDE = 240
@@ -105,23 +106,10 @@ def chart(path):
     return x, triangles, rest, corners, at
 
 
-def head():
-    """A rough head, open at the neck: a sphere with ears, a nose and noise, (positions, triangles)."""
-    angles = np.linspace(0, np.pi * .88, 40)
-    x, triangles = turned(np.stack([np.sin(angles), np.cos(angles)], 1), 50)
-    x, triangles = x[49:], np.maximum(triangles - 49, 0)
-    sides = triangles - np.roll(triangles, 1, 1)
-    triangles = triangles[(sides != 0).all(1)]
-    u = x / np.linalg.norm(x, axis=1, keepdims=True)
-    radius = np.ones(len(x))
-    for center, narrow, height in (((0, -.1, 1), 18, .45), ((.8, .9, .1), 25, .7), ((-.8, .9, .1), 25, .7)):
-        radius += height * np.exp(-narrow * ((u - np.array(center) / np.linalg.norm(center)) ** 2).sum(1))
-    return x * (radius * (1 + .28 * np.random.default_rng(1).random(len(x))))[:, None], triangles
-
-
 def make15(work, fault):
-    file = work.mesh("head", *head())
-    charts = {}
+    x, triangles, path = cut_bust(NAPE)
+    file = work.mesh("head", x, triangles)
+    charts = {"path": path}
     for kind in ("none", "inverse-spline"):
         use = "none" if fault == "barrier off" else kind
         if fault == "another energy" and kind != "none":
@@ -135,6 +123,7 @@ def make15(work, fault):
 
 
 def check15(made):
+    made = {kind: chart for kind, chart in made.items() if kind != "path"}
     n = {kind: flips(at, corners) for kind, (_, _, _, corners, at) in made.items()}
     require(n["none"] > 0, "none inverted without the barrier")
     require(n["inverse-spline"] == 0, f"{n['inverse-spline']} inverted with the barrier")
@@ -146,14 +135,18 @@ def check15(made):
 
 def draw15(made):
     x, triangles = made["none"][:2]
-    pictures = [("surface", surface([(x, triangles, (215, 212, 205))], (25, 12), width=220, height=240))]
+    path = made.pop("path")
+    shown = lambda view: surface([(x, triangles, (222, 205, 185))], view, width=200, height=290, curves=[(path, (200, 30, 30))])
+    columns = [column([shown((20, 6)), shown((-150, 6))])]
     for kind, (_, _, rest, corners, at) in made.items():
-        title, box = "ARAP" if kind == "none" else "with the barrier", common_box(at)
-        pictures.append((title, planar(("", rest, corners), at, [], box, width=300, edge=(60, 64, 80, 25), outline=False)))
+        title = "ARAP" if kind == "none" else "ARAP with the barrier"
         ratio = np.abs(sizes(at, corners)) / sizes(rest, corners)
-        pictures.append(("area", planar(("", rest, corners), at, [], box, width=200, edge=None, outline=False,
-                                        values=(ratio + 1 / np.maximum(ratio, 1e-6), 2, 4))))
-    return row(pictures)
+        show = lambda values, at=at, rest=rest, corners=corners: planar(
+            ("", rest, corners), at, [], common_box(at), width=390, height=290, edge=(60, 64, 80, 25), outline=False, values=values)
+        angles = row([(f"{title}: angles", show((conformal(rest, at, corners), 2, 6)))])
+        areas = row([("areas", show((ratio + 1 / np.maximum(ratio, 1e-6), 2, 4)))])
+        columns.append(column([angles, areas]))
+    return row([("the head and the path of the cut", columns[0]), ("", columns[1]), ("", columns[2])])
 
 
 def make18(work, fault):

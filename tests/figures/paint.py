@@ -80,8 +80,9 @@ def planar(mesh, x, rings=(), box=None, scale=(2, 6), width=300, height=None, ed
     return sheet.done()
 
 
-def surface(parts, view=(30, 15), box=None, width=300, height=300, rim=None):
-    """Surfaces (positions, triangles, colors of one or of all triangles, with alpha) seen from azimuth and elevation, far ones first."""
+def surface(parts, view=(30, 15), box=None, width=300, height=300, rim=None, curves=()):
+    """Surfaces (positions, triangles, colors of one or of all triangles, with alpha) seen from azimuth and elevation, far ones first,
+    and curves (points, color) where they are not hidden."""
     a, e = np.radians(view)
     frame = np.array([[np.cos(a), 0, -np.sin(a)], [-np.sin(e) * np.sin(a), np.cos(e), -np.sin(e) * np.cos(a)],
                       [np.cos(e) * np.sin(a), np.sin(e), np.cos(e) * np.cos(a)]])
@@ -104,8 +105,19 @@ def surface(parts, view=(30, 15), box=None, width=300, height=300, rim=None):
         colors.append(np.column_stack([lit, color[:, 3] if color.shape[1] == 4 else np.full(len(color), 255)]).astype(int))
         shapes.append(y[triangles][:, :, :2])
         depths.append(y[triangles][:, :, 2].mean(1))
-    order = np.argsort(np.concatenate(depths))
-    sheet.polygons(np.concatenate(shapes)[order], np.concatenate(colors)[order], rim)
+    shapes, colors, depths = map(np.concatenate, (shapes, colors, depths))
+    # A curve is drawn as thin ribbons, a little before the surface on which it lies.
+    for points, color in curves:
+        y = points @ frame.T
+        reach = np.ptp(y, 0).max()
+        for a, b in zip(y, y[1:]):
+            aside = np.array([a[1] - b[1], b[0] - a[0]])
+            aside = .006 * reach * aside / max(np.linalg.norm(aside), 1e-12)
+            shapes = np.concatenate([shapes, [[a[:2] - aside, a[:2] + aside, b[:2] + aside], [a[:2] - aside, b[:2] + aside, b[:2] - aside]]])
+            colors = np.concatenate([colors, [[*color, 255]] * 2])
+            depths = np.concatenate([depths, [max(a[2], b[2]) + .02 * reach] * 2])
+    order = np.argsort(depths)
+    sheet.polygons(shapes[order], colors[order], rim)
     return sheet.done()
 
 
@@ -116,10 +128,14 @@ def skin(x, tets):
     return faces[first[count == 1]]
 
 
-def solid(x, tets, view=(30, 15), color=(150, 185, 220), **more):
-    """Tetrahedra from outside, the inverted ones yellow."""
+def solid(x, tets, view=(30, 15), color=(150, 185, 220), held=None, **more):
+    """Tetrahedra from outside, those that are held blue, the inverted ones yellow."""
     bad = tets[sizes(x, tets) <= 0]
-    parts = [(x, skin(x, tets), color)]
+    outside = skin(x, tets)
+    colors = np.tile(color, (len(outside), 1))
+    if held is not None:
+        colors[np.isin(outside, tets[held]).all(1)] = (70, 110, 205)
+    parts = [(x, outside, colors)]
     if len(bad):
         parts.append((x, np.concatenate([bad[:, list(k)] for k in ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))]), YELLOW))
     return surface(parts, view, rim=(50, 60, 80, 60), **more)

@@ -1,10 +1,9 @@
-"""Figures of deformations of space: 1, 5, 11, 13, 14 and 20."""
-from pathlib import Path
-
+"""Figures of deformations of space: 1, 5, 11, 13 and 14."""
 import numpy as np
 
 from figure import Figure
 from maps import distance, flips, sizes
+from modeled import dinosaur, filled
 from paint import YELLOW, common_box, planar, row, solid, surface
 from plane import NEAR, check2, make2, moved, require_pair
 from shapes import Voxels, around, turned
@@ -103,50 +102,38 @@ def draw11(made):
                                             for (e, k), run in runs.items())])
 
 
-def spot(cells):
-    """The cow in voxels."""
-    x, triangles = read_ply(Path(__file__).parents[1] / "assets/spot.ply")
-    weights = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [.5, .5, 0], [0, .5, .5], [.5, 0, .5], [1 / 3] * 3])
-    return around(np.einsum("wk,nkd->wnd", weights, x[triangles]).reshape(-1, 3), cells)
-
-
-def read_ply(path):
-    """Positions and triangles of a binary file with nothing else in it."""
-    head, body = path.read_bytes().split(b"end_header\n", 1)
-    words = head.decode().split()
-    n, m = (int(words[words.index(kind) + 1]) for kind in ("vertex", "face"))
-    x = np.frombuffer(body, "<f4", 3 * n).reshape(n, 3).astype(float)
-    faces = np.frombuffer(body[12 * n:], [("n", "u1"), ("corners", "<i4", 3)], m)
-    return x, faces["corners"].astype(int)
+def dino():
+    """A dinosaur of tetrahedra, its feet, its head and the end of its tail as vertices."""
+    x, tets = filled(dinosaur, (-2.1, -.2, -.8), (3.2, 2.9, .8), .133)
+    return (("dino", x, tets), np.flatnonzero(x[:, 1] < .22), np.flatnonzero((x[:, 0] < -1.25) & (x[:, 1] > 2.2)),
+            np.flatnonzero(x[:, 0] > 2.35))
 
 
 def make13(work, fault):
-    voxels = spot(19)
-    v = voxels.x
-    low, high = v.min(0), v.max(0)
-    legs = np.flatnonzero(v[:, 1] < low[1] + .18 * (high[1] - low[1]))
-    head = np.flatnonzero((v[:, 1] > low[1] + .62 * (high[1] - low[1])) & (v[:, 2] < low[2] + .3 * (high[2] - low[2])))
-    center = v[head].mean(0)
-    to = spun(v[head], center, 0, -55) + np.array([0, -.75, .55]) * (high[1] - low[1]) / 1.9
-    pull = {**{int(k): v[k] for k in legs}, **{int(k): p for k, p in zip(head, to)}}
-    mesh = ("spot", v, voxels.tets)
+    mesh, feet, head, tail = dino()
+    x = mesh[1]
+    # The head bows to the ground in front, the tail rises over the back.
+    pull = {int(v): x[v] for v in feet}
+    pull |= zip(head.tolist(), spun(x[head], x[head].mean(0), 2, 100) + [-.75, -1.75, .1])
+    pull |= zip(tail.tolist(), spun(x[tail], x[tail].mean(0), 2, 150) + [-1.6, 1.75, 0])
+    to = moved(fault, pull, x)
     kind = "none" if fault == "barrier off" else "spline"
-    to = moved(fault, pull, v)
     runs = [work.solve(f"green-{k}", mesh, to, "green", k if i == 0 else kind) for i, k in enumerate(("none", "spline"))]
-    return voxels, pull, runs
+    return mesh, (feet, head, tail), pull, runs
 
 
 def check13(made):
-    voxels, pull, (without, ours) = made
-    n = require_pair(("spot", voxels.x, voxels.tets), pull, without, ours, "Green's strain", 20)
-    return f"{len(voxels.tets)} tetrahedra (the paper 13052); inverted without {n}, with 0; {ours.report['iterations']} iterations (26)"
+    mesh, _, pull, (without, ours) = made
+    n = require_pair(mesh, pull, without, ours, "Green's strain", 20)
+    return f"{len(mesh[2])} tetrahedra (the paper 13052); inverted without {n}, with 0; {ours.report['iterations']} iterations (26)"
 
 
 def draw13(made):
-    voxels, _, (without, ours) = made
-    box = np.stack(np.meshgrid(*zip(*common_box(voxels.x, ours.x))), -1).reshape(-1, 3)
-    return row([(t, solid(at, voxels.tets, (-125, 12), box=box)) for t, at in
-                (("rest", voxels.x), ("Green's strain", without.x), ("with the barrier", ours.x))])
+    (_, x, tets), handles, _, (without, ours) = made
+    box = np.stack(np.meshgrid(*zip(*common_box(x, ours.x))), -1).reshape(-1, 3)
+    view, held = (25, 10), np.isin(tets, np.concatenate(handles)).all(1)
+    show = lambda at: solid(at, tets, view, box=box, width=330, height=300, held=held)
+    return row([(t, show(at)) for t, at in (("rest", x), ("Green's strain", without.x), ("with the barrier", ours.x))])
 
 
 SHELLS = ((1.0, (215, 40, 30)), (.82, (245, 120, 60)), (.5, (250, 200, 90)), (.22, (90, 150, 60)))

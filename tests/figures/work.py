@@ -35,8 +35,8 @@ class Work:
         self.program, self.folder, self.known, self.commands = Path(program).resolve(), Path(folder), {}, []
         self.folder.mkdir(parents=True, exist_ok=True)
 
-    def run(self, *words, statuses=(DONE,)):
-        command = [str(self.program), *map(str, words), "--quiet", "--force"]
+    def run(self, *words, statuses=(DONE,), flags=("--quiet", "--force")):
+        command = [str(self.program), *map(str, words), *flags]
         done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False)
         require(done.returncode in statuses, f"{' '.join(map(str, words))}: exit {done.returncode}: {done.stderr.strip()}")
         self.commands.append("unwrapd " + " ".join(map(str, words)))

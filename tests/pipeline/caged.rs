@@ -30,6 +30,7 @@ fn disc(center: [f64; 3], radius: f64, to: [f64; 3]) -> Handle {
         to: to.to_vec(),
         turn: 0.0,
         axis: None,
+        weight: None,
     }
 }
 
@@ -115,6 +116,7 @@ fn a_part_without_a_handle_stays_at_rest() {
     let pulled = Handle::Point {
         at: vec![0.0, 0.0, 0.9],
         to: vec![0.0, 0.0, 1.5],
+        weight: None,
     };
     let handles = [disc([0.0, 0.0, -1.0], 1.0, [0.0, 0.0, -1.0]), pulled];
     let (solution, written, report) = deformed(&both, &handles);
@@ -134,6 +136,7 @@ fn what_a_cage_cannot_do_is_refused_by_name() {
     let vertex = Handle::Vertex {
         vertex: 0,
         to: vec![0.0; 3],
+        weight: None,
     };
     let outside = disc([9.0; 3], 0.5, [0.0; 3]);
     let obj = Upload::single("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_vec());

@@ -14,6 +14,7 @@ mod contract;
 mod deforming;
 mod deployment;
 mod estimates;
+mod examples;
 mod figures;
 #[path = "../harness/mod.rs"]
 #[expect(dead_code, reason = "some is for the benchmark")]

@@ -1,6 +1,6 @@
 //! Bodies with handles that bend and twist them.
 
-use unwrapd_deform::{Body, Problem, Units};
+use unwrapd_deform::{Body, Problem, SoftPull, Units};
 use unwrapd_maps::mesh::{PlanarMesh, TetMesh};
 use unwrapd_method::barrier::{Barrier, BarrierKind};
 use unwrapd_method::energy::EnergyKind;
@@ -75,6 +75,7 @@ pub fn problem(
         }],
         turned: Vec::new(),
         aims: Vec::new(),
+        soft: SoftPull::default(),
         search: false,
         levenberg: LevenbergSettings::default(),
         units: Units::Given,

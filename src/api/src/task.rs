@@ -153,11 +153,13 @@ pub enum Kind {
     TextureMap,
     /// Packs the UV islands that the file has into one atlas, each as it is.
     Repack,
+    /// Moves vertices of a folded mesh until no element is inverted.
+    Untangle,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Unwrap,
         Self::Measure,
         Self::Verify,
@@ -167,6 +169,7 @@ impl Kind {
         Self::EditUv,
         Self::TextureMap,
         Self::Repack,
+        Self::Untangle,
     ];
 
     /// Returns the content that jobs of this kind read.
@@ -179,7 +182,7 @@ impl Kind {
             | Self::TextureMap
             | Self::Repack => Content::Surface,
             Self::Solve => Content::Problem,
-            Self::Deform => Content::Body,
+            Self::Deform | Self::Untangle => Content::Body,
             Self::Warp => Content::Picture,
         }
     }
@@ -206,6 +209,7 @@ impl Kind {
             Self::EditUv => "edit_uv",
             Self::TextureMap => "texture_map",
             Self::Repack => "repack",
+            Self::Untangle => "untangle",
         }
     }
 }

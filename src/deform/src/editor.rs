@@ -3,6 +3,7 @@
 use super::body::BodyElements;
 use super::problem::{Model, Problem};
 use super::problem_error::ProblemError;
+use super::soft::SoftPull;
 use std::collections::BTreeMap;
 use unwrapd_maps::plane::are_disjoint;
 use unwrapd_method::solver::{Handles, InteractiveContinuation, Objective, Stage, Summary};
@@ -291,17 +292,24 @@ impl Live {
             x,
             continuation,
         };
-        live.aim(handles)?;
+        let soft = live.problem.soft.clone();
+        live.aim(handles, soft)?;
         Ok(live)
     }
 
-    /// Replaces the handles.
-    pub fn aim(&mut self, handles: Handles) -> Result<(), ProblemError> {
+    /// Replaces the handles, those with weights too.
+    pub fn aim(&mut self, handles: Handles, soft: SoftPull) -> Result<(), ProblemError> {
         let (objective, x) = (&mut self.objective, &mut self.x);
         handles.check(objective.dim(), x.len())?;
         self.problem.stations = vec![handles];
+        if self.problem.soft != soft {
+            self.problem.soft = soft;
+            objective.exchange(self.problem.pulled_terms()?);
+        }
         let handles = &self.problem.stations[0];
-        if *x == self.problem.body.rest && self.problem.quality_as_given(x).residual > NEAR * NEAR {
+        let is_pulled = !self.problem.soft.is_empty()
+            || self.problem.quality_as_given(x).residual > NEAR * NEAR;
+        if *x == self.problem.body.rest && is_pulled {
             self.problem.shake(objective, x);
         }
         match &mut self.continuation {
@@ -341,7 +349,8 @@ impl Live {
     /// Moves the map back to `x`, with the present handles.
     pub fn put(&mut self, x: Vec<f64>) -> Result<(), ProblemError> {
         self.x = x;
-        self.aim(self.problem.stations[0].clone())
+        let Problem { stations, soft, .. } = &self.problem;
+        self.aim(stations[0].clone(), soft.clone())
     }
 
     /// Refuses a map outside the domain of the energy.

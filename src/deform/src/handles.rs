@@ -1,8 +1,11 @@
-//! Handles in the form in which users name them.
+//! Handles bound to the vertices and points of a body.
 
 use super::body::{Body, BodyElements, locate, sole_vertex};
+use super::handle::{Handle, middle};
+use super::line::held_points;
 use super::problem_error::ProblemError;
-use serde::{Deserialize, Deserializer, Serialize};
+use super::region::surrounds;
+use super::soft::{SoftPull, check_weight};
 use std::cmp::Ordering;
 use std::collections::HashMap;
 use unwrapd_method::energy::Row;
@@ -17,79 +20,6 @@ const ROUNDING: f64 = 1e-12;
 /// Largest turn of a disc in degrees: a hundred turns, in 2400 stations.
 const MOST_DEGREES: f64 = 36_000.0;
 
-/// One handle. Positions have the same number of coordinates as the body.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-#[serde(untagged, deny_unknown_fields)]
-pub enum Handle {
-    /// A vertex.
-    Vertex {
-        /// Its index, from 0.
-        vertex: u32,
-        /// Where it goes.
-        #[serde(deserialize_with = "place")]
-        to: Vec<f64>,
-    },
-    /// Every vertex in a ball around a point, moved as a rigid body.
-    Disc {
-        /// The center at rest.
-        #[serde(deserialize_with = "place")]
-        center: Vec<f64>,
-        /// The radius.
-        radius: f64,
-        /// Where the center goes.
-        #[serde(deserialize_with = "place")]
-        to: Vec<f64>,
-        /// A turn about the center in degrees, counter-clockwise, of a hundred turns (36000) at
-        /// most. Half a turn and more is made in steps of 15 degrees.
-        #[serde(default)]
-        turn: f64,
-        /// In space: the direction to turn about, as seen by whom it points at.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        axis: Option<[f64; 3]>,
-    },
-    /// Every vertex in a box along the axes, moved as a rigid body.
-    Box {
-        /// The corner of the least coordinates at rest.
-        #[serde(deserialize_with = "place")]
-        low: Vec<f64>,
-        /// The corner of the largest coordinates at rest.
-        #[serde(deserialize_with = "place")]
-        high: Vec<f64>,
-        /// Where the middle goes.
-        #[serde(deserialize_with = "place")]
-        to: Vec<f64>,
-        /// A turn about the middle, as that of a disc.
-        #[serde(default)]
-        turn: f64,
-        /// In space: the direction to turn about, as that of a disc.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        axis: Option<[f64; 3]>,
-    },
-    /// A point of an element at rest, a vertex if it is one.
-    Point {
-        /// The point.
-        #[serde(deserialize_with = "place")]
-        at: Vec<f64>,
-        /// Where it goes.
-        #[serde(deserialize_with = "place")]
-        to: Vec<f64>,
-    },
-}
-
-/// Parses `{"handles": [{"vertex": i, "to": […]}, {"at": […], "to": …}, {"center": …, "radius": r, "to": …, "turn": d,
-/// "axis": […]}, {"low": …, "high": …, "to": …}, …]}`.
-pub fn parse_body_handles(json: &[u8]) -> Result<Vec<Handle>, ProblemError> {
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct HandlesFile {
-        handles: Vec<Handle>,
-    }
-    let file: HandlesFile = unwrapd_api::from_json(json)
-        .map_err(|error| ProblemError::MalformedHandles(error.to_string()))?;
-    Ok(file.handles)
-}
-
 /// Handles bound to the vertices and points that they pull.
 #[derive(Clone, Debug)]
 pub struct Bound {
@@ -99,6 +29,8 @@ pub struct Bound {
     pub aims: Vec<Aim>,
     /// Turns of discs.
     pub turns: Vec<Turned>,
+    /// Pull of the handles with weights.
+    pub soft: SoftPull,
 }
 
 /// Finds the vertices and elements of a body that handles name, and the stations along their paths. A disc that makes
@@ -115,11 +47,14 @@ pub fn bind(body: &Body, handles: &[Handle]) -> Result<Bound, ProblemError> {
 struct Binder<'a, const D: usize> {
     body: &'a Body,
     vertices: Vec<u32>,
+    /// Handle of each of these vertices.
+    order: Vec<usize>,
     paths: Vec<TurningPath<D>>,
     points: Vec<Row>,
     point_paths: Vec<TurningPath<D>>,
     turns: Vec<Turned>,
     aims: Vec<Aim>,
+    soft: SoftPull,
 }
 
 impl<'a, const D: usize> Binder<'a, D>
@@ -130,24 +65,36 @@ where
         Self {
             body,
             vertices: Vec::new(),
+            order: Vec::new(),
             paths: Vec::new(),
             points: Vec::new(),
             point_paths: Vec::new(),
             turns: Vec::new(),
             aims: Vec::new(),
+            soft: SoftPull::default(),
         }
     }
 
     fn bind(mut self, handles: &[Handle]) -> Result<Bound, ProblemError> {
-        for (index, handle) in handles.iter().enumerate() {
-            let (vertices, points) = (self.vertices.len(), self.points.len());
-            self.add(index, handle)?;
-            self.aims.push(Aim {
-                vertices: self.vertices[vertices..].to_vec(),
-                points: (points..self.points.len()).collect(),
-            });
+        self.aims = vec![Aim::default(); handles.len()];
+        // Lines come last: they leave out what other handles hold.
+        let is_line = |handle: &Handle| matches!(handle, Handle::Line { .. });
+        let (lines, others): (Vec<_>, Vec<_>) = handles
+            .iter()
+            .enumerate()
+            .partition(|(_, handle)| is_line(handle));
+        for (index, handle) in others.into_iter().chain(lines) {
+            let grips = self.grips(index, handle)?;
+            match handle.weight() {
+                Some(weight) => {
+                    check_weight(weight)?;
+                    let ends = grips.into_iter().map(|(row, path)| (row, path.at(1.0)));
+                    self.soft.pull(&ends.collect::<Vec<_>>(), weight);
+                }
+                None => self.hold(index, grips),
+            }
         }
-        if self.vertices.is_empty() && self.points.is_empty() {
+        if self.vertices.is_empty() && self.points.is_empty() && self.soft.is_empty() {
             return Err(ProblemError::NoHandle);
         }
         let groups = self.groups();
@@ -162,23 +109,42 @@ where
         let way_of: HashMap<u32, usize> = self.vertices.iter().copied().zip(0..).collect();
         let way_of = |vertex| way_of[&vertex];
         Ok(Bound {
-            stations: stations(last, &way_of, &self.paths, &self.point_paths, &self.turns),
+            // Without exact handles there is no path: the map settles where soft ones pull it.
+            stations: if last.vertices.is_empty() && last.points.is_empty() {
+                Vec::new()
+            } else {
+                stations(last, &way_of, &self.paths, &self.point_paths, &self.turns)
+            },
             turns: self.turns,
             aims: self.aims,
+            soft: self.soft,
         })
+    }
+
+    /// Holds points exactly, those at vertices by these.
+    fn hold(&mut self, index: usize, grips: Vec<Grip<D>>) {
+        for (row, path) in grips {
+            if let Some(vertex) = sole_vertex(&row) {
+                self.aims[index].vertices.push(vertex);
+                self.order.push(index);
+                self.vertices.push(vertex);
+                self.paths.push(path);
+            } else {
+                self.aims[index].points.push(self.points.len());
+                self.points.push(row);
+                self.point_paths.push(path);
+            }
+        }
     }
 
     /// Groups vertices that are connected, so that they move together. Handles that stay form a group of their own, so
     /// that no neighbor's motion moves them.
     fn groups(&self) -> Vec<u32> {
-        let mut is_moving = vec![false; self.vertices.len()];
-        let mut first = 0;
-        for aim in &self.aims {
-            let of_aim = first..first + aim.vertices.len();
-            first = of_aim.end;
-            let moves = of_aim.clone().any(|i| self.moves(i));
-            is_moving[of_aim].fill(moves);
+        let mut handle_moves = vec![false; self.aims.len()];
+        for (i, &handle) in self.order.iter().enumerate() {
+            handle_moves[handle] |= self.moves(i);
         }
+        let is_moving: Vec<bool> = self.order.iter().map(|&h| handle_moves[h]).collect();
         let chosen = self.vertices.iter().zip(&is_moving);
         let moving: Vec<u32> = chosen
             .filter(|(_, moves)| **moves)
@@ -202,24 +168,79 @@ where
                 .any(|(x, to): (&f64, f64)| (x - to).abs() > ROUNDING * x.abs().max(to.abs()))
     }
 
-    fn add(&mut self, index: usize, handle: &Handle) -> Result<(), ProblemError> {
+    /// Returns what a handle holds.
+    fn grips(&mut self, index: usize, handle: &Handle) -> Result<Vec<Grip<D>>, ProblemError> {
         match handle {
-            Handle::Vertex { vertex, to } => {
-                if *vertex as usize >= self.body.n_vertices() {
-                    return Err(ProblemError::UnknownHandle {
-                        handle: index,
-                        vertex: *vertex,
-                        n_vertices: self.body.n_vertices(),
-                    });
-                }
-                self.add_vertex(*vertex, position(index, to)?);
+            Handle::Vertex { vertex, to, .. } => {
+                self.check_vertex(index, *vertex)?;
+                let to = position(index, to)?;
+                let path = TurningPath::straight(self.place(*vertex), to);
+                Ok(vec![(vec![(*vertex, 1.0)], path)])
             }
+            Handle::Disc { .. } | Handle::Box { .. } | Handle::Outline { .. } => {
+                self.shape(index, handle)
+            }
+            Handle::Vertices {
+                vertices,
+                to,
+                by,
+                turn,
+                axis,
+                ..
+            } => {
+                let shift = Shift {
+                    to: to.as_deref(),
+                    by: by.as_deref(),
+                    turn: *turn,
+                    axis: *axis,
+                };
+                self.chosen(index, handle, vertices, &shift)
+            }
+            Handle::Selection {
+                select,
+                to,
+                by,
+                turn,
+                axis,
+                ..
+            } => {
+                let shift = Shift {
+                    to: to.as_deref(),
+                    by: by.as_deref(),
+                    turn: *turn,
+                    axis: *axis,
+                };
+                let members = select.members().ok_or_else(|| {
+                    let text = format!("{:?} needs a file to select from", select.text());
+                    ProblemError::MalformedHandles(text)
+                })?;
+                self.chosen(index, handle, members, &shift)
+            }
+            Handle::Line { line, to, .. } => self.line(index, line, to),
+            Handle::Point { at, to, .. } => {
+                let (at, to) = (position(index, at)?, position::<D>(index, to)?);
+                let outside = ProblemError::HandleOutside { handle: index };
+                let row = locate(self.body, at).ok_or(outside)?;
+                // A point at a vertex pulls that vertex, which needs no soft constraint.
+                let (row, from) = match sole_vertex(&row) {
+                    Some(vertex) => (vec![(vertex, 1.0)], self.place(vertex)),
+                    None => (row, at),
+                };
+                Ok(vec![(row, TurningPath::straight(from, to))])
+            }
+        }
+    }
+
+    /// Returns what a disc, a box or an outline holds; nothing for other handles.
+    fn shape(&mut self, index: usize, handle: &Handle) -> Result<Vec<Grip<D>>, ProblemError> {
+        match handle {
             Handle::Disc {
                 center,
                 radius,
                 to,
                 turn,
                 axis,
+                ..
             } => {
                 if !(*radius >= 0.0 && radius.is_finite()) {
                     let (name, range) = ("radius", "finite and not negative");
@@ -230,13 +251,8 @@ where
                     let squares = place.iter().zip(center).map(|(x, c)| (x - c) * (x - c));
                     squares.sum::<f64>() <= radius * radius
                 };
-                let motion = RigidMotion {
-                    center,
-                    to: position(index, to)?,
-                    degrees: *turn,
-                    axis: turning_axis::<D>(*turn, *axis)?,
-                };
-                self.add_region(index, is_inside, &motion)?;
+                let motion = RigidMotion::new(center, position(index, to)?, *turn, *axis)?;
+                self.region(index, handle, self.inside(is_inside), &motion)
             }
             Handle::Box {
                 low,
@@ -244,79 +260,176 @@ where
                 to,
                 turn,
                 axis,
+                ..
             } => {
                 let (low, high): ([f64; D], [f64; D]) =
                     (position(index, low)?, position(index, high)?);
                 let is_inside =
                     |place: &[f64; D]| (0..D).all(|k| (low[k]..=high[k]).contains(&place[k]));
-                let motion = RigidMotion {
-                    center: std::array::from_fn(|k| 0.5 * (low[k] + high[k])),
-                    to: position(index, to)?,
-                    degrees: *turn,
-                    axis: turning_axis::<D>(*turn, *axis)?,
-                };
-                self.add_region(index, is_inside, &motion)?;
+                let center = std::array::from_fn(|k| 0.5 * (low[k] + high[k]));
+                let motion = RigidMotion::new(center, position(index, to)?, *turn, *axis)?;
+                self.region(index, handle, self.inside(is_inside), &motion)
             }
-            Handle::Point { at, to } => {
-                let (at, to) = (position(index, at)?, position::<D>(index, to)?);
-                let outside = ProblemError::HandleOutside { handle: index };
-                let row = locate(self.body, at).ok_or(outside)?;
-                // A point at a vertex pulls that vertex, which needs no soft constraint.
-                if let Some(vertex) = sole_vertex(&row) {
-                    self.add_vertex(vertex, to);
-                } else {
-                    self.points.push(row);
-                    self.point_paths.push(TurningPath::straight(at, to));
+            Handle::Outline {
+                outline, to, turn, ..
+            } => {
+                let corners = outline.iter().map(|corner| position::<2>(index, corner));
+                let corners: Vec<[f64; 2]> = corners.collect::<Result<_, _>>()?;
+                if D != 2 || corners.len() < 3 {
+                    let (name, range) = ("outline", "three points of the plane or more");
+                    return Err(ProblemError::BadParameter { name, range });
                 }
+                let is_inside = |place: &[f64; D]| surrounds(&corners, [place[0], place[1]]);
+                let center = position(index, &middle(&corners))?;
+                let motion = RigidMotion::new(center, position(index, to)?, *turn, None)?;
+                self.region(index, handle, self.inside(is_inside), &motion)
             }
+            _ => Ok(Vec::new()),
         }
-        Ok(())
+    }
+
+    /// Returns what a line holds.
+    fn line(
+        &self,
+        index: usize,
+        line: &[Vec<f64>],
+        to: &[Vec<f64>],
+    ) -> Result<Vec<Grip<D>>, ProblemError> {
+        let read = |places: &[Vec<f64>]| -> Result<Vec<[f64; D]>, ProblemError> {
+            places.iter().map(|place| position(index, place)).collect()
+        };
+        let mut is_held = vec![false; self.body.n_vertices()];
+        let of_points = self.points.iter().flatten().map(|(v, _)| v);
+        for &v in self.vertices.iter().chain(of_points) {
+            is_held[v as usize] = true;
+        }
+        let points = held_points(self.body, &read(line)?, &read(to)?, |v| is_held[v as usize]);
+        let points = points.ok_or(ProblemError::HandleOutside { handle: index })?;
+        let grips = points.into_iter().map(|(row, to)| {
+            let path = TurningPath::straight(self.place_of(&row), to);
+            (row, path)
+        });
+        Ok(grips.collect())
+    }
+
+    fn check_vertex(&self, handle: usize, vertex: u32) -> Result<(), ProblemError> {
+        let n_vertices = self.body.n_vertices();
+        if (vertex as usize) < n_vertices {
+            return Ok(());
+        }
+        Err(ProblemError::UnknownHandle {
+            handle,
+            vertex,
+            n_vertices,
+        })
     }
 
     fn place(&self, vertex: u32) -> [f64; D] {
         std::array::from_fn(|k| self.body.rest[D * vertex as usize + k])
     }
 
-    fn add_vertex(&mut self, vertex: u32, to: [f64; D]) {
-        self.vertices.push(vertex);
-        self.paths
-            .push(TurningPath::straight(self.place(vertex), to));
+    /// Returns the place of a point at rest.
+    fn place_of(&self, row: &Row) -> [f64; D] {
+        std::array::from_fn(|k| {
+            let along = row.iter().map(|&(v, weight)| weight * self.place(v)[k]);
+            along.sum()
+        })
     }
 
-    /// Holds every vertex inside a region.
-    fn add_region(
+    /// Returns the vertices inside a region.
+    fn inside(&self, is_inside: impl Fn(&[f64; D]) -> bool) -> Vec<u32> {
+        let all = 0..self.body.n_vertices() as u32;
+        all.filter(|&v| is_inside(&self.place(v))).collect()
+    }
+
+    /// Returns the vertices of a list, which move as a rigid body.
+    fn chosen(
         &mut self,
         index: usize,
-        is_inside: impl Fn(&[f64; D]) -> bool,
-        motion: &RigidMotion<D>,
-    ) -> Result<(), ProblemError> {
-        let before = self.vertices.len();
-        for v in 0..self.body.n_vertices() as u32 {
-            let place = self.place(v);
-            if is_inside(&place) {
-                self.vertices.push(v);
-                self.paths.push(TurningPath {
-                    from: motion.center,
-                    to: motion.to,
-                    arm: std::array::from_fn(|k| place[k] - motion.center[k]),
-                    spin: Matrix::<D>::about(motion.axis, motion.degrees.to_radians()),
-                });
-            }
+        handle: &Handle,
+        vertices: &[u32],
+        shift: &Shift,
+    ) -> Result<Vec<Grip<D>>, ProblemError> {
+        for &vertex in vertices {
+            self.check_vertex(index, vertex)?;
         }
-        if self.vertices.len() == before {
+        let mut vertices = vertices.to_vec();
+        vertices.sort_unstable();
+        vertices.dedup();
+        if vertices.is_empty() {
             return Err(ProblemError::HandleOutside { handle: index });
         }
+        let places: Vec<[f64; D]> = vertices.iter().map(|&v| self.place(v)).collect();
+        let center: [f64; D] = position(index, &middle(&places))?;
+        let to = match (shift.to, shift.by) {
+            (Some(to), None) => position(index, to)?,
+            (None, Some(by)) => {
+                let by: [f64; D] = position(index, by)?;
+                std::array::from_fn(|k| center[k] + by[k])
+            }
+            (None, None) => center,
+            (Some(_), Some(_)) => {
+                let (name, range) = ("to", "absent if `by` is given");
+                return Err(ProblemError::BadParameter { name, range });
+            }
+        };
+        let motion = RigidMotion::new(center, to, shift.turn, shift.axis)?;
+        self.region(index, handle, vertices, &motion)
+    }
+
+    /// Returns the vertices of a region with their paths.
+    fn region(
+        &mut self,
+        index: usize,
+        handle: &Handle,
+        vertices: Vec<u32>,
+        motion: &RigidMotion<D>,
+    ) -> Result<Vec<Grip<D>>, ProblemError> {
+        if vertices.is_empty() {
+            return Err(ProblemError::HandleOutside { handle: index });
+        }
+        let spin = Matrix::<D>::about(motion.axis, motion.degrees.to_radians());
+        let grips = vertices.iter().map(|&v| {
+            let place = self.place(v);
+            let path = TurningPath {
+                from: motion.center,
+                to: motion.to,
+                arm: std::array::from_fn(|k| place[k] - motion.center[k]),
+                spin,
+            };
+            (vec![(v, 1.0)], path)
+        });
+        let grips = grips.collect();
         // Keep the turn, for the stations and for the count of turns left.
-        if motion.degrees != 0.0 {
-            self.turns.push(Turned {
+        match handle.weight() {
+            Some(_) if motion.degrees.abs() > HALF_TURN => {
+                let (name, range) = ("turn", "at most 180 degrees for a handle with a weight");
+                return Err(ProblemError::BadParameter { name, range });
+            }
+            None if motion.degrees != 0.0 => self.turns.push(Turned {
                 handle: index,
-                vertices: self.vertices[before..].to_vec(),
+                vertices,
                 axis: motion.axis,
                 degrees: motion.degrees,
-            });
+            }),
+            _ => {}
         }
-        Ok(())
+        Ok(grips)
     }
+}
+
+/// A point that a handle holds, one vertex or the corners of an element with their weights, and its path.
+type Grip<const D: usize> = (Row, TurningPath<D>);
+
+/// Where listed vertices go.
+struct Shift<'a> {
+    /// Place for the middle of their bounding box.
+    to: Option<&'a [f64]>,
+    /// Offset, in place of `to`.
+    by: Option<&'a [f64]>,
+    /// Degrees.
+    turn: f64,
+    axis: Option<[f64; 3]>,
 }
 
 /// Where the center of a region goes, and the turn about it.
@@ -327,6 +440,22 @@ struct RigidMotion<const D: usize> {
     degrees: f64,
     /// Unit vector; zero in the plane.
     axis: [f64; 3],
+}
+
+impl<const D: usize> RigidMotion<D> {
+    fn new(
+        center: [f64; D],
+        to: [f64; D],
+        turn: f64,
+        axis: Option<[f64; 3]>,
+    ) -> Result<Self, ProblemError> {
+        Ok(Self {
+            center,
+            to,
+            degrees: turn,
+            axis: turning_axis::<D>(turn, axis)?,
+        })
+    }
 }
 
 /// Returns the unit vector to turn about; zero in the plane, where no axis may be given.
@@ -532,30 +661,4 @@ where
     let mut stations: Vec<Handles> = between.collect();
     stations.push(last);
     stations
-}
-
-// Coordinates in JSON.
-
-/// Deserializes a position with any number of coordinates.
-pub(super) fn place<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
-    let numbers = Vec::<Option<f64>>::deserialize(from)?;
-    Ok(numbers.into_iter().map(or_nan).collect())
-}
-
-/// Deserializes a position in the plane.
-pub(super) fn planar<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
-    <[Option<f64>; 2]>::deserialize(from).map(|numbers| numbers.map(or_nan))
-}
-
-/// Deserializes a list of positions.
-pub(super) fn positions<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Vec<f64>>, D::Error> {
-    let positions = Vec::<Vec<Option<f64>>>::deserialize(from)?;
-    Ok(positions
-        .into_iter()
-        .map(|numbers: Vec<Option<f64>>| numbers.into_iter().map(or_nan).collect())
-        .collect())
-}
-
-fn or_nan(number: Option<f64>) -> f64 {
-    number.unwrap_or(f64::NAN)
 }

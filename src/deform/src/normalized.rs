@@ -7,6 +7,7 @@
 use super::body::{Body, BodyElements};
 use super::boundary_barrier::BoundaryBarrier;
 use super::problem::{Problem, Units};
+use super::soft::SoftPull;
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use unwrapd_method::barrier::Barrier;
@@ -70,6 +71,11 @@ impl Frame {
         }
     }
 
+    /// Converts the targets of soft handles to normalized positions.
+    pub fn soft(&self, soft: &SoftPull) -> SoftPull {
+        soft.toward(self.inward(soft.targets()))
+    }
+
     /// Converts a squared distance to given coordinates.
     pub fn squared(&self, distance: f64) -> f64 {
         distance * self.unit * self.unit
@@ -120,6 +126,7 @@ impl Problem {
             barrier,
             boundary_barrier,
             stations: stations.collect(),
+            soft: frame.soft(&self.soft),
             units: Units::Given,
             body,
             ..self.clone()

@@ -47,7 +47,8 @@ impl Problem {
         }
         let objective = self.objective()?;
         let mut start = self.start.clone();
-        if start == self.body.rest && self.stations.len() == 1 {
+        let is_pulled = self.stations.len() == 1 || !self.soft.is_empty();
+        if start == self.body.rest && is_pulled {
             self.shake(&objective, &mut start);
         }
         let trial = Trial {

@@ -2,8 +2,10 @@
 
 use super::body::{Body, BodyElements};
 use super::boundary_barrier::BoundaryBarrier;
-use super::handles::{Aim, Bound, Handle, Turned, bind};
+use super::handle::Handle;
+use super::handles::{Aim, Bound, Turned, bind};
 use super::problem_error::ProblemError;
+use super::soft::SoftPull;
 use super::untangle::{bad_elements, untangled};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -40,6 +42,8 @@ pub struct Problem {
     /// Vertices and points that each handle of a user's list pulls, for [`unreached`](Self::unreached); may be empty if
     /// that is not needed.
     pub aims: Vec<Aim>,
+    /// Pull of the handles with weights, part of the objective.
+    pub soft: SoftPull,
     /// Tries all bent paths, for the map with the lowest energy, even if straight ones lead to the targets.
     pub search: bool,
     /// Settings of the paper's iteration.
@@ -131,10 +135,12 @@ impl Problem {
             stations,
             aims,
             turns,
+            soft,
         } = bind(&body, handles)?;
         Ok(Self {
             stations,
             aims,
+            soft,
             turned: turns,
             ..Self::at_rest(body, model)?
         })
@@ -151,6 +157,7 @@ impl Problem {
             boundary_barrier: None,
             stations: Vec::new(),
             aims: Vec::new(),
+            soft: SoftPull::default(),
             turned: Vec::new(),
             search: false,
             levenberg: LevenbergSettings::default(),
@@ -284,6 +291,9 @@ impl Problem {
             for v in handles.vertices.iter().copied().chain(points) {
                 is_idle[part[v as usize] as usize] = false;
             }
+        }
+        for v in self.soft.vertices() {
+            is_idle[part[v as usize] as usize] = false;
         }
         let vertices = 0..self.body.n_vertices() as u32;
         let held: Vec<u32> = vertices

@@ -1,9 +1,11 @@
 //! Problem files: a mesh, handles and their targets, an energy and a barrier.
 
 use super::body::Body;
-use super::handles::{self, Aim, Bound, Handle, bind, paired_handles};
+use super::handle::{self, Handle};
+use super::handles::{Aim, Bound, bind, paired_handles};
 use super::problem::{Model, Problem, Units};
 use super::problem_error::ProblemError;
+use super::soft::SoftPull;
 use serde::Deserialize;
 use unwrapd_files::io::Elements;
 use unwrapd_method::barrier::BarrierKind;
@@ -24,7 +26,7 @@ pub struct ProblemFile {
     /// The pulled parts: vertex ids, or handles in the form of all other kinds of jobs.
     pub handles: ProblemHandles,
     /// Where vertices should come, one position each.
-    #[serde(default, deserialize_with = "handles::positions")]
+    #[serde(default, deserialize_with = "handle::places")]
     pub targets: Vec<Vec<f64>>,
     /// Target sets to go through one after another, the last of them [`targets`](Self::targets).
     #[serde(default)]
@@ -124,6 +126,7 @@ impl ProblemFile {
             stations: bound.stations,
             turned: bound.turns,
             aims: bound.aims,
+            soft: bound.soft,
             search: false,
             levenberg: self.levenberg(),
             body,
@@ -206,6 +209,7 @@ impl ProblemHandles {
             stations: stations.collect::<Result<_, _>>()?,
             aims: vertices.iter().map(|&v| Aim::at_vertex(v)).collect(),
             turns: Vec::new(),
+            soft: SoftPull::default(),
         })
     }
 }

@@ -2,9 +2,11 @@
 
 use super::body::{Body, sole_vertex};
 use super::handles::{Aim, paired_handles, with_points};
+use super::line::{HeldPoint, LEAST_FREE};
 use super::normalized::Frame;
 use super::problem::{Model, Problem, Units};
 use super::problem_error::ProblemError;
+use super::soft::SoftPull;
 use super::solve::Solution;
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
@@ -36,16 +38,14 @@ pub struct PullSummary {
     pub unreached: Vec<Unreached>,
 }
 
-/// Least total weight of movable vertices in a point that is pulled itself: with less, they would have to move more
-/// than twice as far as the point.
-const LEAST_FREE: f64 = 0.5;
-
 /// Fixed vertices of a planar body, and vertices and points that are pulled; targets in the unit of the body.
 pub(super) struct Holds {
     /// Fixed vertices, in increasing order.
     pub fixed: Vec<u32>,
     pub pulled: Vec<(u32, [f64; 2])>,
     pub points: Vec<(Row, [f64; 2])>,
+    /// Pull of the handles with weights.
+    pub soft: SoftPull,
     /// For each pulled vertex the index of its handle in the caller's list, and likewise for each point.
     of_vertices: Vec<usize>,
     of_points: Vec<usize>,
@@ -68,6 +68,7 @@ impl Holds {
             fixed,
             pulled: Vec::new(),
             points: Vec::new(),
+            soft: SoftPull::default(),
             of_vertices: Vec::new(),
             of_points: Vec::new(),
         }
@@ -83,6 +84,35 @@ impl Holds {
     pub fn pull_point(&mut self, handle: usize, row: Row, to: [f64; 2]) {
         self.points.push((row, to));
         self.of_points.push(handle);
+    }
+
+    /// Lets a handle pull vertices and points, softly if it has a weight.
+    pub fn pull(&mut self, handle: usize, held: Vec<HeldPoint<2>>, weight: Option<f64>) {
+        if let Some(weight) = weight {
+            self.soft.pull(&held, weight);
+            return;
+        }
+        for (row, to) in held {
+            match sole_vertex(&row) {
+                Some(vertex) => self.pull_vertex(handle, vertex, to),
+                None => self.pull_point(handle, row, to),
+            }
+        }
+    }
+
+    /// Returns which vertices are fixed, pulled or corners of pulled points.
+    pub fn taken(&self, n_vertices: usize) -> Vec<bool> {
+        let mut is_taken = vec![false; n_vertices];
+        let pulled = self.pulled.iter().map(|hold| hold.0);
+        let of_points = self
+            .points
+            .iter()
+            .flat_map(|(row, _)| row)
+            .map(|pair| pair.0);
+        for v in self.fixed.iter().copied().chain(pulled).chain(of_points) {
+            is_taken[v as usize] = true;
+        }
+        is_taken
     }
 
     pub fn is_fixed(&self, vertex: u32) -> bool {
@@ -164,7 +194,7 @@ pub(super) fn pull(
     let problem = Problem {
         aims: aims.values().cloned().collect(),
         search: how.search,
-        ..pulled(body, start, handles, how.model)?
+        ..pulled(body, start, handles, holds.soft.clone(), how.model)?
     };
     let solution = problem.approach(&Settings::follow(), watch)?;
     let numbers: Vec<usize> = aims.into_keys().collect();
@@ -202,6 +232,7 @@ pub(super) fn pulled(
     body: Body,
     start: &[[f64; 2]],
     handles: Handles,
+    soft: SoftPull,
     model: &Model,
 ) -> Result<Problem, ProblemError> {
     let smallest = |sizes: Vec<f64>| sizes.into_iter().fold(f64::INFINITY, f64::min);
@@ -219,6 +250,7 @@ pub(super) fn pulled(
         stations: vec![handles],
         turned: Vec::new(),
         aims: Vec::new(),
+        soft,
         search: false,
         levenberg: LevenbergSettings::default(),
         units: Units::Given,

@@ -2,11 +2,13 @@
 
 use super::body::Body;
 use super::editor::{Editable, Editor, HandleId, Live};
-use super::handles::{Handle, bind};
+use super::handle::Handle;
+use super::handles::bind;
 use super::normalized::{Frame, MapQuality};
 use super::problem::{Model, Problem};
 use super::problem_error::ProblemError;
 use super::pull::is_arrived;
+use super::soft::SoftPull;
 use std::collections::BTreeMap;
 use unwrapd_method::solver::{Handles, Stage, Summary};
 
@@ -32,6 +34,7 @@ pub struct LiveBody {
     live: Live,
     /// Vertices and points that the handles pull, in the caller's unit.
     bound: Handles,
+    soft: SoftPull,
 }
 
 impl Session {
@@ -47,6 +50,7 @@ impl Session {
             body: problem.body,
             frame,
             bound: Handles::default(),
+            soft: SoftPull::default(),
         }))
     }
 
@@ -69,6 +73,7 @@ impl Session {
             frame,
             live,
             bound,
+            ..
         } = &self.map;
         let mut positions = frame.outward(live.x());
         let dim = body.dim();
@@ -101,12 +106,7 @@ impl Editable for LiveBody {
     type Error = ProblemError;
 
     fn retarget(handle: &mut Handle, target: &[f64]) {
-        match handle {
-            Handle::Vertex { to, .. }
-            | Handle::Disc { to, .. }
-            | Handle::Box { to, .. }
-            | Handle::Point { to, .. } => *to = target.to_vec(),
-        }
+        handle.retarget(target);
     }
 
     fn no_such_handle(HandleId(handle): HandleId) -> ProblemError {
@@ -115,19 +115,21 @@ impl Editable for LiveBody {
 
     fn hold(&mut self, handles: &BTreeMap<HandleId, Handle>) -> Result<(), ProblemError> {
         let list: Vec<Handle> = handles.values().cloned().collect();
-        let bound = match list.len() {
-            0 => Handles::default(),
-            _ => bind(&self.body, &list)?.stations.pop().unwrap_or_default(),
-        };
-        self.live.aim(self.frame.handles(&bound))?;
-        self.bound = bound;
+        let (mut bound, mut soft) = (Handles::default(), SoftPull::default());
+        if !list.is_empty() {
+            let mut found = bind(&self.body, &list)?;
+            (bound, soft) = (found.stations.pop().unwrap_or_default(), found.soft);
+        }
+        self.live
+            .aim(self.frame.handles(&bound), self.frame.soft(&soft))?;
+        (self.bound, self.soft) = (bound, soft);
         Ok(())
     }
 
     fn remodel(&mut self, model: &Model) -> Result<(), ProblemError> {
         let problem = Problem::at_rest(self.body.clone(), model)?;
         let mut live = Live::new(problem.normalized().0)?;
-        live.aim(self.frame.handles(&self.bound))?;
+        live.aim(self.frame.handles(&self.bound), self.frame.soft(&self.soft))?;
         live.put(self.live.x().to_vec())?;
         live.check_domain()?;
         self.live = live;

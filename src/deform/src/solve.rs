@@ -170,7 +170,7 @@ impl Problem {
         watch: &dyn Watch,
     ) -> Result<Solution, ProblemError> {
         // Pull the handles of the first station by soft constraints.
-        let terms = self.terms(self.barrier)?;
+        let terms = self.pulled_terms()?;
         let first = self.stations.first().cloned().unwrap_or_default();
         let constraints = Positional {
             dim: self.body.dim(),
@@ -199,7 +199,7 @@ impl Problem {
 
     /// Creates the objective: the energy with the barrier, and the points that handles pull.
     pub(super) fn objective(&self) -> Result<Objective, ProblemError> {
-        let terms = self.terms(self.barrier)?;
+        let terms = self.pulled_terms()?;
         let n_vertices = self.body.n_vertices();
         let mut objective = match self.stations.first().filter(|h| !h.points.is_empty()) {
             None => Objective::of_terms(n_vertices, terms),
@@ -220,6 +220,13 @@ impl Problem {
     pub(super) fn terms(&self, barrier: Barrier) -> Result<Vec<Box<dyn Term>>, ProblemError> {
         let mut terms = self.body.terms(&self.energy, barrier, self.bound)?;
         terms.extend(self.boundary_term().map(|term| Box::new(term) as _));
+        Ok(terms)
+    }
+
+    /// Returns the terms of the objective: energy, barriers and the pull of handles with weights.
+    pub(super) fn pulled_terms(&self) -> Result<Vec<Box<dyn Term>>, ProblemError> {
+        let mut terms = self.terms(self.barrier)?;
+        terms.extend(self.soft.term(self.body.dim()));
         Ok(terms)
     }
 

@@ -4,12 +4,13 @@
 //! draws the deformed picture. [`warp_picture`] does both.
 
 use super::body::{Boundary, locate};
-use super::handles::{self, Handle};
+use super::handle::{self, Handle};
 use crate::body::Body;
+use crate::line::{HeldPoint, held_points};
 use crate::problem::Model;
 use crate::problem_error::ProblemError;
 use crate::pull::{Grip, Holds, How, PullSummary, pull};
-use crate::region::Region;
+use crate::region::{Line, Region};
 use serde::{Deserialize, Serialize};
 use unwrapd_files::picture::{Deformation, Extent, Image, ImageError, Warped, warped};
 use unwrapd_maps::mesh::PlanarMesh;
@@ -48,39 +49,60 @@ impl Default for WarpOptions {
 }
 
 /// A part of a picture and where it goes, in pixels, (0, 0) the upper left corner, y down.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(untagged, deny_unknown_fields)]
 pub enum PictureHandle {
     /// A point.
     Point {
         /// A place in the picture.
-        #[serde(deserialize_with = "handles::planar")]
+        #[serde(deserialize_with = "handle::planar")]
         at: [f64; 2],
         /// Where it goes.
-        #[serde(deserialize_with = "handles::planar")]
+        #[serde(deserialize_with = "handle::planar")]
         to: [f64; 2],
+        /// Strength of a soft handle, greater than 0; without it the handle comes to its target
+        /// exactly. The energy grows by `weight` times the mean squared distance of what the handle
+        /// holds from its targets, for a mean triangle of area 1.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        weight: Option<f64>,
     },
-    /// A disc or a box that keeps its shape.
+    /// A disc, a box or an outline that keeps its shape.
     Region(Region),
+    /// A line.
+    Line(Line),
+}
+
+impl PictureHandle {
+    /// Returns the strength of a soft handle.
+    fn weight(&self) -> Option<f64> {
+        match self {
+            Self::Point { weight, .. } => *weight,
+            Self::Region(region) => region.weight(),
+            Self::Line(line) => line.weight,
+        }
+    }
 }
 
 /// Returns the handle of the grid, a body in pixels.
 impl From<PictureHandle> for Handle {
     fn from(handle: PictureHandle) -> Self {
         match handle {
-            PictureHandle::Point { at, to } => Self::Point {
+            PictureHandle::Point { at, to, weight } => Self::Point {
                 at: at.to_vec(),
                 to: to.to_vec(),
+                weight,
             },
             // y points down.
             PictureHandle::Region(region) => region.mirrored().into(),
+            PictureHandle::Line(line) => line.into(),
         }
     }
 }
 
 /// Parses `{"handles": [{"at": [x, y], "to": [x, y]}, {"center": [x, y], "radius": r, "to": [x, y], "turn": degrees},
-/// {"low": [x, y], "high": [x, y], "to": [x, y]}, …]}`.
+/// {"low": [x, y], "high": [x, y], "to": [x, y]}, {"outline": [[x, y], …], "to": [x, y]}, {"line": [[x, y], …], "to":
+/// [[x, y], …]}, …]}`.
 pub fn parse_handles(json: &[u8]) -> Result<Vec<PictureHandle>, WarpError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -107,11 +129,11 @@ pub enum WarpError {
     HandleOutside(usize),
     /// The target of a handle is not a position, or a region has no size or turns too far.
     #[error(
-        "handle {0} must have finite numbers up to 1e9 pixels, low below high, and turn by at most 180 degrees"
+        "handle {0} must have finite numbers up to 1e9 pixels, low below high, a positive weight and enough corners, and turn by at most 180 degrees"
     )]
     BadTarget(usize),
     /// A region holds no vertex that may move.
-    #[error("handle {0} holds no vertex of the grid inside its border; it needs more cells")]
+    #[error("handle {0} holds no part of the grid inside its border; it needs more cells")]
     EmptyRegion(usize),
     /// All vertices of the grid are on its border, which is fixed.
     #[error("the grid has no vertex inside its border")]
@@ -226,36 +248,51 @@ fn warp_grid(
             .boundary
             .held(grid.vertices().len(), grid.triangles()),
     );
-    for (index, handle) in handles.iter().enumerate() {
+    let is_line = |handle: &PictureHandle| matches!(handle, PictureHandle::Line(_));
+    let (lines, others): (Vec<_>, Vec<_>) = handles
+        .iter()
+        .enumerate()
+        .partition(|(_, handle)| is_line(handle));
+    // Lines come last: they leave out what other handles hold.
+    for (index, handle) in others.into_iter().chain(lines) {
+        let weight = handle.weight();
         let (place, is_valid) = match handle {
-            PictureHandle::Point { at, to } => (*at, to.iter().all(|x| x.abs() <= FARTHEST)),
+            PictureHandle::Point { at, to, .. } => (*at, to.iter().all(|x| x.abs() <= FARTHEST)),
             PictureHandle::Region(region) => (region.center(), region.is_valid(FARTHEST)),
+            PictureHandle::Line(line) => {
+                let first = line.line.first().copied();
+                (first.unwrap_or_default(), line.is_valid(FARTHEST))
+            }
         };
         if !(0..2).all(|k| (0.0..=size[k]).contains(&place[k])) {
             return Err(WarpError::HandleOutside(index));
         }
-        if !is_valid {
+        if !is_valid || weight.is_some_and(|w| !(w > 0.0 && w.is_finite())) {
             return Err(WarpError::BadTarget(index));
         }
-        match *handle {
-            PictureHandle::Point { at, to } => {
-                take_hold(&mut holds, &body, index, to_unit(at), to_unit(to))?;
+        let held = match handle {
+            PictureHandle::Point { at, to, .. } => {
+                vec![held_at(&holds, &body, to_unit(*at), to_unit(*to))?]
             }
             PictureHandle::Region(region) => {
-                let region = region.mirrored();
-                let inside =
-                    |v: &u32| !holds.is_fixed(*v) && region.contains(grid.vertices()[*v as usize]);
-                let vertices = (0..grid.vertices().len() as u32).filter(inside);
-                let vertices: Vec<u32> = vertices.collect();
-                if vertices.is_empty() {
-                    return Err(WarpError::EmptyRegion(index));
-                }
-                for v in vertices {
-                    let to = region.moved(grid.vertices()[v as usize]);
-                    holds.pull_vertex(index, v, to_unit(to));
-                }
+                let region = region.clone().mirrored();
+                let places = (0..).zip(grid.vertices());
+                let inside = places.filter(|&(v, &p)| !holds.is_fixed(v) && region.contains(p));
+                inside
+                    .map(|(v, &p)| (vec![(v, 1.0)], to_unit(region.moved(p))))
+                    .collect()
             }
+            PictureHandle::Line(line) => {
+                let is_taken = holds.taken(grid.vertices().len());
+                let (line, to) = (scale(&line.line), scale(&line.to));
+                held_points(&body, &line, &to, |v| is_taken[v as usize])
+                    .ok_or(WarpError::BadTarget(index))?
+            }
+        };
+        if held.is_empty() {
+            return Err(WarpError::EmptyRegion(index));
         }
+        holds.pull(index, held, weight);
     }
     // Pull, and convert back to pixels.
     let how = How {
@@ -273,28 +310,23 @@ fn mean_area(grid: &PlanarMesh) -> f64 {
     size / grid.triangles().len() as f64
 }
 
-/// Adds a handle.
-fn take_hold(
-    holds: &mut Holds,
+/// Returns what a handle at a place holds, and its target.
+fn held_at(
+    holds: &Holds,
     body: &Body,
-    handle: usize,
     at: [f64; 2],
     to: [f64; 2],
-) -> Result<(), WarpError> {
+) -> Result<HeldPoint<2>, WarpError> {
     let vertices: &[[f64; 2]] = body.rest.as_chunks().0;
     let nearest = || nearest(vertices, |v| !holds.is_fixed(v), at).ok_or(WarpError::NothingInside);
     let vertex = match locate(body, at).map_or(Grip::Fixed, |row| holds.grip(row)) {
-        Grip::Point(row) => {
-            holds.pull_point(handle, row, to);
-            return Ok(());
-        }
+        Grip::Point(row) => return Ok((row, to)),
         Grip::Vertex(vertex) => vertex,
         Grip::Fixed => nearest()?,
     };
     let place = vertices[vertex as usize];
     let target = [0, 1].map(|k| to[k] + (place[k] - at[k]));
-    holds.pull_vertex(handle, vertex, target);
-    Ok(())
+    Ok((vec![(vertex, 1.0)], target))
 }
 
 /// Returns the free vertex nearest to a point; the first of equally near ones.

@@ -2,6 +2,7 @@
 
 use crate::arrays::unwrap::in_pool;
 use crate::deform::solution::{Completion, PullReport};
+use crate::documents::corner_selection::CornerSelection;
 use crate::judge::groups::WrittenUvs;
 use crate::judge::proven::{Mirrored, Proven};
 use crate::judge::shortfalls::unproven;
@@ -13,7 +14,7 @@ use crate::{PipelineError, limits};
 use serde::Serialize;
 use unwrapd_api::Stage;
 use unwrapd_deform::Unreached;
-use unwrapd_deform::uv::{ChartFaces, EditedUvs, UvMesh, UvRest, UvSession, edit_uvs_from};
+use unwrapd_deform::uv::{Anchor, ChartFaces, EditedUvs, UvMesh, UvRest, UvSession, edit_uvs_from};
 use unwrapd_files::document::{
     Corners, Document, DocumentError, GroupBy, Layout, Marked, NewUvs, OutputFormat, Sets, Terms,
     Upload, Warning, WriteOptions, Written,
@@ -49,13 +50,15 @@ pub fn edit_document(
         let document = Document::read(upload)?;
         limits::check(&options.caller.limits, &document)?;
         let whole = Whole::gather(&document, options.texcoord)?;
+        let mut anchors = options.anchors.clone();
+        whole.fill(&document, &mut anchors)?;
         // Edit them.
         let how = options.of_map(editing);
         let start = start(upload, 6 * whole.triangles.len())?;
         let start = start
             .as_deref()
             .map(|start| start.as_chunks().0.as_chunks().0);
-        let edited = edit_uvs_from(&whole.mesh(), start, &options.anchors, &how, &tracker)?;
+        let edited = edit_uvs_from(&whole.mesh(), start, &anchors, &how, &tracker)?;
         // Write the document.
         tracker.stage(Stage::Write);
         let stem = options.caller.stem(upload);
@@ -119,17 +122,37 @@ pub fn edit_document(
     })?
 }
 
+/// UVs under live editing, and the document by which anchors select parts of them.
+pub struct SessionUvs {
+    /// Session without anchors.
+    pub session: UvSession,
+    selection: CornerSelection,
+}
+
+impl SessionUvs {
+    /// Fills in what the selector of an anchor names, if it has one.
+    ///
+    /// # Errors
+    /// If the selector cannot be parsed, or names a material that does not exist.
+    pub fn fill(&self, anchor: &mut Anchor) -> Result<(), PipelineError> {
+        self.selection.fill(anchor.select_mut())
+    }
+}
+
 /// Opens a session on the UVs that [`edit_document`] would edit. The caller adds the anchors.
 pub fn open_uvs(
     upload: &Upload,
     editing: Editing,
     options: &EditOptions,
-) -> Result<UvSession, PipelineError> {
+) -> Result<SessionUvs, PipelineError> {
     options.check()?;
     let document = Document::read(upload)?;
     limits::check(&options.caller.limits, &document)?;
     let whole = Whole::gather(&document, options.texcoord)?;
-    Ok(UvSession::new(&whole.mesh(), options.of_map(editing)))
+    Ok(SessionUvs {
+        session: UvSession::new(&whole.mesh(), options.of_map(editing)),
+        selection: whole.selection(&document),
+    })
 }
 
 /// All primitives of a document as one mesh. Primitives without UVs contribute only vertices.
@@ -166,6 +189,22 @@ impl Whole {
             return Err(PipelineError::NoUvs { group, texcoord });
         }
         Ok(whole)
+    }
+
+    /// Fills in what the selectors of anchors name.
+    fn fill(&self, document: &Document, anchors: &mut [Anchor]) -> Result<(), PipelineError> {
+        let mut selects = anchors.iter_mut().filter_map(Anchor::select_mut).peekable();
+        if selects.peek().is_none() {
+            return Ok(());
+        }
+        self.selection(document).fill(selects)
+    }
+
+    /// Returns the selection of corners of its triangles.
+    fn selection(&self, document: &Document) -> CornerSelection {
+        let with_uvs = (0..).zip(&self.n_faces).filter(|(_, n)| n.is_some());
+        let primitives = with_uvs.map(|(index, _)| index).collect();
+        CornerSelection::new(document.clone(), primitives)
     }
 
     pub fn mesh(&self) -> UvMesh<'_> {

@@ -54,7 +54,7 @@ pub use deform::warp::{WarpReport, WarpedPicture, warp_file};
 pub use documents::pictures::{AtlasPicture, Pictures, ReportOfAtlas};
 pub use documents::unwrap::{Outcome, repack_document, unwrap_document};
 pub use documents::uv_arrays::UvArrays;
-pub use edit::{ChartEditReport, EditReport, EditedDocument, edit_document, open_uvs};
+pub use edit::{ChartEditReport, EditReport, EditedDocument, SessionUvs, edit_document, open_uvs};
 pub use error::PipelineError;
 pub use island_error::IslandError;
 pub use judge::bound_report::{BoundReport, WorstChart, stretch_percent};

@@ -180,11 +180,13 @@ impl PyProblem {
             stations,
             aims,
             turns,
+            soft,
         } = held;
         Ok(deform::Problem {
             stations,
             aims,
             turned: turns,
+            soft,
             ..self.problem.clone()
         })
     }

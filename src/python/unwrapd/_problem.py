@@ -115,7 +115,8 @@ class Problem:
         ----------
         handles : mapping of vertices to targets, or list of dict
             ``{0: (0, 0), 7: (2, 1)}``, or as files of handles have them: ``{"vertex": 7, "to": …}``, ``{"at": …, "to": …}`` for
-            points inside elements, and ``{"center": …, "radius": …, "to": …, "turn": degrees, "axis": …}``.
+            points inside elements, ``{"center": …, "radius": …, "to": …, "turn": degrees, "axis": …}``,
+            ``{"line": […], "to": […]}``, ``{"vertices": […], "by": …}``, each softly with a ``"weight"``.
         callback : callable
             Called with every `Iterate`, on this thread, before the next is made. Returning False ends the work with that map; an
             exception cancels it.

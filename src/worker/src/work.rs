@@ -13,12 +13,13 @@ use unwrapd_api::{
     Verdict, Warning,
 };
 use unwrapd_deform::ProblemFile;
-use unwrapd_files::document::{format_of, references};
+use unwrapd_files::document::{DocumentError, format_of, references};
 use unwrapd_files::io::format_of_content;
 use unwrapd_pipeline::{
     self as pipeline, AtlasPicture, CommandOptions, DeformOptions, DeformReport, Deformed,
     EditOptions, EditReport, Editing, MeasureOptions, Observer, Options, PipelineError,
-    RepackOptions, Report, SolveOptions, Verified, VerifyOptions, WarpOptions, WarpReport,
+    RepackOptions, Report, SolveOptions, UntangleOptions, UntangleReport, Verified, VerifyOptions,
+    WarpOptions, WarpReport,
 };
 
 /// Result of a job.
@@ -53,6 +54,7 @@ impl Work {
             Kind::EditUv => Self::of(options, edit_uv),
             Kind::TextureMap => Self::of(options, texture_map),
             Kind::Repack => Self::of(options, repack),
+            Kind::Untangle => Self::of(options, untangle),
         }
     }
 
@@ -158,6 +160,18 @@ fn warp(upload: &Upload, options: &WarpOptions, observer: &dyn Observer) -> Work
         Quality::proven(report.certified),
         &report.warnings,
     ))
+}
+
+fn untangle(upload: &Upload, options: &UntangleOptions, _: &dyn Observer) -> WorkResult {
+    let rest = options.rest_mesh.as_ref().map(|name| {
+        let bytes = upload.resources.get(name).cloned();
+        let bytes = bytes.ok_or_else(|| DocumentError::MissingResource(name.clone()))?;
+        Ok::<_, PipelineError>(Upload::single(name, bytes))
+    });
+    let untangled = pipeline::untangle_file(upload, rest.transpose()?.as_ref(), options)?;
+    // A mesh that is still folded is an error.
+    let quality = Quality::proven(true);
+    Ok(JobResult::new(untangled.files).reported(&untangled.report, quality, &[]))
 }
 
 fn edit_uv(upload: &Upload, options: &EditOptions, observer: &dyn Observer) -> WorkResult {
@@ -297,11 +311,13 @@ impl Catalog for Computations {
         add::<WarpOptions>(&mut schemas);
         add::<EditOptions>(&mut schemas);
         add::<RepackOptions>(&mut schemas);
+        add::<UntangleOptions>(&mut schemas);
         add::<Report>(&mut schemas);
         add::<Verified>(&mut schemas);
         add::<DeformReport>(&mut schemas);
         add::<WarpReport>(&mut schemas);
         add::<EditReport>(&mut schemas);
+        add::<UntangleReport>(&mut schemas);
         add::<ProblemFile>(&mut schemas);
         schemas
     }

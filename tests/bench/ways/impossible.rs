@@ -56,6 +56,7 @@ fn vertex(vertex: u32, to: &[f64]) -> Handle {
     Handle::Vertex {
         vertex,
         to: to.to_vec(),
+        weight: None,
     }
 }
 
@@ -70,7 +71,11 @@ pub fn impossible((body, handles): (Body, Vec<Handle>)) {
     let seconds = clock.seconds().processor;
     let unreached = problem.unreached(&solution);
     let distance = |handle: &Handle| match handle {
-        Handle::Vertex { vertex, to } => {
+        Handle::Vertex {
+            vertex,
+            to,
+            weight: None,
+        } => {
             let place = &solution.x[dim * *vertex as usize..];
             let squares = place.iter().zip(to).map(|(x, t)| (x - t) * (x - t));
             squares.sum::<f64>().sqrt()

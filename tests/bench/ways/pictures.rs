@@ -83,7 +83,11 @@ pub fn crowded(n: u64) {
 fn paired(at: &[[f64; 2]], to: &[[f64; 2]]) -> Vec<PictureHandle> {
     let pairs = at.iter().zip(to);
     pairs
-        .map(|(&at, &to)| PictureHandle::Point { at, to })
+        .map(|(&at, &to)| PictureHandle::Point {
+            at,
+            to,
+            weight: None,
+        })
         .collect()
 }
 

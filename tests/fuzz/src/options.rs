@@ -5,7 +5,7 @@ use libfuzzer_sys::fuzz_target;
 use unwrapd_api::Kind;
 use unwrapd_worker::Work;
 
-const KINDS: [Kind; 9] = [
+const KINDS: [Kind; 10] = [
     Kind::Unwrap,
     Kind::Measure,
     Kind::Verify,
@@ -15,6 +15,7 @@ const KINDS: [Kind; 9] = [
     Kind::EditUv,
     Kind::TextureMap,
     Kind::Repack,
+    Kind::Untangle,
 ];
 
 fuzz_target!(|bytes: &[u8]| {

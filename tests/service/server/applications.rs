@@ -403,3 +403,109 @@ async fn an_obj_comes_with_its_materials() {
     let text = String::from_utf8_lossy(&glb);
     assert!(text.contains("image/png") && text.contains("image/jpeg"));
 }
+
+/// A square of 4 × 4 cells whose middle vertex lies outside, as OFF.
+fn folded(middle: [f64; 2]) -> Vec<u8> {
+    let place = |v: u32| match v {
+        12 => middle,
+        _ => [f64::from(v % 5), f64::from(v / 5)],
+    };
+    let mut text = String::from("OFF\n25 32 0\n");
+    for [x, y] in (0..25).map(place) {
+        text += &format!("{x} {y} 0\n");
+    }
+    for a in (0..16).map(|s| s / 4 * 5 + s % 4) {
+        text += &format!("3 {a} {} {}\n3 {a} {} {}\n", a + 1, a + 6, a + 6, a + 5);
+    }
+    text.into_bytes()
+}
+
+#[tokio::test]
+async fn folded_meshes_are_untangled() {
+    let server = Server::start();
+    let mesh = || ("folded.off", folded([3.6, 3.4]));
+    let (report, media_type, result) = outcome(&server, form("untangle", "{}", mesh())).await;
+    assert_eq!(report["elements"], 32, "{report}");
+    assert!(report["inverted_before"].as_u64() > Some(0), "{report}");
+    assert!(report["moved"].as_u64() > Some(0), "{report}");
+    assert!(report["smallest"].as_f64() > Some(0.0), "{report}");
+    assert!(result.starts_with(b"OFF"), "{media_type}");
+    // Rest shapes come in a part of their own.
+    let rest = Part::bytes(folded([2.0, 2.0])).file_name("rest.off");
+    let given = form(
+        "untangle",
+        r#"{"rest_mesh": "rest.off", "format": "obj"}"#,
+        mesh(),
+    );
+    let (report, _, _) = outcome(&server, given.part("resource", rest)).await;
+    assert!(report["inverted_before"].as_u64() > Some(0), "{report}");
+    // What cannot be is named.
+    let missing = form("untangle", r#"{"rest_mesh": "rest.off"}"#, mesh());
+    let job = ended(&server, missing).await;
+    assert_eq!(job["error"]["code"], "missing_resource", "{job}");
+    let unknown = form("untangle", r#"{"rest": "none"}"#, mesh());
+    assert_eq!(ended(&server, unknown).await["code"], "invalid_options");
+    let surface = form("untangle", "{}", ("surface.glb", meshes::small()));
+    let job = ended(&server, surface).await;
+    let code = [&job["code"], &job["error"]["code"]];
+    assert!(code.contains(&&"unknown_format".into()), "{job}");
+}
+
+/// An OBJ of two materials side by side, each a row of 4 cells; the vertices of the right end are red.
+fn two_materials() -> Vec<u8> {
+    let mut text = String::new();
+    for j in 0..3 {
+        for i in 0..9 {
+            let color = if i == 8 { "1 0 0" } else { "1 1 1" };
+            text += &format!("v {i} {j} 0 {color}\n");
+        }
+    }
+    for (name, columns) in [("Left", 0..4), ("Right", 4..8)] {
+        text += &format!("o {name}side\nusemtl {name}\n");
+        for a in (0..2).flat_map(|j| columns.clone().map(move |i| 9 * j + i + 1)) {
+            text += &format!("f {a} {} {}\nf {a} {} {}\n", a + 1, a + 10, a + 10, a + 9);
+        }
+    }
+    text.into_bytes()
+}
+
+#[tokio::test]
+async fn handles_select_by_material_object_and_color() {
+    let server = Server::start();
+    let deformed = async |select: &str| {
+        let options = format!(
+            r#"{{"handles": [{{"select": "{select}", "by": [0.5, 0.25]}}, {{"vertex": 9, "to": [0, 1]}}], "format": "txt"}}"#
+        );
+        let job = form("deform", &options, ("two.obj", two_materials()));
+        let (_, _, result) = outcome(&server, job).await;
+        let text = String::from_utf8(result).expect("text");
+        let numbers = text
+            .split_whitespace()
+            .map(|x| x.parse::<f64>().expect("a number"));
+        let numbers: Vec<f64> = numbers.collect();
+        // The columns that moved by the offset.
+        let moved = (0..27).filter(|v| {
+            let [x, y] = [f64::from(v % 9), f64::from(v / 9)];
+            let at = &numbers[2 * *v as usize..];
+            (at[0] - x - 0.5).hypot(at[1] - y - 0.25) < 1e-9
+        });
+        let columns: std::collections::BTreeSet<u32> = moved.map(|v| v % 9).collect();
+        columns.into_iter().collect::<Vec<_>>()
+    };
+    assert_eq!(deformed("material=Right").await, [4, 5, 6, 7, 8]);
+    assert_eq!(deformed("object=Rightside").await, [4, 5, 6, 7, 8]);
+    assert_eq!(deformed("color=ff0000").await, [8]);
+    for (select, code) in [
+        ("material=Glass", "unknown_material"),
+        ("colour=ff0000", "malformed_handles"),
+        ("color=00ff00", "handle_outside"),
+    ] {
+        let options = format!(r#"{{"handles": [{{"select": "{select}", "by": [1, 1]}}]}}"#);
+        let job = ended(
+            &server,
+            form("deform", &options, ("two.obj", two_materials())),
+        )
+        .await;
+        assert_eq!(job["error"]["code"], code, "{job}");
+    }
+}

@@ -95,6 +95,7 @@ fn script() -> Vec<Done> {
         to: center.to_vec(),
         turn: 0.0,
         axis: None,
+        weight: None,
     };
     let mut script = vec![
         Done::Held(7, disc([0.0, 5.0])),

@@ -2,13 +2,14 @@
 
 use super::chart::{UvChart, UvRest, UvVertices, body};
 use super::map::{EditError, MOST_ANCHORS, UvMap, UvMesh};
-use crate::body::{Body, Boundary, locate};
-use crate::handles;
+use crate::body::{Body, Boundary, locate, sole_vertex};
+use crate::handle::{self, Select, middle};
+use crate::line::held_points;
 use crate::pull::{Grip, Holds};
-use crate::region::Region;
+use crate::region::{Line, MOST_DEGREES, PlanarMotion, Region};
 use serde::{Deserialize, Serialize};
-use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+use std::collections::{BTreeSet, HashMap, HashSet};
 use unwrapd_maps::mesh::PlanarMesh;
 use unwrapd_maps::plane::segment_distance;
 use unwrapd_method::numerics::predicates::orient2d_sign;
@@ -20,7 +21,7 @@ const FARTHEST: f64 = 1e6;
 const OUTSIDE: f64 = 1e-3;
 
 /// A part of a UV map and where it goes, in the numbers of the map.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(untagged, deny_unknown_fields)]
 pub enum Anchor {
@@ -29,21 +30,83 @@ pub enum Anchor {
         /// Its index, from 0.
         vertex: u32,
         /// Its new UV.
-        #[serde(deserialize_with = "handles::planar")]
+        #[serde(deserialize_with = "handle::planar")]
         to: [f64; 2],
+        /// Strength of a soft handle; see `weight` of a place.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        weight: Option<f64>,
     },
     /// The point of the surface that has a UV, a vertex if it is one. Next to a boundary that stays, and at most a texel of a
     /// texture of 1024 outside a chart, it is the nearest vertex, whose target is shifted by the same offset.
     Place {
         /// A UV.
-        #[serde(deserialize_with = "handles::planar")]
+        #[serde(deserialize_with = "handle::planar")]
         at: [f64; 2],
         /// Where it goes.
-        #[serde(deserialize_with = "handles::planar")]
+        #[serde(deserialize_with = "handle::planar")]
         to: [f64; 2],
+        /// Strength of a soft handle, greater than 0; without it the handle comes to its target
+        /// exactly. The energy grows by `weight` times the mean squared distance of what the handle
+        /// holds from its targets, for a mean triangle of area 1.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        weight: Option<f64>,
     },
-    /// A disc or a box that keeps its shape: its vertices in the chart in which its center lies.
+    /// A disc, a box or an outline that keeps its shape: its vertices in the chart in which its
+    /// middle lies.
     Region(Region),
+    /// A list of vertices of the mesh, moved as a rigid body in each chart.
+    Vertices {
+        /// Their indices, from 0.
+        vertices: Vec<u32>,
+        /// Where the middle of their bounding box goes; without it and `by`, they stay.
+        #[serde(
+            default,
+            deserialize_with = "handle::optional_planar",
+            skip_serializing_if = "Option::is_none"
+        )]
+        to: Option<[f64; 2]>,
+        /// The offset by which they move, in place of `to`.
+        #[serde(
+            default,
+            deserialize_with = "handle::optional_planar",
+            skip_serializing_if = "Option::is_none"
+        )]
+        by: Option<[f64; 2]>,
+        /// A turn about the middle, as that of a disc.
+        #[serde(default)]
+        turn: f64,
+        /// Strength of a soft handle; see `weight` of a place.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        weight: Option<f64>,
+    },
+    /// The vertices that a selector names, moved as a rigid body in each chart.
+    Selection {
+        /// The selector.
+        #[cfg_attr(feature = "schema", schema(value_type = String))]
+        select: Select,
+        /// Where the middle of their bounding box goes; without it and `by`, they stay.
+        #[serde(
+            default,
+            deserialize_with = "handle::optional_planar",
+            skip_serializing_if = "Option::is_none"
+        )]
+        to: Option<[f64; 2]>,
+        /// The offset by which they move, in place of `to`.
+        #[serde(
+            default,
+            deserialize_with = "handle::optional_planar",
+            skip_serializing_if = "Option::is_none"
+        )]
+        by: Option<[f64; 2]>,
+        /// A turn about the middle, as that of a disc.
+        #[serde(default)]
+        turn: f64,
+        /// Strength of a soft handle; see `weight` of a place.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        weight: Option<f64>,
+    },
+    /// A line of the chart in which it begins.
+    Line(Line),
 }
 
 impl Anchor {
@@ -52,22 +115,55 @@ impl Anchor {
         match self {
             Self::Vertex { to, .. } | Self::Place { to, .. } => *to = target,
             Self::Region(region) => region.retarget(target),
+            Self::Vertices { to, by, .. } | Self::Selection { to, by, .. } => {
+                (*to, *by) = (Some(target), None);
+            }
+            Self::Line(line) => line.retarget(target),
         }
     }
 
     /// Returns whether every number is finite, none exceeds [`FARTHEST`], and a region is one.
     fn is_valid(&self) -> bool {
         let are_near = |place: &[f64; 2]| place.iter().all(|x| x.abs() <= FARTHEST);
-        match self {
+        let is_weight = self.weight().is_none_or(|w| w > 0.0 && w.is_finite());
+        let is_place = match self {
             Self::Vertex { to, .. } => are_near(to),
-            Self::Place { at, to } => are_near(at) && are_near(to),
+            Self::Place { at, to, .. } => are_near(at) && are_near(to),
             Self::Region(region) => region.is_valid(FARTHEST),
+            Self::Vertices { to, by, turn, .. } | Self::Selection { to, by, turn, .. } => {
+                !(to.is_some() && by.is_some())
+                    && to.iter().chain(by).all(are_near)
+                    && turn.abs() <= MOST_DEGREES
+            }
+            Self::Line(line) => line.is_valid(FARTHEST),
+        };
+        is_place && is_weight
+    }
+
+    /// Returns the strength of a soft handle.
+    fn weight(&self) -> Option<f64> {
+        match self {
+            Self::Vertex { weight, .. }
+            | Self::Place { weight, .. }
+            | Self::Vertices { weight, .. }
+            | Self::Selection { weight, .. } => *weight,
+            Self::Region(region) => region.weight(),
+            Self::Line(line) => line.weight,
+        }
+    }
+
+    /// Returns the selector of the anchor, if it has one, so that its members can be filled in with corners `3 * face +
+    /// c` of the mesh.
+    pub fn select_mut(&mut self) -> Option<&mut Select> {
+        match self {
+            Self::Selection { select, .. } => Some(select),
+            _ => None,
         }
     }
 }
 
 /// Parses `{"anchors": [{"vertex": i, "to": [u, v]}, {"at": [u, v], "to": [u, v]}, {"center": [u, v], "radius": r,
-/// "to": [u, v], "turn": degrees}, …]}`; `points` is another name of `anchors`.
+/// "to": [u, v], "turn": degrees}, {"line": […], "to": […]}, {"select": "material=…", "by": [u, v]}, …]}`; `points` is another name of `anchors`.
 pub fn parse_anchors(json: &[u8]) -> Result<Vec<Anchor>, EditError> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -86,26 +182,39 @@ pub(super) struct Held {
     pub anchor: usize,
     pub spot: Spot,
     pub to: [f64; 2],
+    /// Strength of a soft anchor, its share of it if there are several spots.
+    pub weight: Option<f64>,
 }
 
 /// The spot that an anchor holds.
-#[derive(Clone, Copy)]
 pub(super) enum Spot {
     /// A vertex of the UV map.
     Vertex(u32),
     /// A UV in a chart.
     Place { chart: u32, at: [f64; 2] },
+    /// A line of a chart, which goes to the line of its target.
+    Line { chart: u32, line: Line },
 }
 
 /// A vertex, or a chart with the bits of a UV: equal for equal spots.
 type SpotKey = (u32, Option<[u64; 2]>);
 
 impl Spot {
-    fn key(self) -> SpotKey {
-        match self {
-            Self::Vertex(vertex) => (vertex, None),
+    /// Returns the key of a spot; `None` for a line, whose points are chosen later.
+    fn key(&self) -> Option<SpotKey> {
+        match *self {
+            Self::Vertex(vertex) => Some((vertex, None)),
             // 0 and −0 are one place.
-            Self::Place { chart, at } => (chart, Some(at.map(|x| (x + 0.0).to_bits()))),
+            Self::Place { chart, at } => Some((chart, Some(at.map(|x| (x + 0.0).to_bits())))),
+            Self::Line { .. } => None,
+        }
+    }
+
+    /// Returns the chart of the spot.
+    pub fn chart(&self, map: &UvMap, vertices: &UvVertices) -> u32 {
+        match *self {
+            Self::Vertex(vertex) => vertices.chart(map, vertex),
+            Self::Place { chart, .. } | Self::Line { chart, .. } => chart,
         }
     }
 }
@@ -127,29 +236,72 @@ pub(super) fn hold(
             return Err(EditError::BadTarget(anchor));
         }
         // Find the spots.
-        let spots = match *which {
-            Anchor::Vertex { vertex, to } => {
-                let vertex = only_vertex(mesh, map, vertices, anchor, vertex)?;
-                vec![(Spot::Vertex(vertex), to)]
+        let spots = match which {
+            Anchor::Vertex { vertex, to, .. } => {
+                let vertex = only_vertex(mesh, map, vertices, anchor, *vertex)?;
+                vec![(Spot::Vertex(vertex), *to)]
             }
-            Anchor::Place { at, to } => {
-                vec![place(map, vertices, at, to).ok_or(EditError::Outside(anchor))?]
+            Anchor::Place { at, to, .. } => {
+                vec![place(map, vertices, *at, *to).ok_or(EditError::Outside(anchor))?]
             }
             Anchor::Region(region) => {
                 let chart = chart_at(map, region.center()).ok_or(EditError::Outside(anchor))?;
-                let spots = inside(map, vertices, chart, &region);
-                if spots.is_empty() {
-                    return Err(EditError::EmptyRegion(anchor));
-                }
-                spots
+                inside(map, vertices, chart, region)
+            }
+            Anchor::Vertices {
+                vertices: named,
+                to,
+                by,
+                turn,
+                ..
+            } => {
+                let is_named: HashSet<u32> = named.iter().copied().collect();
+                let corners = mesh.triangles.as_flattened().iter().enumerate();
+                let corners = corners.filter(|(_, v)| is_named.contains(v));
+                let corners = corners.map(|(corner, _)| corner as u32);
+                moved_together(map, vertices, corners, *to, *by, *turn)
+            }
+            Anchor::Selection {
+                select,
+                to,
+                by,
+                turn,
+                ..
+            } => {
+                let corners = select.members().ok_or_else(|| {
+                    let text = format!("{:?} needs a file to select from", select.text());
+                    EditError::Malformed(text)
+                })?;
+                let corners = corners.iter().copied();
+                moved_together(map, vertices, corners, *to, *by, *turn)
+            }
+            Anchor::Line(line) => {
+                let chart = chart_at(map, line.line[0]).ok_or(EditError::Outside(anchor))?;
+                let line = line.clone();
+                vec![(Spot::Line { chart, line }, [0.0; 2])]
             }
         };
-        // Hold each spot once; anchors at one spot must agree on the target.
+        if spots.is_empty() {
+            return Err(EditError::EmptyRegion(anchor));
+        }
+        // Hold each spot once; exact anchors at one spot must agree on the target.
+        let weight = which.weight().map(|weight| weight / spots.len() as f64);
         for (spot, to) in spots {
-            match place_of.entry(spot.key()) {
+            let key = spot.key().filter(|_| weight.is_none());
+            let new = Held {
+                anchor,
+                spot,
+                to,
+                weight,
+            };
+            let Some(key) = key else {
+                held.push(new);
+                continue;
+            };
+            match place_of.entry(key) {
                 Entry::Vacant(entry) => {
                     entry.insert(held.len());
-                    held.push(Held { anchor, spot, to });
+                    held.push(new);
                 }
                 Entry::Occupied(entry) => {
                     let other = &held[*entry.get()];
@@ -173,6 +325,35 @@ fn inside(
     usable_vertices(map, vertices)
         .filter(|&(v, uv)| vertices.chart(map, v) == chart && region.contains(uv))
         .map(|(v, uv)| (Spot::Vertex(v), region.moved(uv)))
+        .collect()
+}
+
+/// Returns the vertices at these corners, which move as a rigid body: the middle of their box `to` a place or `by` an
+/// offset.
+fn moved_together(
+    map: &UvMap,
+    vertices: &UvVertices,
+    corners: impl Iterator<Item = u32>,
+    to: Option<[f64; 2]>,
+    by: Option<[f64; 2]>,
+    turn: f64,
+) -> Vec<(Spot, [f64; 2])> {
+    let usable = corners.filter(|&corner| !map.unusable[corner as usize / 3]);
+    let chosen: BTreeSet<u32> = usable
+        .map(|corner| vertices.of_corner[corner as usize])
+        .collect();
+    let places: Vec<[f64; 2]> = chosen.iter().map(|&v| vertices.uv(map, v)).collect();
+    let Ok(center) = <[f64; 2]>::try_from(middle(&places)) else {
+        return Vec::new();
+    };
+    let motion = PlanarMotion {
+        center,
+        to: to.unwrap_or([0, 1].map(|k| center[k] + by.map_or(0.0, |by| by[k]))),
+        turn,
+    };
+    let spots = chosen.into_iter().zip(places);
+    spots
+        .map(|(v, uv)| (Spot::Vertex(v), motion.moved(uv)))
         .collect()
 }
 
@@ -293,21 +474,58 @@ impl FlatChart {
             holds: Holds::new(fixed),
             targets: Vec::with_capacity(held.len()),
         };
+        // Lines come last: they leave out what other anchors hold.
         for anchor in held {
             self.take_hold(&mut grips, chart, anchor)?;
         }
+        for anchor in held {
+            if let Spot::Line { line, .. } = &anchor.spot {
+                self.take_hold_of_line(&mut grips, anchor, line)?;
+            }
+        }
         Ok(grips)
+    }
+
+    fn take_hold_of_line(
+        &self,
+        Grips { holds, targets }: &mut Grips,
+        held: &Held,
+        line: &Line,
+    ) -> Result<(), EditError> {
+        let is_taken = holds.taken(self.start.len());
+        let scaled = |corners: &[[f64; 2]]| -> Vec<[f64; 2]> {
+            corners.iter().map(|p| p.map(|x| x / self.unit)).collect()
+        };
+        let points = held_points(&self.body, &scaled(&line.line), &scaled(&line.to), |v| {
+            is_taken[v as usize]
+        });
+        let points = points.ok_or(EditError::Outside(held.anchor))?;
+        if points.is_empty() {
+            return Err(EditError::EmptyRegion(held.anchor));
+        }
+        if held.weight.is_none() {
+            let at_vertices = points.iter().filter(|(row, _)| sole_vertex(row).is_some());
+            targets.extend(at_vertices.map(|(_, to)| to.map(|x| x * self.unit)));
+        }
+        holds.pull(held.anchor, points, held.weight);
+        Ok(())
     }
 
     fn take_hold(
         &self,
         Grips { holds, targets }: &mut Grips,
         chart: &UvChart,
-        &Held { anchor, spot, to }: &Held,
+        &Held {
+            anchor,
+            ref spot,
+            to,
+            weight,
+        }: &Held,
     ) -> Result<(), EditError> {
         let unknown = EditError::UnknownHandle(anchor);
         // Find what the spot holds in this chart.
-        let (at, grip) = match spot {
+        let (at, grip) = match *spot {
+            Spot::Line { .. } => return Ok(()),
             Spot::Vertex(vertex) => {
                 // The vertex of a face left out of its chart is not there.
                 let local = chart.vertices.binary_search(&vertex);
@@ -326,10 +544,15 @@ impl FlatChart {
             Grip::Vertex(vertex) => {
                 let place = chart.uvs[vertex as usize];
                 let to = [0, 1].map(|k| to[k] + (place[k] - at[k]));
-                holds.pull_vertex(anchor, vertex, to.map(|x| x / self.unit));
-                targets.push(to);
+                let held = vec![(vec![(vertex, 1.0)], to.map(|x| x / self.unit))];
+                holds.pull(anchor, held, weight);
+                if weight.is_none() {
+                    targets.push(to);
+                }
             }
-            Grip::Point(row) => holds.pull_point(anchor, row, to.map(|x| x / self.unit)),
+            Grip::Point(row) => {
+                holds.pull(anchor, vec![(row, to.map(|x| x / self.unit))], weight);
+            }
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Edits of UVs: charts with anchors are untangled and pulled.
 
-use super::anchors::{Anchor, FlatChart, Held, Spot, hold};
+use super::anchors::{Anchor, FlatChart, Held, hold};
 use super::chart::{ChartFaces, UvChart, UvRest, UvVertices};
 use super::map::{EditError, UvMap, UvMesh};
 use crate::body::Boundary;
@@ -94,10 +94,7 @@ pub fn edit_uvs_from(
     // Group the anchors by chart.
     let mut held: BTreeMap<u32, Vec<Held>> = BTreeMap::new();
     for anchor in hold(mesh, &map, &vertices, anchors)? {
-        let chart = match anchor.spot {
-            Spot::Vertex(vertex) => vertices.chart(&map, vertex),
-            Spot::Place { chart, .. } => chart,
-        };
+        let chart = anchor.spot.chart(&map, &vertices);
         held.entry(chart).or_default().push(anchor);
     }
     // Untangle and pull each of these charts.

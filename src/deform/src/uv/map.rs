@@ -206,11 +206,11 @@ pub enum EditError {
     HandleCount(usize),
     /// A number of an anchor is not finite or beyond 1e6, or a region has no size or turns too far.
     #[error(
-        "anchor {0} must have finite numbers up to 1e6, low below high, and turn by at most 180 degrees"
+        "anchor {0} must have finite numbers up to 1e6, low below high, a positive weight and enough corners, not both `to` and `by`, and turn by at most 180 degrees"
     )]
     BadTarget(usize),
     /// No vertex lies in a region.
-    #[error("anchor {0} holds no vertex of its chart")]
+    #[error("anchor {0} holds nothing in its chart")]
     EmptyRegion(usize),
     /// An anchor's vertex has no UV.
     #[error("anchor {0} names a vertex without UVs")]

@@ -1,11 +1,11 @@
 //! Interactive editing of UVs.
 
-use super::anchors::{Anchor, FlatChart, Grips, Held, Spot, hold};
+use super::anchors::{Anchor, FlatChart, Grips, Held, hold};
 use super::chart::{UvChart, UvVertices};
 use super::edit::UvEditOptions;
 use super::map::{EditError, UvMap, UvMesh};
 use crate::editor::{Editable, Editor, HandleId, Live};
-use crate::problem::Model;
+use crate::problem::{Model, Problem};
 use crate::pull::{arrive, pulled};
 use std::collections::BTreeMap;
 use unwrapd_maps::mesh::CornerUvs;
@@ -141,10 +141,7 @@ impl Editable for LiveUvs {
         // Find the vertices that the anchors hold, and build the charts that were never held.
         let mut of_chart: BTreeMap<u32, Vec<Held>> = BTreeMap::new();
         for held in self.held(anchors)? {
-            let chart = match held.spot {
-                Spot::Vertex(vertex) => self.vertices.chart(&self.map, vertex),
-                Spot::Place { chart, .. } => chart,
-            };
+            let chart = held.spot.chart(&self.map, &self.vertices);
             of_chart.entry(chart).or_default().push(held);
         }
         for &chart in of_chart.keys() {
@@ -165,8 +162,9 @@ impl Editable for LiveUvs {
         // Aim the charts whose handles have changed.
         for (chart, (grips, handles, is_held)) in self.charts.values_mut().zip(aims) {
             chart.is_held = is_held;
-            if chart.live.problem().stations[0] != handles {
-                chart.live.aim(handles)?;
+            let problem = chart.live.problem();
+            if problem.stations[0] != handles || problem.soft != grips.holds.soft {
+                chart.live.aim(handles, grips.holds.soft.clone())?;
             }
             chart.grips = grips;
         }
@@ -238,7 +236,7 @@ impl LiveUvs {
             triangles: &self.triangles,
             uvs: &self.uvs,
         };
-        let list: Vec<Anchor> = anchors.values().copied().collect();
+        let list: Vec<Anchor> = anchors.values().cloned().collect();
         hold(&mesh, &self.map, &self.vertices, &list)
     }
 
@@ -255,7 +253,8 @@ impl LiveUvs {
         let flat = FlatChart::new(&chart, rest)?;
         let grips = flat.grips(&chart, &[], boundary)?;
         let handles = grips.holds.handles(&flat.body, &flat.start)?;
-        let problem = pulled(flat.body.clone(), &flat.start, handles, model)?;
+        let soft = grips.holds.soft.clone();
+        let problem = pulled(flat.body.clone(), &flat.start, handles, soft, model)?;
         Ok(LiveChart {
             live: Live::new(problem)?,
             is_held: false,
@@ -269,8 +268,10 @@ impl LiveUvs {
     fn rebuilt(&self) -> Result<Vec<Live>, EditError> {
         let rebuilt = self.charts.values().map(|chart| {
             let (body, start) = (chart.flat.body.clone(), &chart.flat.start);
-            let handles = chart.live.problem().stations[0].clone();
-            let mut live = Live::new(pulled(body, start, handles, &self.options.model)?)?;
+            let Problem { stations, soft, .. } = chart.live.problem();
+            let (handles, soft) = (stations[0].clone(), soft.clone());
+            let problem = pulled(body, start, handles, soft, &self.options.model)?;
+            let mut live = Live::new(problem)?;
             live.put(chart.live.x().to_vec())?;
             live.check_domain()?;
             Ok(live)

@@ -93,6 +93,20 @@ impl Document {
         }
     }
 
+    /// Returns the name of the object of each face of a primitive, in glTF that of its mesh, in OBJ that of its object or,
+    /// in a file without objects, of its group; `None` for a face without one.
+    pub fn face_objects(&self, primitive: usize) -> Vec<Option<String>> {
+        let of_primitive = |name: Option<String>| {
+            let n_faces = self.primitives()[primitive].triangles.len();
+            vec![name; n_faces]
+        };
+        match self {
+            Self::Obj(document) => document.face_objects(),
+            Self::Gltf(document) => of_primitive(document.mesh_name(primitive)),
+            Self::Soup(_) => of_primitive(None),
+        }
+    }
+
     /// Returns the color of each vertex of a primitive, linear and with alpha; `None` if it has none.
     pub fn vertex_colors(&self, primitive: usize) -> Result<Option<Vec<[f32; 4]>>, DocumentError> {
         match self {

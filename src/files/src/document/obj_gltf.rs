@@ -25,10 +25,24 @@ impl ObjDocument {
     /// Returns the material of each triangle; `None` for one without.
     pub fn face_materials(&self) -> Vec<Option<usize>> {
         let parts = parts_of_faces(self, &ObjParts::of(self.bytes()));
-        let material = |face: usize| Some(parts[face].material? as usize);
+        self.of_kept(parts.len(), |face| Some(parts[face].material? as usize))
+    }
+
+    /// Returns the name of the object, or in a file without objects of the group, of each triangle; `None` for one
+    /// without.
+    pub fn face_objects(&self) -> Vec<Option<String>> {
+        let all = ObjParts::of(self.bytes());
+        let parts = parts_of_faces(self, &all);
+        self.of_kept(parts.len(), |face| {
+            Some(all.objects[parts[face].object? as usize].clone())
+        })
+    }
+
+    /// Collects the attribute of each of `n_faces` triangles of the file that were kept.
+    fn of_kept<T>(&self, n_faces: usize, attribute: impl Fn(usize) -> T) -> Vec<T> {
         match self.kept_faces() {
-            Some(kept) => kept.iter().map(|&face| material(face as usize)).collect(),
-            None => (0..parts.len()).map(material).collect(),
+            Some(kept) => kept.iter().map(|&face| attribute(face as usize)).collect(),
+            None => (0..n_faces).map(attribute).collect(),
         }
     }
 

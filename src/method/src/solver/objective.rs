@@ -99,21 +99,18 @@ impl Objective {
         }
     }
 
-    /// Exchanges the terms for others with the same stencils, as when a parameter of an energy changes; the analysis
-    /// stays valid.
-    ///
-    /// # Panics
-    /// If a stencil differs.
+    /// Exchanges the terms for others, as when a parameter of an energy changes. If their stencils are the same, the
+    /// analysis stays valid.
     pub fn exchange(&mut self, terms: Vec<Box<dyn Term>>) {
         let stencils = |terms: &[Box<dyn Term>]| -> Vec<_> {
             terms.iter().map(|term| term.stencils()).collect()
         };
-        assert!(
-            stencils(&terms) == stencils(&self.terms),
-            "terms with the same stencils"
-        );
+        let is_same = stencils(&terms) == stencils(&self.terms);
         self.scale = terms.iter().map(|term| term.scale()).sum();
         self.terms = terms;
+        if !is_same {
+            self.renew_pattern();
+        }
     }
 
     /// Returns the number of unknowns.

@@ -2,6 +2,7 @@
 
 use super::solution::{CageReport, Deformed, FrameObserver, solve};
 use super::source::{check_format, check_frames, moved, moved_frame};
+use crate::documents::corner_selection::{CornerSelection, VertexSelection};
 use crate::documents::input::Merged;
 use crate::options::BodyFormat;
 use crate::options::DeformOptions;
@@ -132,10 +133,7 @@ impl CagedDocument {
         limits::check(&options.limits, &document)?;
         check_format(&document, options.format)?;
         // Refuse handles that name vertices: users do not know those of the cage.
-        if let Some(handle) = handles
-            .iter()
-            .position(|handle: &Handle| matches!(handle, Handle::Vertex { .. }))
-        {
+        if let Some(handle) = handles.iter().position(Handle::names_vertices) {
             return Err(ProblemError::VertexOfCage { handle }.into());
         }
         // Build the cage, and split the triangles if asked to.
@@ -150,20 +148,33 @@ impl CagedDocument {
             }
         };
         // Bind the handles, and hold the parts without any.
-        let mut problem = Problem::new(Body::from(cage.mesh()), handles, &options.model)?;
+        let mut handles = handles.to_vec();
+        let mut selects = handles.iter_mut().filter_map(Handle::select_mut).peekable();
+        if selects.peek().is_some() {
+            selection(&document, &cage)?.fill(selects)?;
+        }
+        let mut problem = Problem::new(Body::from(cage.mesh()), &handles, &options.model)?;
         let idle_parts = problem.hold_idle_parts();
         Ok(Self {
             document,
             cage,
             problem,
-            handles: handles.to_vec(),
+            handles,
             idle_parts,
             options,
         })
     }
 
-    /// Starts a large cage from the solution in a coarser one.
+    /// Starts a large cage from the solution in a coarser one, unless handles select vertices, which are those of this
+    /// cage.
     fn start_coarse(&mut self, watch: &dyn Watch) {
+        if self
+            .handles
+            .iter_mut()
+            .any(|handle| handle.select_mut().is_some())
+        {
+            return;
+        }
         let positions = positions(&self.document);
         let caged = Caged {
             surfaces: &surfaces(&self.document, &positions),
@@ -208,6 +219,24 @@ impl CagedDocument {
         };
         Ok((written, report))
     }
+}
+
+/// Returns the selection of the vertices of a cage that carry selected vertices of a document.
+pub fn selection(document: &Document, cage: &Cage) -> Result<VertexSelection, PipelineError> {
+    let (mut places, mut triangles) = (Vec::new(), Vec::new());
+    for primitive in document.primitives() {
+        let first = places.len() as u32;
+        triangles.extend(primitive.triangles.iter().map(|t| t.map(|v| v + first)));
+        places.extend(widened(&primitive.positions));
+    }
+    let tets = cage.embed(&places)?.tets.into_iter();
+    let primitives = 0..document.primitives().len();
+    Ok(VertexSelection {
+        corners: CornerSelection::new(document.clone(), primitives.collect()),
+        faces: (0..triangles.len() as u32).collect(),
+        triangles,
+        carriers: Some(tets.map(|tet| cage.mesh().tets()[tet as usize]).collect()),
+    })
 }
 
 /// Returns the positions of every primitive.

@@ -1,8 +1,10 @@
 //! Files as bodies for live sessions.
 
-use super::caged::{positions, surfaces};
+use super::caged::{positions, selection, surfaces};
+use super::solve::no_selection;
 use super::source::Source;
 use crate::PipelineError;
+use crate::documents::corner_selection::VertexSelection;
 use crate::limits;
 use crate::options::{CommandOptions, DeformOptions, WarpOptions};
 use unwrapd_deform::cage::{Cage, Embedding};
@@ -22,6 +24,8 @@ pub struct SessionBody {
     pub triangles: Vec<[u32; 3]>,
     /// Surface that follows a cage.
     pub skin: Option<Skin>,
+    /// Selection of vertices of the body by materials, objects and colors, if the file has any.
+    selection: Option<VertexSelection>,
     /// Columns and rows of the picture that lies on the body at rest.
     pub picture: Option<[usize; 2]>,
 }
@@ -44,7 +48,11 @@ pub fn open_body(upload: &Upload, options: &DeformOptions) -> Result<SessionBody
             BodyElements::Triangles { corners, .. } => corners.clone(),
             BodyElements::Tetrahedra { corners, .. } => boundary_triangles(corners),
         };
-        return SessionBody::new(body, triangles, options);
+        let selection = source.selection(upload)?;
+        return Ok(SessionBody {
+            selection,
+            ..SessionBody::new(body, triangles, options)?
+        });
     };
     // Build a cage around the surfaces.
     let document = Document::read(upload)?;
@@ -65,12 +73,25 @@ pub fn open_body(upload: &Upload, options: &DeformOptions) -> Result<SessionBody
     let corners = corners.collect();
     let opened = SessionBody::new(Body::from(cage.mesh()), triangles, options)?;
     Ok(SessionBody {
+        selection: Some(selection(&document, &cage)?),
         skin: Some(Skin { corners, weights }),
         ..opened
     })
 }
 
 impl SessionBody {
+    /// Fills in what the selector of a handle names, if it has one.
+    ///
+    /// # Errors
+    /// If the selector cannot be parsed, or names what the file does not have.
+    pub fn fill(&self, handle: &mut Handle) -> Result<(), PipelineError> {
+        let Some(select) = handle.select_mut() else {
+            return Ok(());
+        };
+        let selection = self.selection.as_ref().ok_or_else(no_selection)?;
+        selection.fill([select])
+    }
+
     fn new(
         body: Body,
         triangles: Vec<[u32; 3]>,
@@ -81,6 +102,7 @@ impl SessionBody {
             body,
             triangles,
             skin: None,
+            selection: None,
             picture: None,
         })
     }
@@ -98,7 +120,8 @@ pub fn open_picture(upload: &Upload, options: &WarpOptions) -> Result<SessionBod
     if how.boundary == Boundary::Fixed {
         for [vertex, _] in grid.boundary() {
             let to = grid.vertices()[vertex as usize].to_vec();
-            session.add(Handle::Vertex { vertex, to })?;
+            let weight = None;
+            session.add(Handle::Vertex { vertex, to, weight })?;
         }
     }
     Ok(SessionBody {
@@ -106,6 +129,7 @@ pub fn open_picture(upload: &Upload, options: &WarpOptions) -> Result<SessionBod
         body,
         triangles: grid.triangles().to_vec(),
         skin: None,
+        selection: None,
         picture: Some([image.width, image.height]),
     })
 }

@@ -4,13 +4,14 @@ use super::caged;
 use super::solution::{DeformReport, Deformed, FrameObserver, solve};
 use super::source::Source;
 use crate::arrays::unwrap::in_pool;
+use crate::documents::corner_selection::VertexSelection;
 use crate::observer::Observer;
 use crate::options::{CommandOptions, DeformOptions, SolveOptions};
 use crate::start::{numbers, start};
 use crate::tracker::Tracker;
 use crate::{PipelineError, limits};
 use unwrapd_api::{Limits, START, Stage};
-use unwrapd_deform::{Problem, ProblemError, ProblemFile, Solution};
+use unwrapd_deform::{Handle, Problem, ProblemError, ProblemFile, Solution};
 use unwrapd_files::document::{DocumentError, Upload};
 use unwrapd_files::io::{ElementFormat, Elements};
 use unwrapd_method::solver::Watch;
@@ -118,6 +119,24 @@ pub fn deform_file(
     })?
 }
 
+/// Fills in what the selectors of handles name, in a body whose selection is made only if there is one.
+fn fill(
+    handles: &mut [Handle],
+    selection: impl FnOnce() -> Result<Option<VertexSelection>, PipelineError>,
+) -> Result<(), PipelineError> {
+    let mut selects = handles.iter_mut().filter_map(Handle::select_mut).peekable();
+    if selects.peek().is_none() {
+        return Ok(());
+    }
+    selection()?.ok_or_else(no_selection)?.fill(selects)
+}
+
+/// Returns the error for a selector in a file without materials, objects and colors.
+pub fn no_selection() -> PipelineError {
+    let text = "the format of this file has no materials, objects and colors to select by";
+    ProblemError::MalformedHandles(text.to_owned()).into()
+}
+
 fn deform_body(
     upload: &Upload,
     options: &DeformOptions,
@@ -129,10 +148,12 @@ fn deform_body(
     let format = options.format.unwrap_or_else(|| source.format(upload));
     source.check(format, options.frames)?;
     let body = source.body()?;
-    let mut problem = if options.handles.is_empty() {
+    let mut handles = options.handles.clone();
+    fill(&mut handles, || source.selection(upload))?;
+    let mut problem = if handles.is_empty() {
         Problem::at_rest(body, &options.model)?
     } else {
-        Problem::new(body, &options.handles, &options.model)?
+        Problem::new(body, &handles, &options.model)?
     };
     problem.search = options.pulling.search;
     if let Some(start) = start(upload, problem.start.len())? {

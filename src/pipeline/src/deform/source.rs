@@ -1,5 +1,6 @@
 //! Input bodies, from files and back.
 
+use crate::documents::corner_selection::{CornerSelection, VertexSelection};
 use crate::documents::input::Merged;
 use crate::options::{BodyFormat, TRIANGLES};
 use crate::{PipelineError, limits};
@@ -20,8 +21,8 @@ use unwrapd_method::numerics::vec3;
 /// The mesh of a file.
 pub struct Source {
     elements: Elements,
-    /// Document of the triangles, if they have one.
-    document: Option<Document>,
+    /// Document of the triangles, if they have one, and the face of each in it.
+    document: Option<(Document, Vec<u32>)>,
 }
 
 impl Source {
@@ -44,7 +45,8 @@ impl Source {
             (format.read(&upload.bytes)?, None)
         } else {
             let document = Document::read(upload)?;
-            (surface(&document)?, Some(document))
+            let (elements, faces) = surface(&document)?;
+            (elements, Some((document, faces)))
         };
         limits::check_count(limits, elements.triangles.len() + elements.tets.len())?;
         Ok(Self { elements, document })
@@ -58,6 +60,29 @@ impl Source {
         } else {
             Body::from(&elements.into_tet_mesh()?)
         })
+    }
+
+    /// Returns the selection of its vertices by materials, objects and colors; `None` for formats that have none.
+    pub fn selection(&self, upload: &Upload) -> Result<Option<VertexSelection>, PipelineError> {
+        let is_obj = Format::of_name(&upload.name) == Some(Format::Obj);
+        let (document, faces) = match &self.document {
+            Some((document, faces)) => (document.clone(), faces.clone()),
+            None if is_obj => {
+                let document = Document::read(upload)?;
+                let n_faces = self.elements.triangles.len() as u32;
+                (document, (0..n_faces).collect())
+            }
+            None => return Ok(None),
+        };
+        let groups = document.groups(GroupBy::Scene);
+        let group = groups.first().ok_or(PipelineError::NoTriangles)?;
+        let primitives = group.primitives.clone();
+        Ok(Some(VertexSelection {
+            corners: CornerSelection::new(document, primitives),
+            faces,
+            triangles: self.elements.triangles.clone(),
+            carriers: None,
+        }))
     }
 
     /// Returns the default format of the result: the input's if possible, else OBJ.
@@ -80,7 +105,8 @@ impl Source {
     fn whole(&self, format: BodyFormat) -> Option<(&Document, OutputFormat)> {
         let is_mesh = format.check_for_mesh().is_ok();
         let format = format.of_document().filter(|_| !is_mesh)?;
-        self.document.as_ref().map(|document| (document, format))
+        let document = self.document.as_ref();
+        document.map(|(document, _)| (document, format))
     }
 
     /// Returns the files of a problem's result at the positions `x` under the name `stem`, the main file first.
@@ -146,17 +172,18 @@ fn filled(outline: &outline::Outline, triangles: usize) -> Result<Elements, Pipe
     Ok(Elements::from(&outline::triangulate(outline, &settings)?))
 }
 
-/// Returns all triangles of a document, welded by position.
-fn surface(document: &Document) -> Result<Elements, PipelineError> {
+/// Returns all triangles of a document, welded by position, and the face of each in it.
+fn surface(document: &Document) -> Result<(Elements, Vec<u32>), PipelineError> {
     let groups = document.groups(GroupBy::Scene);
     let merged = groups.first().ok_or(PipelineError::NoTriangles)?;
     let merged = Merged::new(document.primitives(), merged);
     let surface = Surface::new(&merged.positions, &merged.triangles)?;
-    Ok(Elements {
+    let elements = Elements {
         vertices: surface.positions,
         triangles: surface.triangles,
         tets: Vec::new(),
-    })
+    };
+    Ok((elements, surface.faces))
 }
 
 // The map defined by a deformed planar mesh, applied to the document that it was read from.

@@ -22,6 +22,9 @@ options! {
     files {
         /// Format of the result. The default is the format of the input.
         pub format: Option<BodyFormat>;
+        /// Over HTTP: the name of the part `resource` with the rest shapes, a mesh of the same vertices
+        /// and elements without inversions.
+        pub rest_mesh: Option<String>;
     }
     groups {
         /// Number of threads.
@@ -46,6 +49,7 @@ impl CommandOptions for UntangleOptions {
 
 /// Report on an untangled mesh.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct UntangleReport {
     /// Number of elements.
     pub elements: usize,

@@ -261,7 +261,7 @@ impl Merged {
         }
         let rules = options.control.rules();
         if !rules.is_empty() {
-            let attributes = FaceAttributes::of_group(document, group)?;
+            let attributes = FaceAttributes::of_primitives(document, &group.primitives)?;
             let materials = rule_materials(&rules, |name| document.material(name))?;
             let v_axis = document.v_axis();
             let control = face_control(

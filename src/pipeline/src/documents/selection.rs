@@ -9,7 +9,7 @@ use crate::arrays::soup::Soup;
 use crate::island_error::IslandError;
 use crate::options::{IslandControl, IslandRule, Selector, Stacking};
 use std::collections::HashMap;
-use unwrapd_files::document::{Document, DocumentError, Group};
+use unwrapd_files::document::{Document, DocumentError};
 use unwrapd_maps::certificate::chart_ids;
 use unwrapd_maps::mesh::{CornerUvs, VAxis};
 
@@ -24,14 +24,14 @@ pub struct FaceAttributes {
 }
 
 impl FaceAttributes {
-    /// Collects the attributes of the faces of a group.
-    pub fn of_group(document: &Document, group: &Group) -> Result<Self, DocumentError> {
+    /// Collects the attributes of the faces of primitives.
+    pub fn of_primitives(document: &Document, primitives: &[usize]) -> Result<Self, DocumentError> {
         let mut all = Self {
             faces: Vec::new(),
             materials: Vec::new(),
             colors: Vec::new(),
         };
-        for &index in &group.primitives {
+        for &index in primitives {
             let triangles = &document.primitives()[index].triangles;
             // Rules count the faces of the file.
             let kept = document.kept_faces();
@@ -50,7 +50,7 @@ impl FaceAttributes {
     }
 
     /// Returns whether a selector selects each face; `material` is the index of the one that it names.
-    fn selected(&self, selector: &Selector, material: Option<usize>) -> Vec<bool> {
+    pub(super) fn selected(&self, selector: &Selector, material: Option<usize>) -> Vec<bool> {
         match selector {
             Selector::All => vec![true; self.faces.len()],
             Selector::Material(_) => (self.materials.iter())
@@ -71,13 +71,13 @@ impl FaceAttributes {
 }
 
 /// Rounds a linear color to the bytes in which glTF files mostly have it.
-fn in_bytes(color: &[f32; 4]) -> [u8; 3] {
+pub(super) fn in_bytes(color: &[f32; 4]) -> [u8; 3] {
     let [r, g, b, _] = *color;
     [r, g, b].map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8)
 }
 
 /// Converts a color from sRGB.
-fn linear(color: [u8; 3]) -> [f32; 4] {
+pub(super) fn linear(color: [u8; 3]) -> [f32; 4] {
     let [r, g, b] = color.map(|x| {
         let x = f32::from(x) / 255.0;
         if x <= 0.040_45 {

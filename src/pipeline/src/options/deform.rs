@@ -22,17 +22,24 @@ options! {
         /// Deform the meshes of the file in a cage of cubes, this many along its longest side.
         ///
         /// Each mesh enters the cage once, without the transforms of nodes. Handles are then places
-        /// (`at`, `center`). Connected parts of the cage without a handle stay at rest.
+        /// (`at`, `center`) or selections. Connected parts of the cage without a handle stay at rest.
         pub cage: Option<u32>, value "N", schema(minimum = 1);
         /// With `cage`: split triangles where they cross from one tetrahedron of the cage into the
         /// next. They then follow the cage exactly.
         pub split: bool;
     }
     files {
-        /// Handles and their targets. A handle is a vertex, a point inside an element, or a disc or a
-        /// box of vertices: {"handles": [{"vertex": 0, "to": [x, y]}, {"at": [x, y], "to": …},
-        /// {"center": …, "radius": r, "to": …, "turn": degrees, "axis": …}, {"low": …, "high": …,
-        /// "to": …}]}. A disc or a box may turn by any angle, in space about an axis.
+        /// Handles and their targets: {"handles": [{"vertex": 0, "to": [x, y]}, {"at": [x, y], "to":
+        /// …}, {"center": …, "radius": r, "to": …, "turn": degrees, "axis": …}, {"low": …, "high": …,
+        /// "to": …}, {"outline": [[x, y], …], "to": …}, {"line": [[x, y], …], "to": [[x, y], …]},
+        /// {"vertices": [0, 7], "by": …}, {"select": "material=Skin", "by": …}, …]}.
+        ///
+        /// A handle is a vertex, a point inside an element, a line, or the vertices in a disc, a box or
+        /// an outline, of a list or of a selector, which keep their shape. `to` is where its middle goes,
+        /// for a line the new line; `by` is an offset in its place. It may turn by any angle, in space
+        /// about an axis. Selectors are all, material=NAME, object=NAME, color=RRGGBB and faces=P/F,P/F,
+        /// as in `control`. A handle with a "weight" is soft: the energy grows by that times the mean
+        /// squared distance of what it holds from its targets.
         pub handles: Vec<Handle>;
         /// Record the map of every iteration. Over HTTP these become files beside the result, at
         /// most 256 MiB. Not available for gltf, which consists of several files.

@@ -31,12 +31,19 @@ options! {
         pub rest: Option<UvRest>;
     }
     files {
-        /// Anchors of the map and their targets: {"anchors": [{"vertex": i, "to": [u, v]}, {"at":
-        /// [u, v], "to": …}, {"center": [u, v], "radius": r, "to": …, "turn": degrees}, {"low": [u,
-        /// v], "high": [u, v], "to": …}, …]}. All UVs are as in the file; in glTF, v points down. `at`
-        /// selects the point of the surface with this UV. A disc or a box keeps its shape: it has
-        /// the vertices in it that belong to the chart of its center, and turns by at most 180
-        /// degrees, from u to v. `points` is another name for this list.
+        /// Anchors of the map and their targets: {"anchors": [{"vertex": 0, "to": [u, v]}, {"at": [u,
+        /// v], "to": …}, {"center": …, "radius": r, "to": …, "turn": degrees}, {"low": …, "high": …,
+        /// "to": …}, {"outline": [[u, v], …], "to": …}, {"line": [[u, v], …], "to": [[u, v], …]},
+        /// {"vertices": [0, 7], "by": …}, {"select": "material=Skin", "by": …}, …]}. All UVs are as in
+        /// the file; in glTF, v points down. `points` is another name for this list.
+        ///
+        /// An anchor is a vertex, the point of the surface with a UV, a line, or the vertices in a disc, a
+        /// box or an outline, of a list or of a selector, which keep their shape. `to` is where its
+        /// middle goes, for a line the new line; `by` is an offset in its place. It may turn by at most
+        /// 180 degrees, from u to v. A place, a region and a line hold only the chart in which they lie.
+        /// Selectors are all, material=NAME, object=NAME, color=RRGGBB and faces=P/F,P/F, as in `control`.
+        /// An anchor with a "weight" is soft: the energy grows by that times the mean squared distance of
+        /// what it holds from its targets.
         pub anchors: Vec<Anchor>, also "points";
         /// Format of the result.
         pub format: OutputFormat = OutputFormat::Glb;
@@ -98,13 +105,15 @@ options! {
         pub fix_border: bool;
     }
     files {
-        /// Points, discs and boxes of the picture and their targets, in pixels, y down: {"handles":
-        /// [{"at": [x, y], "to": [x, y]}, {"center": [x, y], "radius": r, "to": [x, y], "turn":
-        /// degrees}, {"low": [x, y], "high": [x, y], "to": [x, y]}, …]}.
+        /// Handles of the picture and their targets, in pixels, y down: {"handles": [{"at": [x, y],
+        /// "to": …}, {"center": …, "radius": r, "to": …, "turn": degrees}, {"low": …, "high": …, "to":
+        /// …}, {"outline": [[x, y], …], "to": …}, {"line": [[x, y], …], "to": [[x, y], …]}, …]}.
         ///
-        /// A disc or a box keeps its shape; `to` is where its middle goes, and it turns by at most
-        /// 180 degrees, counter-clockwise as seen. Each point moves exactly. Next to a fixed border it moves the nearest inner
-        /// vertex of the grid by the same offset.
+        /// A handle is a point, a line, or what is in a disc, a box or an outline, which keeps its shape.
+        /// `to` is where its middle goes, for a line the new line. It may turn by at most 180 degrees,
+        /// counter-clockwise as seen. A handle with a "weight" is soft: the energy grows by that times
+        /// the mean squared distance of what it holds from its targets. Next to a fixed border, a point
+        /// moves the nearest inner vertex of the grid by the same offset, and a line ends.
         pub handles: Vec<PictureHandle>;
     }
     groups {

@@ -105,8 +105,9 @@ pub(super) fn referenced(
     input: impl FnOnce() -> Result<Vec<u8>, Problem>,
     material: impl FnMut(&str) -> Result<Vec<u8>, Problem>,
 ) -> Result<BTreeSet<String>, Problem> {
-    if known.is_empty() {
-        return Ok(BTreeSet::new());
+    // The rest shapes of an untangled mesh are named by an option.
+    if known.is_empty() || kind == Kind::Untangle {
+        return Ok(known.clone());
     }
     let _one_input = ONE_INPUT.lock().unwrap_or_else(PoisonError::into_inner);
     let bytes = input()?;

@@ -44,8 +44,9 @@ const DEFAULTS: Defaults = Defaults {
 /// again with other options; `file` says which. All options are query parameters then.
 ///
 /// `unwrap`, `repack`, `measure`, `verify`, `edit_uv` and `texture_map` read glTF, OBJ, OFF, PLY
-/// and STL. `deform` also reads Gmsh, Medit and TET meshes, and PNG and SVG outlines. `warp` reads
-/// PNG, JPEG and `WebP`. `solve` reads a problem file with its mesh beside it.
+/// and STL. `deform` also reads Gmsh, Medit and TET meshes, and PNG and SVG outlines. `untangle` reads
+/// OBJ, OFF, Gmsh, Medit and TET meshes. `warp` reads PNG, JPEG and `WebP`. `solve` reads a problem
+/// file with its mesh beside it.
 ///
 /// When the answer is sent, the input and the job are stored. The job will succeed, fail or be
 /// cancelled, even if the service crashes. Unknown formats, malformed JSON and unknown options are

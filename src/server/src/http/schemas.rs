@@ -36,6 +36,7 @@ pub(super) fn options(kind: Kind) -> &'static str {
         Kind::Warp => "WarpOptions",
         Kind::EditUv | Kind::TextureMap => "EditOptions",
         Kind::Repack => "RepackOptions",
+        Kind::Untangle => "UntangleOptions",
     }
 }
 
@@ -47,6 +48,7 @@ pub(super) fn any_report() -> Value {
         "DeformReport",
         "WarpReport",
         "EditReport",
+        "UntangleReport",
     ];
     json!({ "anyOf": reports.map(reference) })
 }

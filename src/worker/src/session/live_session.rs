@@ -15,7 +15,7 @@ use unwrapd_method::solver::Stage;
 use unwrapd_pipeline::{
     self as pipeline, CommandOptions, DeformOptions, EditOptions, Island, IslandError,
     IslandHandle, IslandSession, LiveIslands, PipelineError, RepackOptions, SessionBody,
-    WarpOptions, open_body, open_islands, open_picture, open_uvs,
+    SessionUvs, WarpOptions, open_body, open_islands, open_picture, open_uvs,
 };
 
 /// State of a session. It depends only on the input, the messages, and the iterations that these precede.
@@ -64,7 +64,7 @@ impl LiveSession {
                 let islands = NamedHandles::new(IslandView::new(islands));
                 (Box::new(islands), json!(options.islands))
             }
-            Kind::Unwrap | Kind::Measure | Kind::Verify | Kind::Solve => {
+            Kind::Unwrap | Kind::Measure | Kind::Verify | Kind::Solve | Kind::Untangle => {
                 let detail = format!("a job of kind {} has no handles", kind.word());
                 return Err(Failure::new("invalid_options", detail));
             }
@@ -231,6 +231,16 @@ impl BodyView {
     }
 }
 
+impl BodyView {
+    /// Returns a handle with what its selector names.
+    fn filled(&self, mut handle: Handle) -> Result<Handle, Failure> {
+        self.held
+            .fill(&mut handle)
+            .map_err(|error| failure(&error))?;
+        Ok(handle)
+    }
+}
+
 impl Edited for BodyView {
     type Map = LiveBody;
 
@@ -244,18 +254,19 @@ impl Edited for BodyView {
 
     fn read(&self, name: u32, handle: Value) -> Result<Handle, Failure> {
         match self.format {
-            HandleFormat::Body => parsed(handle),
+            HandleFormat::Body => self.filled(parsed(handle)?),
             HandleFormat::Picture => {
                 let handle: PictureHandle = parsed(handle)?;
                 Ok(handle.into())
             }
-            HandleFormat::Cage => match parsed(handle)? {
-                Handle::Vertex { .. } => {
+            HandleFormat::Cage => {
+                let handle: Handle = parsed(handle)?;
+                if handle.names_vertices() {
                     let handle = name as usize;
-                    Err(Self::failure(&ProblemError::VertexOfCage { handle }))
+                    return Err(Self::failure(&ProblemError::VertexOfCage { handle }));
                 }
-                handle => Ok(handle),
-            },
+                self.filled(handle)
+            }
         }
     }
 
@@ -308,21 +319,23 @@ impl View for BodyView {
 // Live editing of UVs.
 
 /// UVs under live editing.
-pub(super) struct UvView(pub UvSession);
+pub(super) struct UvView(pub SessionUvs);
 
 impl Edited for UvView {
     type Map = LiveUvs;
 
     fn editor(&self) -> &UvSession {
-        &self.0
+        &self.0.session
     }
 
     fn editor_mut(&mut self) -> &mut UvSession {
-        &mut self.0
+        &mut self.0.session
     }
 
     fn read(&self, _: u32, handle: Value) -> Result<Anchor, Failure> {
-        parsed(handle)
+        let mut anchor = parsed(handle)?;
+        self.0.fill(&mut anchor).map_err(|error| failure(&error))?;
+        Ok(anchor)
     }
 
     fn failure(error: &EditError) -> Failure {
@@ -330,39 +343,39 @@ impl Edited for UvView {
     }
 
     fn reset(&mut self) {
-        self.0.reset();
+        self.0.session.reset();
     }
 }
 
 impl View for UvView {
     fn energy(&self) -> f64 {
-        self.0.energy()
+        self.0.session.energy()
     }
 
     fn positions(&self) -> Vec<f64> {
-        self.0.vertex_uvs().into_flattened()
+        self.0.session.vertex_uvs().into_flattened()
     }
 
     fn smallest(&self, _: &[f64]) -> f64 {
-        self.0.smallest()
+        self.0.session.smallest()
     }
 
     fn elements(&self) -> FrameElements<'_> {
-        let signs = self.0.kept_signs();
-        FrameElements::Triangles(self.0.faces(), Some(signs))
+        let signs = self.0.session.kept_signs();
+        FrameElements::Triangles(self.0.session.faces(), Some(signs))
     }
 
     fn drawn(&self) -> Drawn<'_> {
         Drawn {
             rest: self.positions(),
-            triangles: self.0.faces(),
+            triangles: self.0.session.faces(),
             skin: None,
             picture: None,
         }
     }
 
     fn start(&self) -> Option<Vec<f64>> {
-        let corners = self.0.uvs().into_flattened();
+        let corners = self.0.session.uvs().into_flattened();
         Some(corners.into_flattened())
     }
 }

@@ -119,6 +119,13 @@ impl GltfDocument {
         named.or_else(|| name.parse().ok().filter(|&index| index < materials.len()))
     }
 
+    /// Returns the name of the mesh of a primitive, if it has one.
+    pub fn mesh_name(&self, primitive: usize) -> Option<String> {
+        let mesh = self.primitives.get(primitive)?.mesh;
+        let name = self.body.json["meshes"][mesh]["name"].as_str()?;
+        Some(name.to_owned())
+    }
+
     /// Returns the UVs of `TEXCOORD_set` per face corner as stored, v down; `None` if the primitive has no such
     /// attribute.
     pub fn corner_uvs(
