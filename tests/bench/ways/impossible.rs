@@ -71,16 +71,12 @@ pub fn impossible((body, handles): (Body, Vec<Handle>)) {
     let seconds = clock.seconds().processor;
     let unreached = problem.unreached(&solution);
     let distance = |handle: &Handle| match handle {
-        Handle::Vertex {
-            vertex,
-            to,
-            weight: None,
-        } => {
+        Handle::Vertex { vertex, to, .. } => {
             let place = &solution.x[dim * *vertex as usize..];
             let squares = place.iter().zip(to).map(|(x, t)| (x - t) * (x - t));
             squares.sum::<f64>().sqrt()
         }
-        Handle::Disc { .. } | Handle::Box { .. } | Handle::Point { .. } => f64::NAN,
+        _ => f64::NAN,
     };
     let easy: Vec<f64> = handles[1..5].iter().map(distance).collect();
     println!(

@@ -410,14 +410,17 @@ fn folded(middle: [f64; 2]) -> Vec<u8> {
         12 => middle,
         _ => [f64::from(v % 5), f64::from(v / 5)],
     };
-    let mut text = String::from("OFF\n25 32 0\n");
-    for [x, y] in (0..25).map(place) {
-        text += &format!("{x} {y} 0\n");
-    }
-    for a in (0..16).map(|s| s / 4 * 5 + s % 4) {
-        text += &format!("3 {a} {} {}\n3 {a} {} {}\n", a + 1, a + 6, a + 6, a + 5);
-    }
-    text.into_bytes()
+    let vertices = (0..25).map(|v| {
+        let [x, y] = place(v);
+        format!("{x} {y} 0")
+    });
+    let squares = (0..16).map(|s| s / 4 * 5 + s % 4);
+    let faces = squares.map(|a| {
+        let [b, c, d] = [a + 1, a + 6, a + 5];
+        format!("3 {a} {b} {c}\n3 {a} {c} {d}")
+    });
+    let lines: Vec<String> = vertices.chain(faces).collect();
+    format!("OFF\n25 32 0\n{}\n", lines.join("\n")).into_bytes()
 }
 
 #[tokio::test]
@@ -453,20 +456,23 @@ async fn folded_meshes_are_untangled() {
 
 /// An OBJ of two materials side by side, each a row of 4 cells; the vertices of the right end are red.
 fn two_materials() -> Vec<u8> {
-    let mut text = String::new();
-    for j in 0..3 {
-        for i in 0..9 {
-            let color = if i == 8 { "1 0 0" } else { "1 1 1" };
-            text += &format!("v {i} {j} 0 {color}\n");
-        }
-    }
-    for (name, columns) in [("Left", 0..4), ("Right", 4..8)] {
-        text += &format!("o {name}side\nusemtl {name}\n");
-        for a in (0..2).flat_map(|j| columns.clone().map(move |i| 9 * j + i + 1)) {
-            text += &format!("f {a} {} {}\nf {a} {} {}\n", a + 1, a + 10, a + 10, a + 9);
-        }
-    }
-    text.into_bytes()
+    let vertices = (0..27).map(|v| {
+        let (i, j) = (v % 9, v / 9);
+        let color = if i == 8 { "1 0 0" } else { "1 1 1" };
+        format!("v {i} {j} 0 {color}")
+    });
+    let part = |name: &str, first: u32| {
+        let squares = (0..8).map(|s| s / 4 * 9 + s % 4 + first);
+        let faces = squares.map(|a| {
+            let [b, c, d] = [a + 1, a + 10, a + 9];
+            format!("f {a} {b} {c}\nf {a} {c} {d}")
+        });
+        let faces: Vec<String> = faces.collect();
+        format!("o {name}side\nusemtl {name}\n{}", faces.join("\n"))
+    };
+    let parts = [part("Left", 1), part("Right", 5)];
+    let lines: Vec<String> = vertices.chain(parts).collect();
+    format!("{}\n", lines.join("\n")).into_bytes()
 }
 
 #[tokio::test]
