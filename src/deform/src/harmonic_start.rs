@@ -15,14 +15,15 @@ use unwrapd_method::solver::Objective;
 
 impl Problem {
     /// Returns the vertices that stay in a [start at the targets](Self::start_at_targets): the held ones and those of
-    /// parts without handles. `None` where there is no such start: a part with handles has a boundary vertex that is
-    /// not held, something is at its targets only along a path, as a disc that turns, or nothing has to move.
+    /// parts without handles. `None` where there is no such start, or no need of one: a part with handles has a boundary
+    /// vertex that is not held, something is at its targets only along a path, as a disc that turns, or the boundary
+    /// is at its targets from the start.
     pub(super) fn held_with_boundary(&self) -> Option<Vec<u32>> {
         let [handles] = &self.stations[..] else {
             return None;
         };
         let is_along_path = !self.turned.is_empty() || !handles.points.is_empty();
-        if is_along_path || self.arrived().len() == handles.vertices.len() {
+        if is_along_path {
             return None;
         }
         let (part, n_parts) = parts(&self.body);
@@ -34,7 +35,12 @@ impl Problem {
         }
         let is_free = |v: u32| !is_held[v as usize] && has_handles[part[v as usize] as usize];
         let boundary = (self.body.elements).boundary_vertices(self.body.n_vertices());
-        if boundary.into_iter().any(is_free) {
+        let mut has_arrived = vec![false; self.body.n_vertices()];
+        for v in self.arrived() {
+            has_arrived[v as usize] = true;
+        }
+        let is_still = |&v: &u32| has_arrived[v as usize] || !is_held[v as usize];
+        if boundary.iter().any(|&v| is_free(v)) || boundary.iter().all(is_still) {
             return None;
         }
         let vertices = 0..self.body.n_vertices() as u32;
