@@ -87,7 +87,7 @@ pub(super) fn document(mut api: OpenApi, catalog: &dyn Catalog, open: &[String])
     describe_upload(&mut document, "/v1/measure", &["MeasureOptions"]);
     let textures = texture_types().map(|it| (it.to_owned(), json!({ "schema": bytes() })));
     document["paths"]["/v1/decode"]["post"]["requestBody"] =
-        json!({ "required": true, "content": Map::from_iter(textures) });
+        json!({ "required": true, "content": textures.collect::<Map<_, _>>() });
     // Correct what the attributes of handlers cannot express.
     let paths = &mut document["paths"];
     let report = &mut paths["/v1/jobs/{id}/report"]["get"]["responses"]["200"];
