@@ -1,5 +1,6 @@
 //! Processes of the service.
 
+use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -10,6 +11,9 @@ use nix::unistd::Pid;
 use tempfile::TempDir;
 
 use super::{children, clock};
+
+/// Address of a server that chooses its port.
+const ANY_PORT: &str = "127.0.0.1:0";
 
 /// What a process does.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -95,6 +99,23 @@ impl Process {
         (self.running, self.stdout, self.address) = spawn(self.role, &mut self.command);
     }
 
+    /// Starts it again on the same folder and at the same address, where its clients look for it.
+    pub fn restart_in_place(&mut self) {
+        let mut command = Command::new(self.command.get_program());
+        for argument in self.command.get_args() {
+            command.arg(if argument == ANY_PORT {
+                OsStr::new(&self.address)
+            } else {
+                argument
+            });
+        }
+        for (name, value) in self.command.get_envs() {
+            command.env(name, value.expect("none is removed"));
+        }
+        self.command = command;
+        self.restart();
+    }
+
     /// Starts another program in its place.
     pub fn restart_as(&mut self, program: &Path) {
         let mut command = Command::new(program);
@@ -139,7 +160,7 @@ impl Drop for Process {
 fn command(program: &Path, role: Role, folder: &Path, settings: &[(String, String)]) -> Command {
     let mut command = Command::new(program);
     match role {
-        Role::Serve => command.args(["serve", "--listen", "127.0.0.1:0"]),
+        Role::Serve => command.args(["serve", "--listen", ANY_PORT]),
         Role::Worker => command.args(["worker", "--workers", "1"]),
     };
     command

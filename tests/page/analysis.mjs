@@ -96,7 +96,8 @@ async function simplified() {
   const { drawn, faces, atlases: [atlas] } = await analyze(soup(square(510, wavy, (x, y) => [x, y])));
   assert.equal(faces, 520_200);
   assert.equal(drawn.of, faces);
-  assert.ok(100_000 < drawn.count && drawn.count <= 500_000, `${drawn.count} faces are drawn`);
+  // A mesh that is little larger than what is drawn loses little.
+  assert.ok(400_000 < drawn.count && drawn.count <= 500_000, `${drawn.count} faces are drawn`);
   // All faces are measured, and those that are drawn stand for faces that there are.
   assert.equal(atlas.faces, faces);
   assert.ok(drawn.face.every((face) => face < faces));

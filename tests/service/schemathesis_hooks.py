@@ -1,5 +1,6 @@
 """Bodies that schemathesis cannot make up: meshes, pictures and drawings, some of them usable; and whose jobs are asked for."""
 import os
+import pathlib
 import struct
 import zlib
 
@@ -20,14 +21,17 @@ TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 MEDIA_TYPES = [
     "model/gltf-binary", "model/gltf+json", "model/obj", "model/stl", "application/sla",
     "application/vnd.ms-pki.stl", "model/ply", "application/ply", "model/off", "text/plain",
-    "application/octet-stream", "image/png", "image/jpeg", "image/svg+xml",
+    "application/octet-stream", "image/png", "image/jpeg", "image/webp", "image/svg+xml", "image/ktx2",
 ]
+KTX2 = (pathlib.Path(__file__).parents[1] / "assets/ktx2/etc1s.ktx2").read_bytes()
 BODIES = st.one_of(
     st.just(TRIANGLE),
     st.binary(max_size=200),
     st.binary(max_size=50).map(lambda tail: b"glTF\x02\x00\x00\x00" + tail),
     st.just(b'{"asset":{"version":"2.0"}}'),
     st.just(picture(8)),
+    st.just(KTX2),
+    st.integers(0, len(KTX2)).map(lambda length: KTX2[:length]),
     st.just(b'<svg xmlns="http://www.w3.org/2000/svg"><rect width="4" height="3"/></svg>'),
     st.just(b"4 1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 1 2 3\n"),
 )

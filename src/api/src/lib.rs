@@ -20,7 +20,7 @@ mod task;
 mod upload;
 
 pub use limits::{Limits, from_json};
-pub use picture::{DRAWING, Drawing, MAPS, PICTURE, Picture, frame_header, number_frame};
+pub use picture::{DRAWING, Drawing, MAPS, PICTURE, Picture, Subject, frame_header, number_frame};
 pub use progress::{Failure, Progress, Quality, Stage, Verdict, Warning};
 pub use task::{
     Catalog, ERROR, Kind, Message, NO_SPACE, OUTCOME, Outcome, Pictures, RefusedOptions, TASK,

@@ -1,4 +1,4 @@
-//! Pictures of results, and the task of drawing one.
+//! Pictures of results, and the task of drawing one or of decoding a texture.
 
 use crate::OutputFile;
 use serde::{Deserialize, Serialize};
@@ -37,13 +37,25 @@ impl Picture {
 #[derive(Serialize, Deserialize)]
 pub struct Drawing {
     /// Picture to draw.
-    pub picture: Picture,
-    /// Names of the input files; empty if the result suffices.
-    pub input: Vec<String>,
-    /// Output files of the job.
-    pub output: Vec<OutputFile>,
+    pub subject: Subject,
     /// Memory limit in bytes.
     pub memory: u64,
+}
+
+/// Picture that a child draws.
+#[derive(Serialize, Deserialize)]
+pub enum Subject {
+    /// A picture of a result.
+    Result {
+        /// The picture.
+        picture: Picture,
+        /// Names of the input files; empty if the result suffices.
+        input: Vec<String>,
+        /// Output files of the job.
+        output: Vec<OutputFile>,
+    },
+    /// The texture that is file 0 of the input.
+    Texture,
 }
 
 // The header of frames with maps under way, which the server numbers. `unwrapd-worker` defines the rest of the

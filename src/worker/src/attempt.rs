@@ -1,4 +1,4 @@
-//! The compute child: one attempt at a job, or the drawing of a picture, in a process of its own.
+//! The compute child: one attempt at a job, the drawing of a picture, or the decoding of a texture, in a process of its own.
 //!
 //! It reads the attempt's folder, limits its own memory, reports progress on standard output and leaves its results
 //! in the folder. SIGTERM ends it like any process. SIGINT makes it finish early with its current valid map. A byte
@@ -18,9 +18,10 @@ use crate::reporter::Reporter;
 use crate::work::Work;
 use unwrapd_api::{
     DRAWING, Drawing, ERROR, Failure, NO_SPACE, OUTCOME, Outcome, OutputFile, PICTURE, Picture,
-    TASK, Task, Upload, output_file, read_json, read_upload, sha256, write_json,
+    Subject, TASK, Task, Upload, input_file, output_file, read_json, read_upload, sha256,
+    write_json,
 };
-use unwrapd_files::picture::thumbnail_png;
+use unwrapd_files::picture::{Picture as Texture, thumbnail_png};
 use unwrapd_pipeline::{AtlasPicture, Pictures, PipelineError};
 
 /// Runs the job in `folder` and returns the exit code of the process: 0 with results written, else that of the error.
@@ -171,15 +172,17 @@ impl DrawingTask {
 
     /// Draws the picture as PNG.
     pub fn png(&self, folder: &Path) -> Result<Vec<u8>, DrawingError> {
-        match self.0.picture {
-            Picture::Layout => self.atlas(folder, AtlasPicture::Layout),
-            Picture::Heatmap => self.atlas(folder, AtlasPicture::Heatmap),
-            Picture::Thumbnail => {
-                let shown = match &self.0.output[..] {
-                    [_] => std::fs::read(folder.join(output_file(0)))?,
-                    _ => self.atlas(folder, AtlasPicture::Layout)?,
-                };
-                Ok(thumbnail_png(&shown).map_err(PipelineError::from)?)
+        match &self.0.subject {
+            Subject::Result {
+                picture,
+                input,
+                output,
+            } => of_result(*picture, input, output, folder),
+            Subject::Texture => {
+                let texture = std::fs::read(folder.join(input_file(0)))?;
+                Ok(Texture::decode(&texture)
+                    .map_err(PipelineError::from)?
+                    .png())
             }
         }
     }
@@ -188,27 +191,52 @@ impl DrawingTask {
     pub fn write(folder: &Path, png: &[u8]) -> std::io::Result<()> {
         std::fs::write(folder.join(PICTURE), png)
     }
+}
 
-    fn atlas(&self, folder: &Path, picture: AtlasPicture) -> Result<Vec<u8>, DrawingError> {
-        let mut report = Vec::new();
-        let mut result = Upload::default();
-        for (index, file) in self.0.output.iter().enumerate() {
-            let content = std::fs::read(folder.join(output_file(index)))?;
-            let (role, name) = (file.role.as_str(), file.name.clone());
-            match role {
-                "report" => report = content,
-                "result" => (result.name, result.bytes) = (name, content),
-                _ => drop(result.resources.insert(name, content)),
-            }
+/// Draws a picture of the result in a folder.
+fn of_result(
+    picture: Picture,
+    input: &[String],
+    output: &[OutputFile],
+    folder: &Path,
+) -> Result<Vec<u8>, DrawingError> {
+    match picture {
+        Picture::Layout => of_atlas(AtlasPicture::Layout, input, output, folder),
+        Picture::Heatmap => of_atlas(AtlasPicture::Heatmap, input, output, folder),
+        Picture::Thumbnail => {
+            let shown = match output {
+                [_] => std::fs::read(folder.join(output_file(0)))?,
+                _ => of_atlas(AtlasPicture::Layout, input, output, folder)?,
+            };
+            Ok(thumbnail_png(&shown).map_err(PipelineError::from)?)
         }
-        let input = match &self.0.input[..] {
-            [] => None,
-            names => Some(read_upload(folder, names)?),
-        };
-        let report = serde_json::from_slice(&report).map_err(std::io::Error::from)?;
-        let pictures = Pictures::of_result(&result, report, input.as_ref(), THREADS)?;
-        Ok(pictures.draw(picture)?)
     }
+}
+
+fn of_atlas(
+    picture: AtlasPicture,
+    input: &[String],
+    output: &[OutputFile],
+    folder: &Path,
+) -> Result<Vec<u8>, DrawingError> {
+    let mut report = Vec::new();
+    let mut result = Upload::default();
+    for (index, file) in output.iter().enumerate() {
+        let content = std::fs::read(folder.join(output_file(index)))?;
+        let (role, name) = (file.role.as_str(), file.name.clone());
+        match role {
+            "report" => report = content,
+            "result" => (result.name, result.bytes) = (name, content),
+            _ => drop(result.resources.insert(name, content)),
+        }
+    }
+    let input = match input {
+        [] => None,
+        names => Some(read_upload(folder, names)?),
+    };
+    let report = serde_json::from_slice(&report).map_err(std::io::Error::from)?;
+    let pictures = Pictures::of_result(&result, report, input.as_ref(), THREADS)?;
+    Ok(pictures.draw(picture)?)
 }
 
 /// Reason why nothing was drawn.

@@ -33,6 +33,7 @@ export async function run(page, url, mesh, folder) {
   await shown(page, "spot.ply");
   await drop(page, made);
   await page.waitForFunction(() => document.querySelectorAll("#chosen li").length === 4);
+  await gated(page);
   await page.click("#submit");
   await tabled(page, basename(made));
   await sorted(page);
@@ -41,6 +42,17 @@ export async function run(page, url, mesh, folder) {
   await opened(page);
   await archived(page);
   rmSync(made, { recursive: true });
+}
+
+/** Gates are set for all jobs of the batch, and kept. */
+async function gated(page) {
+  await page.click("#more > summary");
+  await page.click("#gates > summary");
+  await page.fill("#gate-max_charts", "1");
+  await page.press("#gate-max_charts", "Tab");
+  await page.check("#gate-certified");
+  assert.equal(await page.textContent("#gated"), "2");
+  await page.click("#more > summary");
 }
 
 /** The table has a row per job and totals. */
@@ -56,7 +68,12 @@ async function tabled(page, source) {
   assert.match(await cell(page, "head.obj", "fill"), /^\d\d\.\d %$/);
   assert.equal(await cell(page, "broken.obj", "state"), "failed");
   assert.equal(await cell(page, "broken.obj", "faces"), "–");
-  assert.equal(await cell(page, "broken.obj", "notes"), "The mesh has no triangle");
+  assert.equal(await cell(page, "broken.obj", "notes"), "The mesh has no triangle, misses certified,max_charts=1");
+  for (const name of ["head.obj", "left/BoxInterleaved.gltf"]) {
+    const meets = (await cell(page, name, "charts")) === "1";
+    assert.match(await cell(page, name, "notes"), meets ? /meets certified,max_charts=1/ : /misses certified,max_charts=1/);
+  }
+  assert.match(await page.textContent("#batch tfoot td.notes"), /^\d of 4 accepted$/);
   await page.click("text=Retry 1 failed");
   await summary(page, "1 failed, 3 certified");
 }

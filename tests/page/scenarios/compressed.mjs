@@ -1,13 +1,13 @@
-// Meshes that are compressed by Draco or meshopt are seen. Decoders are fetched when a file needs them.
+// Meshes that are compressed by Draco or meshopt are seen, and pictures in KTX2. Decoders are fetched when a file needs them.
 import assert from "node:assert/strict";
-import { readdirSync, statSync } from "node:fs";
+import { readdirSync, readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { colorsOf, shown, variety } from "../look.mjs";
 
-/** A square whose picture is said to be in KTX2. */
-function square() {
+/** A square with a picture in KTX2. */
+function square(picture) {
   const floats = (...numbers) => Buffer.from(new Float32Array(numbers).buffer);
-  const parts = [floats(-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0), floats(0, 1, 1, 1, 1, 0, 0, 0), Buffer.from(new Uint16Array([0, 1, 2, 0, 2, 3]).buffer), Buffer.from("none")];
+  const parts = [floats(-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0), floats(0, 1, 1, 1, 1, 0, 0, 0), Buffer.from(new Uint16Array([0, 1, 2, 0, 2, 3]).buffer), picture];
   const bufferViews = parts.map((part, k) => ({ buffer: 0, byteOffset: parts.slice(0, k).reduce((sum, { length }) => sum + length, 0), byteLength: part.length }));
   const accessor = (bufferView, componentType, count, type, more = {}) => ({ bufferView, componentType, count, type, ...more });
   return JSON.stringify({
@@ -37,8 +37,15 @@ export async function run(page, url, ...inputs) {
     assert.ok(await page.isHidden("#problem"));
   }
   assert.ok(await has(page, "draco_decoder.wasm"));
-  // KTX2 is not decoded, which is no alarm.
-  await page.setInputFiles("#files", { name: "square.gltf", mimeType: "model/gltf+json", buffer: Buffer.from(square()) });
-  await page.waitForFunction(() => document.querySelector("#plane-note").textContent.includes("KTX2"));
-  assert.ok(await page.isHidden("#problem"));
+  // The service decodes KTX2.
+  for (const name of ["etc1s", "uastc"]) {
+    const picture = readFileSync(new URL(`../../assets/ktx2/${name}.ktx2`, import.meta.url));
+    const decoded = page.waitForResponse((answer) => answer.url().endsWith("/v1/decode"));
+    await page.setInputFiles("#files", { name: `${name}.gltf`, mimeType: "model/gltf+json", buffer: Buffer.from(square(picture)) });
+    await shown(page, `${name}.gltf`);
+    assert.equal((await decoded).status(), 200);
+    await page.click("button[data-shade=material]");
+    for (const pane of ["#solid", "#plane"]) assert.ok(12 < variety(await colorsOf(page, pane)), `${name} is seen in ${pane}`);
+    assert.ok(await page.isHidden("#problem"));
+  }
 }

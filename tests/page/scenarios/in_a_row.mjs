@@ -31,10 +31,12 @@ export async function run(page, url, mesh, other) {
   await shown(page, "good.obj");
   assert.ok(await page.isHidden("#problem"));
 
-  // A file that is valid but has no view is no alarm.
+  // A body has no surface to unwrap, which is no alarm: it can be pulled.
   await choose(file("solid.msh", "$MeshFormat"));
-  await page.waitForFunction(() => document.querySelector("#plane-note").textContent.includes("no view of .msh"));
+  await page.waitForSelector("#tab-pull[aria-selected=true]");
+  await page.waitForFunction(() => document.querySelector("#title").textContent === "solid.msh");
   assert.ok(await page.isHidden("#problem"));
+  await page.click("#tab-view");
   // What a lone glTF references is not asked of the service.
   const lone = { asset: { version: "2.0" }, meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }], nodes: [{ mesh: 0 }], scenes: [{ nodes: [0] }], scene: 0, accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: "VEC3" }], bufferViews: [{ buffer: 0, byteLength: 36 }], buffers: [{ byteLength: 36, uri: "lone.bin" }] };
   await choose(file("lone.gltf", JSON.stringify(lone)));

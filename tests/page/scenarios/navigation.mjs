@@ -1,6 +1,6 @@
 // The surface is turned as in programs that people know: by a cube, and by the buttons of the mouse that they are used to.
 import assert from "node:assert/strict";
-import { settled, shown } from "../look.mjs";
+import { project, settled, shown, visibleFace } from "../look.mjs";
 
 /** The direction from the target to the camera, its distance, and the target. */
 const look = (page) => page.evaluate(() => {
@@ -75,4 +75,63 @@ export async function run(page, url) {
   assert.equal(await dragged(page, "left", "Alt"), "turned");
   assert.equal(await dragged(page, "middle", "Alt"), "moved");
   assert.equal(await dragged(page, "right", "Alt"), "zoomed");
+  assert.match(await choose(page, "rizom"), /Right drag/);
+  assert.equal(await dragged(page, "left"), "");
+  assert.equal(await dragged(page, "right"), "turned");
+  assert.equal(await dragged(page, "middle"), "moved");
+  await choose(page, "page");
+  await framed(page);
+  await limited(page);
+}
+
+/** F shows what is selected, in both views, and everything without a selection. */
+async function framed(page) {
+  const seen = () => page.evaluate(() => ({ solid: window.unwrapd.viewer.stage.solid.place, plane: window.unwrapd.viewer.stage.plane.place }));
+  const still = async () => {
+    for (let before = null, now = await seen(); JSON.stringify(before) !== JSON.stringify(now); [before, now] = [now, (await settled(page), await seen())]);
+    return seen();
+  };
+  const far = ({ solid }) => Math.hypot(...[0, 1, 2].map((k) => solid[k] - solid[k + 3]));
+  const isWithin = ([x, y], pane) => pane.x <= x && x <= pane.x + pane.width && pane.y <= y && y <= pane.y + pane.height;
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("f");
+  const all = await still();
+  // A face that is clicked.
+  await page.keyboard.press("1");
+  const { face, plane } = await visibleFace(page);
+  await page.mouse.click(...plane);
+  await page.keyboard.press("f");
+  const one = await still();
+  assert.ok(4 * far(one) < far(all), "the camera is near the face");
+  assert.ok(4 * one.plane[2] < all.plane[2], "so are the UVs");
+  for (const view of ["solid", "plane"]) assert.ok(isWithin(await project(page, view, face), await page.locator(`#${view}`).boundingBox()), `it is seen in ${view}`);
+  // An island: all of it is on the screen.
+  await page.keyboard.press("n");
+  await page.keyboard.press("f");
+  await still();
+  const pane = await page.locator("#plane").boundingBox();
+  const places = await page.evaluate(() => {
+    const { viewer } = window.unwrapd;
+    return [...viewer.analysis.chart.keys()].filter((face) => viewer.analysis.chart[face] === viewer.place.chart).map((face) => viewer.project("plane", face));
+  });
+  assert.ok(places.length && places.every((place) => isWithin(place, pane)));
+  await page.keyboard.press("1");
+  await page.mouse.click(...plane);
+  await page.keyboard.press("f");
+  await still();
+  await page.keyboard.press("Home");
+  assert.ok(4 * far(one) < far(await still()), "everything is seen again");
+  await page.keyboard.press("Escape");
+}
+
+/** The wheel neither leaves the scene nor enters the surface. */
+async function limited(page) {
+  const radius = await page.evaluate(() => window.unwrapd.viewer.model.sphere.radius);
+  await page.locator("#solid").hover();
+  for (const [turn, isWithin] of [[2000, (far) => far < 60 * radius], [-2000, (far) => radius / 500 < far]]) {
+    for (let k = 0; k < 40; k++) await page.mouse.wheel(0, turn);
+    await settled(page);
+    const { far } = await look(page);
+    assert.ok(isWithin(far), `${far} of ${radius}`);
+  }
 }

@@ -2,6 +2,10 @@
 // of the job is taken for it. Handles survive a lost service and a reload.
 import assert from "node:assert/strict";
 import { colorsOf, difference, shown, variety } from "../look.mjs";
+import { kill, restart } from "../service.mjs";
+
+// A service that is gone tells in the console that it was asked for.
+export const hasErrors = true;
 
 const SOLID = "#pull-pane .pane >> nth=1";
 const differing = (some, others) => some.filter((color, k) => 16 < difference(color, others[k])).length;
@@ -10,7 +14,6 @@ const faults = (page, said) => page.waitForFunction((said) => new RegExp(said).t
 
 export async function run(page, url, picture) {
   page.on("dialog", (dialog) => dialog.accept());
-  const lost = await losable(page);
   await page.goto(url);
   await shown(page);
   await page.waitForSelector(".verdict.certified");
@@ -80,12 +83,12 @@ export async function run(page, url, picture) {
   await page.mouse.up();
   await faults(page, "\\d+ faces? beyond the page");
 
-  // The service goes and comes back.
+  // The service is killed and comes back.
   await grips(page, 2);
-  await lost.go();
+  await kill();
   await page.waitForSelector("#pull-note >> text=Your handles are kept");
   await grips(page, 0);
-  await lost.come();
+  await restart();
   await grips(page, 2);
   await faults(page, "\\d+ faces? beyond the page");
   // So does the page.
@@ -97,21 +100,4 @@ export async function run(page, url, picture) {
   await faults(page, "\\d+ faces? beyond the page");
   await page.click("#pull-tools >> text=End");
   await page.waitForSelector(".verdict.certified");
-}
-
-/** A service that can be lost: its sessions end as when it stops, and no other one is opened until it is back. */
-async function losable(page) {
-  const sockets = [];
-  await page.routeWebSocket(/\/v1\/sessions\//, (socket) => {
-    socket.connectToServer();
-    sockets.push(socket);
-  });
-  const opened = /\/v1\/sessions\?/;
-  return {
-    async go() {
-      await page.route(opened, (route) => route.abort());
-      await sockets.at(-1).close({ code: 1001, reason: "stopping" });
-    },
-    come: () => page.unroute(opened),
-  };
 }

@@ -2,8 +2,9 @@
 
 mod pulling;
 
+use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
@@ -26,6 +27,29 @@ async fn scenario(name: &str, url: String, arguments: &[String]) -> Value {
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{name}: {said}");
     serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+/// Runs a scenario that asks, by lines of its output, for a server that is killed and started again.
+fn scenario_of_a_lost_server(name: &str, url: &str, arguments: &[String], server: &mut Server) {
+    let mut node = Command::new("node")
+        .arg(places::repository("tests/page").join("drive.mjs"))
+        .args([name, url])
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("node runs");
+    let mut answers = node.stdin.take().expect("piped");
+    let lines = BufReader::new(node.stdout.take().expect("piped")).lines();
+    for line in lines {
+        match line.expect("text").as_str() {
+            "kill" => server.kill(),
+            "restart" => server.restart_in_place(),
+            _ => continue,
+        }
+        answers.write_all(b"done").expect("it waits");
+    }
+    assert!(node.wait().expect("node ends").success(), "{name}");
 }
 
 fn text(path: &Path) -> String {
@@ -205,12 +229,61 @@ async fn the_surface_hides_seams_behind_it() {
     scenario("hidden_seams", url, &[]).await;
 }
 
-#[tokio::test]
+#[tokio::test(flavor = "multi_thread")]
 async fn a_chart_on_another_is_red_while_it_is_pulled() {
-    let server = Server::start();
+    let mut server = Server::start();
     let url = unwrapped(&server, "spot.ply").await;
-    scenario("pull_onto", url, &[]).await;
+    tokio::task::block_in_place(|| {
+        scenario_of_a_lost_server("pull_onto", &url, &[], &mut server);
+    });
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_page_finds_a_service_again_that_was_killed() {
+    let mut server = Server::start();
+    let job = server.submit(meshes::hills(800), "cut=disk").await;
+    let url = with_job(&server, &job);
+    tokio::task::block_in_place(|| {
+        scenario_of_a_lost_server("killed", &url, &[], &mut server);
+    });
+}
+
+#[tokio::test]
+async fn fifty_jobs_take_no_more_memory_than_a_few() {
+    let server = Server::start();
+    let mut ids = Vec::new();
+    for name in ["spot.ply", "cat_head.obj", "gltf/Fox.glb"] {
+        let url = unwrapped(&server, name).await;
+        let (_, id) = url.split_once("#job=").expect("a job");
+        ids.push(id.to_owned());
+    }
+    scenario("fifty", server.url("/"), &ids).await;
+}
+
+#[tokio::test]
+async fn materials_of_obj_files_are_seen() {
+    let server = Server::start();
+    scenario("materials", server.url("/"), &[asset("pictures/spot.png")]).await;
+}
+
+#[tokio::test]
+async fn textures_of_any_size_are_seen_with_their_padding() {
+    let server = Server::start();
+    scenario("texture", server.url("/"), &[asset("cat_head.obj")]).await;
+}
+
+#[tokio::test]
+async fn what_cannot_be_unwrapped_is_pulled() {
+    let server = Server::start();
+    let folder = tempfile::tempdir().expect("a folder");
+    let body = folder.path().join("body.tet");
+    std::fs::write(&body, TETRAHEDRON).expect("a file");
+    let files = [asset("pictures/spot.png"), text(&body)];
+    scenario("in_hand", server.url("/"), &files).await;
+}
+
+/// One tetrahedron as plain text.
+const TETRAHEDRON: &str = "4 1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 1 2 3\n";
 
 #[tokio::test]
 async fn the_api_can_be_read_and_tried_out() {

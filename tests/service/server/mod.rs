@@ -93,6 +93,11 @@ impl Server {
         self.process.restart_with(&owned(settings));
     }
 
+    /// Starts it again on the same data and at the same address, where a page looks for it.
+    pub fn restart_in_place(&mut self) {
+        self.process.restart_in_place();
+    }
+
     /// Starts it again on the same data.
     pub fn restart(&mut self) {
         self.process.restart();

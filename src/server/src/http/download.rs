@@ -94,11 +94,16 @@ impl OpenFile<'_> {
 
 /// Returns a picture of a job.
 pub(super) async fn picture(app: &App, job: &Job, picture: Picture) -> Result<Vec<u8>, Problem> {
-    match app.jobs.picture(job, picture).await {
-        Ok(content) => Ok(content),
-        Err(Undrawn::Removed) => Err(job_not_found()),
-        Err(Undrawn::Failed(failure)) => Err(Problem::of_failure(&failure)),
-        Err(Undrawn::Store(error)) => Err(error.into()),
+    Ok(app.jobs.picture(job, picture).await?)
+}
+
+impl From<Undrawn> for Problem {
+    fn from(undrawn: Undrawn) -> Self {
+        match undrawn {
+            Undrawn::Removed => job_not_found(),
+            Undrawn::Failed(failure) => Self::of_failure(&failure),
+            Undrawn::Store(error) => error.into(),
+        }
     }
 }
 

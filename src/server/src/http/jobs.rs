@@ -393,6 +393,9 @@ pub(super) struct ListQuery {
     owner: Option<String>,
     /// Only jobs whose metadata has these members with these values, as a JSON object.
     metadata: Option<String>,
+    /// Only jobs with all of these words in the name of their input, in `name` or `path` of their metadata, or in their
+    /// tags, which are members of the metadata that are `true`. Case does not matter.
+    search: Option<String>,
     /// Only jobs accepted at this time or later.
     #[param(format = "date-time")]
     created_from: Option<String>,
@@ -465,6 +468,7 @@ impl ListQuery {
             metadata: self
                 .metadata
                 .map_or_else(|| Ok(Metadata::default()), |text| metadata(&text))?,
+            words: words(&self.search.unwrap_or_default()),
             since: time("created_from", self.created_from)?,
             until: time("created_before", self.created_before)?,
             order: self.order.unwrap_or_default(),
@@ -476,6 +480,11 @@ impl ListQuery {
 
 fn invalid(detail: impl Into<String>) -> Problem {
     Problem::new(Code::InvalidRequest, detail)
+}
+
+/// Returns the words of a text in lower case.
+fn words(text: &str) -> Vec<String> {
+    text.split_whitespace().map(str::to_lowercase).collect()
 }
 
 /// Parses a time in RFC 3339.
@@ -544,6 +553,7 @@ pub(super) async fn retry_jobs(
         kind: query.kind,
         owner: query.owner,
         metadata: query.metadata,
+        search: None,
         created_from: query.created_from,
         created_before: query.created_before,
         order: None,

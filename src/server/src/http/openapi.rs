@@ -10,7 +10,7 @@ use utoipa::openapi::{InfoBuilder, LicenseBuilder, OpenApi, OpenApiBuilder};
 use super::admission::{COOKIE, needed};
 use super::problem::{CAUSES, Code};
 use super::schemas::{self, bytes, problems, reference};
-use super::upload::{other_types, surface_types};
+use super::upload::{other_types, surface_types, texture_types};
 use crate::jobs::access::Scope;
 use unwrapd_api::{Catalog, Kind};
 
@@ -85,6 +85,9 @@ pub(super) fn document(mut api: OpenApi, catalog: &dyn Catalog, open: &[String])
     describe_upload(&mut document, "/v1/sessions", &pulled);
     describe_upload(&mut document, "/v1/unwrap", &["Options"]);
     describe_upload(&mut document, "/v1/measure", &["MeasureOptions"]);
+    let textures = texture_types().map(|it| (it.to_owned(), json!({ "schema": bytes() })));
+    document["paths"]["/v1/decode"]["post"]["requestBody"] =
+        json!({ "required": true, "content": textures.collect::<Map<_, _>>() });
     // Correct what the attributes of handlers cannot express.
     let paths = &mut document["paths"];
     let report = &mut paths["/v1/jobs/{id}/report"]["get"]["responses"]["200"];

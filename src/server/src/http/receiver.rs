@@ -1,6 +1,6 @@
 //! Receiver of the files, options and kind of one upload, from a form or a raw body.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use axum::body::Body;
 use axum::extract::multipart::{Field, Multipart, MultipartError};
@@ -114,7 +114,7 @@ impl Receiver {
         Ok(())
     }
 
-    /// Writes a stream to a new file while counting and hashing its bytes.
+    /// Writes a stream to a new file of the upload.
     async fn store<B: AsRef<[u8]>, E>(
         &mut self,
         name: String,
@@ -127,26 +127,11 @@ impl Receiver {
             "file-{}",
             self.resources.len() + usize::from(self.input.is_some())
         ));
-        let mut file = tokio::fs::File::create(&path).await?;
-        // Copy the stream, counting against the limit of the whole upload.
-        let (mut hash, mut bytes) = (Sha256::new(), 0);
-        let mut stream = stream;
-        while let Some(chunk) = stream.next().await {
-            let chunk = chunk.map_err(&problem)?;
-            let chunk = chunk.as_ref();
-            self.left = self.left.checked_sub(chunk.len() as u64).ok_or_else(|| {
-                let detail = format!("an upload can have at most {} bytes", self.limit);
-                Problem::new(Code::UploadTooLarge, detail).with_limit(self.limit)
-            })?;
-            bytes += chunk.len() as u64;
-            hash.update(chunk);
-            file.write_all(chunk).await?;
-        }
-        file.flush().await?;
+        let (bytes, sha256) = write(&path, stream, &mut self.left, self.limit, problem).await?;
         let file = InputFile {
             name,
             bytes,
-            sha256: Some(format!("{:x}", hash.finalize())),
+            sha256: Some(sha256),
         };
         Ok((file, path))
     }
@@ -187,6 +172,32 @@ impl Receiver {
             handling: self.handling.into_handling(kind)?,
         })
     }
+}
+
+/// Writes a stream to a new file. Subtracts its bytes from those left of the `limit` of the whole upload. Returns their
+/// number and their SHA-256.
+pub(super) async fn write<B: AsRef<[u8]>, E>(
+    path: &Path,
+    mut stream: impl Stream<Item = Result<B, E>> + Unpin,
+    left: &mut u64,
+    limit: u64,
+    problem: impl Fn(E) -> Problem,
+) -> Result<(u64, String), Problem> {
+    let mut file = tokio::fs::File::create(path).await?;
+    let (mut hash, mut bytes) = (Sha256::new(), 0);
+    while let Some(chunk) = stream.next().await {
+        let chunk = chunk.map_err(&problem)?;
+        let chunk = chunk.as_ref();
+        *left = left.checked_sub(chunk.len() as u64).ok_or_else(|| {
+            let detail = format!("an upload can have at most {limit} bytes");
+            Problem::new(Code::UploadTooLarge, detail).with_limit(limit)
+        })?;
+        bytes += chunk.len() as u64;
+        hash.update(chunk);
+        file.write_all(chunk).await?;
+    }
+    file.flush().await?;
+    Ok((bytes, format!("{:x}", hash.finalize())))
 }
 
 /// Prepares the files of an upload: unpacks an archive, drops unreferenced resources, detects the format of the input
@@ -253,7 +264,7 @@ fn file_name(given: &str, kind: Kind, extension: &str) -> String {
     }
 }
 
-fn broken(error: &axum::Error) -> Problem {
+pub(super) fn broken(error: &axum::Error) -> Problem {
     Problem::new(
         Code::InvalidRequest,
         format!("the body is incomplete: {error}"),

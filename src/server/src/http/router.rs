@@ -100,6 +100,7 @@ fn routes() -> OpenApiRouter<Arc<App>> {
         ))
         .routes(routes!(synchronous::unwrap))
         .routes(routes!(synchronous::measure))
+        .routes(routes!(synchronous::decode))
         .routes(routes!(
             operation::start_drain,
             operation::end_drain,

@@ -189,6 +189,9 @@ pub(super) struct ArchiveProblems;
 /// Responses to a synchronous request, other than its result.
 pub(super) struct CallProblems;
 
+/// Responses to a request that decodes a texture, other than the picture.
+pub(super) struct DecodingProblems;
+
 /// Problems of requests for files.
 const OF_FILES: [Code; 9] = [
     Code::JobNotFound,
@@ -277,6 +280,22 @@ impl IntoResponses for CallProblems {
             Code::StorageFull,
         ]);
         let unusable = "The mesh cannot be used; the code names the cause";
+        answers.insert("422".to_owned(), problem(unusable.to_owned()));
+        answers
+    }
+}
+
+impl IntoResponses for DecodingProblems {
+    fn responses() -> Responses {
+        let others = [
+            Code::InvalidRequest,
+            Code::RequestTimeout,
+            Code::UploadTooLarge,
+            Code::UnsupportedMediaType,
+            Code::Draining,
+        ];
+        let mut answers = problems(&[&others[..], &OF_DRAWING].concat());
+        let unusable = "`unknown_format`, `image_too_large`, `invalid_image`, `out_of_memory`: the texture cannot be decoded";
         answers.insert("422".to_owned(), problem(unusable.to_owned()));
         answers
     }

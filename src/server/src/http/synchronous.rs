@@ -1,16 +1,16 @@
-//! Synchronous requests for small meshes.
+//! Synchronous requests for small meshes and for textures.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use axum::extract::{Request, State};
-use axum::http::{HeaderMap, HeaderName, HeaderValue};
-use axum::response::Response;
+use axum::http::{HeaderMap, HeaderName, HeaderValue, header};
+use axum::response::{IntoResponse, Response};
 
 use super::app::{App, Shared};
 use super::jobs::wait_for;
 use super::problem::{Code, Problem};
-use super::schemas::CallProblems;
+use super::schemas::{CallProblems, DecodingProblems};
 use super::submission::SubmissionHeaders;
 use super::{download, upload};
 use crate::jobs::access::Caller;
@@ -66,6 +66,24 @@ pub(super) async fn measure(
     request: Request,
 ) -> Result<Response, Problem> {
     run(&app, &caller, Kind::Measure, request).await
+}
+
+/// Convert a texture to PNG.
+///
+/// For pages, which cannot show KTX2: Basis Universal in ETC1S or UASTC, as glTF has it. The finest level of the
+/// texture becomes a PNG. PNG, JPEG and `WebP` are read too. Nothing is kept. Closing the connection cancels the call.
+#[utoipa::path(
+    post, path = "/v1/decode", operation_id = "decodeTexture", tag = "synchronous",
+    responses(
+        (status = 200, description = "The picture", body = Vec<u8>, content_type = "image/png"),
+        DecodingProblems,
+    )
+)]
+pub(super) async fn decode(State(app): Shared, request: Request) -> Result<Response, Problem> {
+    let folder = upload::receive_texture(&app, request).await?;
+    let png = app.jobs.decoded(folder.path()).await?;
+    let media_type = [(header::CONTENT_TYPE, "image/png")];
+    Ok((media_type, png).into_response())
 }
 
 async fn run(

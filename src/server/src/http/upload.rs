@@ -14,10 +14,10 @@ use tokio::time::{Instant, Sleep, sleep};
 
 use super::app::App;
 use super::problem::{Code, Problem};
-use super::receiver::Receiver;
+use super::receiver::{self, Receiver};
 use super::submission::{Received, UploadQuery};
-use crate::jobs::JobId;
-use unwrapd_api::{Content, Format, Kind};
+use crate::jobs::{JobId, Scratch};
+use unwrapd_api::{Content, Format, Kind, input_file};
 
 /// Time for which the rest of a rejected body is read; data that comes later finds the connection closed. A longer
 /// time lets slow clients keep connections open, a shorter one resets more clients before they see the answer.
@@ -60,6 +60,45 @@ pub(super) async fn receive(
     kind: Option<Kind>,
     request: Request,
 ) -> Result<Received, Problem> {
+    guarded(app, request, |request| parse(app, kind, request)).await
+}
+
+/// Receives a texture to disk, as file 0 of the input in the folder of a child. Returns the folder. Limits are those of
+/// [`receive`].
+pub(super) async fn receive_texture(app: &Arc<App>, request: Request) -> Result<Scratch, Problem> {
+    guarded(app, request, |request| async move {
+        let media_type = media_type(request.headers());
+        if !texture_types().any(|known| known == media_type) {
+            let detail = format!("{media_type:?} is not the type of a texture");
+            return Err(Problem::new(Code::UnsupportedMediaType, detail));
+        }
+        let scratch = &app.jobs.settings().scratch;
+        let folder = Scratch::make(scratch.join(format!("decode-{}", JobId::fresh())))?;
+        let path = folder.path().join(input_file(0));
+        let mut left = app.settings.upload_bytes;
+        let body = request.into_body().into_data_stream();
+        receiver::write(&path, body, &mut left, app.settings.upload_bytes, |error| {
+            receiver::broken(&error)
+        })
+        .await?;
+        Ok(folder)
+    })
+    .await
+}
+
+/// Returns the media types of textures that can be decoded, and that of bytes.
+pub(super) fn texture_types() -> impl Iterator<Item = &'static str> {
+    let formats = [Format::Ktx2, Format::Png, Format::Jpeg, Format::Webp];
+    let named = formats.into_iter().flat_map(Format::media_types);
+    named.chain(&[BYTES]).copied()
+}
+
+/// Receives the body of a request by `parse`, with limits on its size, its speed and its time.
+async fn guarded<T, F: Future<Output = Result<T, Problem>>>(
+    app: &Arc<App>,
+    request: Request,
+    parse: impl FnOnce(Request) -> F,
+) -> Result<T, Problem> {
     // Reject what the headers already rule out.
     let (head, body) = request.into_parts();
     let asks_first = head.headers.contains_key(header::EXPECT);
@@ -79,7 +118,7 @@ pub(super) async fn receive(
         Err(problem) => Err(problem),
         Ok(()) => {
             let request = Request::from_parts(head, Body::from_stream(shared(body)));
-            let all = tokio::time::timeout(app.settings.upload_time, parse(app, kind, request));
+            let all = tokio::time::timeout(app.settings.upload_time, parse(request));
             all.await
                 .unwrap_or_else(|_| Err(late("the upload", app.settings.upload_time)))
         }

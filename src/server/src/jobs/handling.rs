@@ -275,6 +275,16 @@ impl Metadata {
         });
         labels.collect()
     }
+
+    /// Returns the texts that a person knows a job by: the members `name` and `path`, and the names of members that are
+    /// `true`, which are tags.
+    pub fn texts(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().filter_map(|(name, value)| match value {
+            Value::String(text) if name == "name" || name == "path" => Some(text.as_str()),
+            Value::Bool(true) => Some(name.as_str()),
+            _ => None,
+        })
+    }
 }
 
 impl FromStr for Metadata {

@@ -187,6 +187,19 @@ impl Job {
         input.chain(made.map(|file| file.bytes)).sum()
     }
 
+    /// Returns whether all of these words, in lower case, are parts of the texts that a person knows the job by: the name of
+    /// its input, the texts `name` and `path` of its metadata, and its tags, which are members that are `true`.
+    pub fn is_found_by(&self, words: &[String]) -> bool {
+        if words.is_empty() {
+            return true;
+        }
+        let filename = self.input.first().map(|file| file.name.as_str());
+        let texts = filename.into_iter().chain(self.metadata.texts());
+        let texts: Vec<String> = texts.map(str::to_lowercase).collect();
+        let is_found = |word: &String| texts.iter().any(|text| text.contains(word));
+        words.iter().all(is_found)
+    }
+
     /// Returns the output file with this role.
     pub fn output(&self, role: &str) -> Option<&OutputFile> {
         self.output.iter().find(|file| file.role == role)

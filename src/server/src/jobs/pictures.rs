@@ -1,4 +1,4 @@
-//! Pictures of results, drawn on first request and then kept.
+//! Pictures of results, drawn on first request and then kept, and textures as PNG.
 //!
 //! Drawing a small mesh costs more than unwrapping it, and most pictures are never viewed. So a job keeps only the
 //! sources of its pictures: its result and its report. The first request for a picture starts a child (`unwrapd draw
@@ -24,8 +24,8 @@ use super::storage::Changed;
 use super::store_error::{StoreError, StoreResult};
 use super::transition::Transition;
 use unwrapd_api::{
-    DRAWING, Drawing, Failure, Format, Kind, OutputFile, PICTURE, Picture, input_file, output_file,
-    sha256, write_json,
+    DRAWING, Drawing, Failure, Format, Kind, OutputFile, PICTURE, Picture, Subject, input_file,
+    output_file, sha256, write_json,
 };
 
 /// Time limit of drawing while a client waits: the default limit of synchronous requests.
@@ -180,14 +180,10 @@ impl Jobs {
         let scratch = Scratch::make(path).map_err(StoreError::from)?;
         let folder = scratch.path();
         self.bring(job, picture, folder).await?;
-        let child = Child::start(&self.settings.program, "draw", folder)?;
-        let detail = format!("the picture was not drawn within {} s", PATIENCE.as_secs());
-        let late = Failure::new("timed_out", detail);
-        finished(child, folder, PATIENCE, late).await?;
+        let content = self.drawn_in(folder).await?;
 
         // Store the picture, then record it.
         let path = folder.join(PICTURE);
-        let content = tokio::fs::read(&path).await?;
         let file = OutputFile {
             role: picture.role().to_owned(),
             name: picture.role().to_owned(),
@@ -203,6 +199,31 @@ impl Jobs {
             return Err(Undrawn::Removed);
         }
         Ok(content)
+    }
+
+    /// Decodes the texture that is file 0 of the input in a folder. Returns the PNG file; nothing is kept. Dropping the
+    /// future ends the child.
+    ///
+    /// # Errors
+    /// Fails if the texture cannot be decoded, or the folder cannot be used.
+    pub async fn decoded(&self, folder: &Path) -> Result<Vec<u8>, Undrawn> {
+        let _place = self.drawing.place().await;
+        self.write_drawing(Subject::Texture, folder)?;
+        self.drawn_in(folder).await
+    }
+
+    /// Draws in a child the picture that the task in its folder describes.
+    async fn drawn_in(&self, folder: &Path) -> Result<Vec<u8>, Undrawn> {
+        let child = Child::start(&self.settings.program, "draw", folder)?;
+        let detail = format!("the picture was not drawn within {} s", PATIENCE.as_secs());
+        let late = Failure::new("timed_out", detail);
+        finished(child, folder, PATIENCE, late).await?;
+        Ok(tokio::fs::read(folder.join(PICTURE)).await?)
+    }
+
+    fn write_drawing(&self, subject: Subject, folder: &Path) -> StoreResult<()> {
+        let memory = self.settings.memory;
+        Ok(write_json(folder, DRAWING, &Drawing { subject, memory })?)
     }
 
     /// Copies the sources of a picture to the folder of a child.
@@ -234,13 +255,12 @@ impl Jobs {
             }
         }
         // Write the task last.
-        let drawing = Drawing {
+        let subject = Subject::Result {
             picture,
             input,
             output,
-            memory: self.settings.memory,
         };
-        Ok(write_json(folder, DRAWING, &drawing)?)
+        self.write_drawing(subject, folder)
     }
 }
 

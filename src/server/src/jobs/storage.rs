@@ -258,6 +258,8 @@ pub struct Listing {
     pub owner: Option<Owner>,
     /// Metadata members that must all match.
     pub metadata: Metadata,
+    /// Words that must all be found, as [`Job::is_found_by`] says.
+    pub words: Vec<String>,
     /// Earliest time of acceptance.
     pub since: Option<Timestamp>,
     /// Time before which jobs were accepted.

@@ -276,11 +276,40 @@ impl Conditions {
     }
 }
 
+/// Jobs that are read at once while words are searched. Fewer make more queries, more make a page wait for longer.
+const SEARCHED: u32 = 500;
+
 /// Returns a page of jobs, without those of synchronous requests.
 async fn page(
     database: &Database,
     visibility: &Visibility,
     listing: &Listing,
+) -> StoreResult<Vec<Job>> {
+    let limit = match listing.words[..] {
+        [] => listing.limit,
+        _ => listing.limit.max(SEARCHED),
+    };
+    let mut found = Vec::new();
+    let mut after = listing.after;
+    loop {
+        let jobs = candidates(database, visibility, listing, after, limit).await?;
+        let is_last = jobs.len() < limit as usize;
+        after = jobs.last().map(|job| job.id);
+        found.extend(jobs.into_iter().filter(|it| it.is_found_by(&listing.words)));
+        if is_last || listing.limit as usize <= found.len() {
+            found.truncate(listing.limit as usize);
+            return Ok(found);
+        }
+    }
+}
+
+/// Returns up to `limit` jobs after a cursor that meet all filters but perhaps the words.
+async fn candidates(
+    database: &Database,
+    visibility: &Visibility,
+    listing: &Listing,
+    after: Option<JobId>,
+    limit: u32,
 ) -> StoreResult<Vec<Job>> {
     // Collect the conditions: scope, filters and metadata.
     let (within, owner) = within(visibility, 1);
@@ -296,16 +325,21 @@ async fn page(
     for label in listing.metadata.labels() {
         met.add(labelled, BoundValue::Text(label));
     }
+    // Leave out most jobs that do not have the words. Databases differ in the case of other letters, and JSON escapes signs.
+    let is_plain = |word: &&String| word.bytes().all(|byte| byte.is_ascii_alphanumeric());
+    for word in listing.words.iter().filter(is_plain) {
+        let pattern = BoundValue::Text(format!("%{word}%"));
+        met.add("lower(input || coalesce(metadata, '')) LIKE ?", pattern);
+    }
     // Continue after the cursor, in the order of ids.
     let (beyond, direction) = match listing.order {
         Order::NewestFirst => ("id < ?", "DESC"),
         Order::OldestFirst => ("? < id", "ASC"),
     };
-    let after = listing.after.map(|id| id.to_string());
+    let after = after.map(|id| id.to_string());
     met.words(beyond, after.as_deref());
-    met.values
-        .push(BoundValue::Number(i64::from(listing.limit)));
-    // Read the page.
+    met.values.push(BoundValue::Number(i64::from(limit)));
+    // Read the jobs.
     let page = format!(
         "SELECT {{columns}} FROM job WHERE {} ORDER BY id {direction} LIMIT ${}",
         met.texts.join(" AND "),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use unwrapd::jobs::access::{Owner, Visibility};
 use unwrapd::jobs::{Job, JobId, JobStore, Listing, Metadata, Order, State, Timestamp, Transition};
 use unwrapd::store::RecordStore;
-use unwrapd_api::Kind;
+use unwrapd_api::{InputFile, Kind};
 
 use crate::contract::{change, claim, enqueued, job, yes};
 
@@ -137,4 +137,54 @@ pub async fn jobs_are_found_by_their_metadata(store: Arc<RecordStore>) {
     assert_eq!(list(r#"{"frame": 8}"#).await, [first.id]);
     assert!(list(r#"{"frame": 7}"#).await.is_empty());
     assert_eq!(list(r#"{"project": "atlas"}"#).await, [second]);
+}
+
+pub async fn jobs_are_found_by_words(store: Arc<RecordStore>) {
+    let named = |name: &str, text: &str| Job {
+        input: vec![InputFile {
+            name: name.to_owned(),
+            bytes: 1,
+            sha256: None,
+        }],
+        metadata: text.parse().expect("an object"),
+        ..job()
+    };
+    let mut ids = Vec::new();
+    for (name, text) in [
+        (
+            "Chair.glb",
+            r#"{"name": "Élan", "hero": true, "note": "rocks"}"#,
+        ),
+        (
+            "rock.obj",
+            r#"{"path": "props/\"Big\"/rock.obj", "hero": false}"#,
+        ),
+        ("chair_100%.obj", "{}"),
+    ] {
+        ids.push(enqueued(&store, &named(name, text)).await.id);
+    }
+    let [chair, rock, percent] = ids[..] else {
+        panic!("three jobs");
+    };
+    let list = async |words: &[&str], limit| {
+        let listing = Listing {
+            words: words.iter().map(|&word| word.to_owned()).collect(),
+            limit,
+            ..Listing::default()
+        };
+        listed(&store, &Visibility::All, listing).await
+    };
+    assert_eq!(list(&[], 9).await, [percent, rock, chair]);
+    assert_eq!(list(&["chair"], 9).await, [percent, chair]);
+    assert_eq!(list(&["chair"], 1).await, [percent]);
+    assert_eq!(list(&["chair", "hero"], 9).await, [chair]);
+    assert_eq!(list(&["élan"], 9).await, [chair]);
+    // What is noted otherwise, and a member that is not true, are no words of a job.
+    assert!(list(&["rocks"], 9).await.is_empty());
+    assert_eq!(list(&["hero"], 9).await, [chair]);
+    // Signs stand for themselves.
+    assert_eq!(list(&["\"big\"", "rock"], 9).await, [rock]);
+    assert_eq!(list(&["0%"], 9).await, [percent]);
+    assert_eq!(list(&["r_100"], 9).await, [percent]);
+    assert!(list(&["chair__"], 9).await.is_empty());
 }

@@ -67,6 +67,7 @@ promises!(
     lists::the_list_has_pages_and_no_guests,
     lists::the_list_has_what_is_asked_for,
     lists::jobs_are_found_by_their_metadata,
+    lists::jobs_are_found_by_words,
     notices::an_end_is_told_until_it_is_settled,
     notices::every_end_is_told_and_nothing_else,
     notices::a_notice_is_taken_once,

@@ -11,7 +11,8 @@ use crate::server::sessions::sheet;
 use crate::server::{Server, form, json as read};
 
 /// Whoever needs none of what others made: operations without an id in their path.
-const WITHOUT_ID: [&str; 9] = [
+const WITHOUT_ID: [&str; 10] = [
+    "/v1/decode",
     "/v1/jobs/retry",
     "/metrics",
     "/v1/drain",

@@ -10,10 +10,10 @@ import { type Spread, spreads } from "./statistics";
 import { next } from "./weld";
 
 /** Marks of faces, and of chart borders. */
-export const OVERLAPS = 1;
-export const FLIPPED = 2;
+const OVERLAPS = 1;
+const FLIPPED = 2;
 export const NEAR = 4;
-export const SEAM = 8;
+const SEAM = 8;
 export const UNMAPPED = 16;
 
 /** Facts about one atlas. */

@@ -6,7 +6,12 @@ import { firstEqual } from "./weld";
 
 /** Number of faces above which the view is simplified; every figure is still that of all faces. More faces take more
  * memory and time per frame. */
-export const MAX_DRAWN = 500_000;
+const MAX_DRAWN = 500_000;
+
+/** Grids that are tried for a simplified view, and the share of the drawn faces that is enough. More passes come closer and take
+ * longer. */
+const PASSES = 4;
+const NEARLY = 0.9;
 
 /** Faces for the screen. */
 export interface Drawn {
@@ -54,13 +59,17 @@ function turned(normals: Float32Array, matrix: number[]): Float32Array {
 
 /** Merges the corners of one chart in one cell of a grid, and leaves out faces that lose their area thereby. */
 function simplified(all: Drawn, chart: Uint32Array): Drawn {
-  // A surface in a cube of N cells per side meets about 3N² of them, with two faces each.
+  // A surface in a cube of N cells per side meets about 3N² of them, with two faces each. Thin ones meet fewer, so the grid
+  // is refined or coarsened until nearly as many faces are left as are drawn.
   let cells = Math.sqrt(MAX_DRAWN / 6);
-  for (;;) {
+  let best: Drawn | null = null;
+  for (let pass = 0; pass < PASSES || !best; pass++) {
     const kept = clustered(all, chart, cells);
-    if (kept.count <= MAX_DRAWN || cells < 8) return kept;
-    cells *= 0.8;
+    if (kept.count <= MAX_DRAWN && (best?.count ?? -1) < kept.count) best = kept;
+    if (best === kept && NEARLY * MAX_DRAWN <= kept.count) break;
+    cells *= Math.sqrt((((1 + NEARLY) / 2) * MAX_DRAWN) / Math.max(kept.count, 1));
   }
+  return best;
 }
 
 function clustered(all: Drawn, chart: Uint32Array, cells: number): Drawn {

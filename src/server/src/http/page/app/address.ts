@@ -19,6 +19,9 @@ export interface Place {
   only: boolean;
   /** Cells of the checkerboard along u. */
   cells: number;
+  /** Level of the texture that is shown with its padding, and the padding in texels; null for that of the file. */
+  mip: number;
+  padding: number | null;
   /** A UV set other than the one that is shown first. */
   set: number | null;
   /** The UVs of a job that are shown: those that it made, those that its input had, or both side by side. */
@@ -52,7 +55,7 @@ export const MOST_SPLIT = 80;
 export const CELLS = [8, 16, 32, 64, 128] as const;
 
 export const START: Place = {
-  job: null, tab: "view", shade: "charts", measure: "sym-dirichlet", scale: "fixed", seams: true, wire: false, problems: true, only: false, cells: 32, set: null, uvs: "after", atlas: null,
+  job: null, tab: "view", shade: "charts", measure: "sym-dirichlet", scale: "fixed", seams: true, wire: false, problems: true, only: false, cells: 32, mip: 0, padding: null, set: null, uvs: "after", atlas: null,
   aim: "chart", face: null, chart: null, seam: null, alone: null, split: 50, sheet: false, sort: "", camera: null, plane: null,
 };
 
@@ -66,7 +69,8 @@ export function readPlace(): Place {
     else if (name === "cells") place[name] = CELLS.find((cells) => String(cells) === text) ?? START.cells;
     else if (name === "split") place[name] = Math.min(Math.max(Number.parseInt(text, 10) || START.split, 100 - MOST_SPLIT), MOST_SPLIT);
     else if (name === "alone") place[name] = text === "solid" || text === "plane" ? text : null;
-    else if (["face", "chart", "seam", "set"].includes(name)) place[name] = /^\d+$/.test(text) ? Number(text) : null;
+    else if (name === "mip") place[name] = /^\d+$/.test(text) ? Number(text) : START.mip;
+    else if (["face", "chart", "seam", "set", "padding"].includes(name)) place[name] = /^\d+$/.test(text) ? Number(text) : null;
     else if (typeof START[name as keyof Place] === "boolean") place[name] = text === "1";
     else place[name] = text;
   }

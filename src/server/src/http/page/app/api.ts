@@ -69,6 +69,11 @@ export async function download(path: string): Promise<Blob> {
   return (await reach(path)).blob();
 }
 
+/** Converts a texture in KTX2 to a PNG. */
+export async function decode(texture: Blob): Promise<Blob> {
+  return (await reach("v1/decode", { method: "POST", headers: { "content-type": "image/ktx2" }, body: texture })).blob();
+}
+
 /** Connection to the service: set while it answers. Listeners are told of changes. */
 export const connection = {
   isUp: true,
@@ -149,11 +154,18 @@ export async function maps(job: Job, after: string, signal: AbortSignal): Promis
 
 export const jobPath = (id: string) => `v1/jobs/${encodeURIComponent(id)}`;
 
+/** An input with the files that it references. */
+interface Input { name: string; content: Blob; resources: Map<string, Blob> }
+
+/** What goes with the input of a job: its gates, and what is noted of it. */
+interface Handling { accept?: string; metadata?: Record<string, unknown>; sending?: Upload }
+
 /** Submits a file with the files that it references as a job. */
-export function createJob(kind: string, options: Record<string, unknown>, { name, content, resources }: { name: string; content: Blob; resources: Map<string, Blob> }, metadata: Record<string, unknown> = {}, sending: Upload = UNWATCHED): Promise<Job> {
+export function createJob(kind: string, options: Record<string, unknown>, { name, content, resources }: Input, { accept = "", metadata = {}, sending = UNWATCHED }: Handling = {}): Promise<Job> {
   const form = new FormData();
   form.append("kind", kind);
   form.append("options", JSON.stringify(options));
+  if (accept) form.append("accept", accept);
   if (Object.keys(metadata).length) form.append("metadata", JSON.stringify(metadata));
   form.append("mesh", content, name);
   if (["gltf", "obj"].includes(extension(name))) for (const [path, blob] of resources) form.append("resource", blob, path);
@@ -161,8 +173,8 @@ export function createJob(kind: string, options: Record<string, unknown>, { name
 }
 
 /** Submits the input of another job with other options. */
-export function createJobFrom({ id }: Job, kind: string, options: Record<string, unknown>): Promise<Job> {
-  const query = new URLSearchParams({ job: id, kind });
+export function createJobFrom({ id }: Job, kind: string, options: Record<string, unknown>, accept: string | null = null): Promise<Job> {
+  const query = new URLSearchParams({ job: id, kind, ...(accept && { accept }) });
   for (const [name, value] of Object.entries(options)) query.set(name, typeof value === "string" ? value : JSON.stringify(value));
   return call<Job>(`v1/jobs?${query}`, { method: "POST" });
 }

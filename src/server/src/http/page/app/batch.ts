@@ -55,7 +55,7 @@ const COLUMNS: Column[] = [
   { key: "stretch", title: "Stretch", help: "By how much lengths are stretched or compressed on average, from the symmetric Dirichlet energy", text: ({ figures }) => (figures ? percent(stretch(figures)) : "–"), by: ({ figures }) => figures?.energy ?? null, total: (rows) => mean(rows, stretch) },
   { key: "energy", title: "Energy", help: "Mean symmetric Dirichlet energy; an isometry has 4", text: ({ figures }) => short(figures?.energy), by: ({ figures }) => figures?.energy ?? null, total: () => "" },
   { key: "fill", title: "Fill", help: "Share of the texture that charts cover", text: ({ figures }) => (figures ? percent(figures.fill) : "–"), by: ({ figures }) => figures?.fill ?? null, total: (rows) => mean(rows, ({ fill }) => fill) },
-  { key: "notes", title: "Gates and warnings", text: ({ job }) => notes(job).join(", "), by: ({ job }) => notes(job).length || null, total: () => "" },
+  { key: "notes", title: "Gates and warnings", text: ({ job }) => notes(job).join(", "), by: ({ job }) => notes(job).length || null, total: accepted },
   { key: "time", title: "Time", text: ({ job }) => duration(job.elapsed_ms), by: ({ job }) => job.elapsed_ms, total: (rows) => duration(sum(rows.map(({ job }) => job.elapsed_ms))) },
 ];
 
@@ -69,6 +69,12 @@ function stateOf(job: Job): string {
 /** Returns what a person has to look at: the error, the gates and the warnings of a job. */
 function notes({ error, accepted, accept, warnings }: Job): string[] {
   return [...(error ? [error.title] : []), ...(accepted === null ? [] : [accepted ? `meets ${accept}` : `misses ${accept}`]), ...warnings.map(({ code }) => plain(code))];
+}
+
+/** Counts the jobs that meet their gates. */
+function accepted(rows: Row[]): string {
+  const judged = rows.filter(({ job }) => job.accepted !== null);
+  return judged.length ? `${judged.filter(({ job }) => job.accepted).length} of ${judged.length} accepted` : "";
 }
 
 /** Counts the jobs by what has come of them. */
@@ -248,7 +254,7 @@ export class BatchView {
   #pictures(rows: Row[]): HTMLElement {
     return element("ul", { className: "contact-sheet" }, ...rows.map(({ job, figures }) => {
       const layout = fileOf(job, "layout.png");
-      const picture = layout ? element("img", { src: address(layout.href), alt: "", loading: "lazy" }) : element("span", { className: "none", textContent: stateOf(job) });
+      const picture = layout ? element("img", { src: address(layout.href), alt: "", loading: "lazy", className: "drawn" }) : element("span", { className: "none", textContent: stateOf(job) });
       const facts = figures ? `${counted(figures.charts, "chart")} · ${percent(stretch(figures))} · ${percent(figures.fill)} full` : stateOf(job);
       return element("li", { className: outcome(job) }, this.#link(job, picture, element("span", { className: "name", textContent: nameOf(job) })),
         element("small", { textContent: facts }));

@@ -8,6 +8,7 @@ import { button, byId, element, pairs, prose } from "./dom";
 import { bytes, duration, percent, plain, short, whole } from "./format";
 import { notesOf } from "./notes";
 import { doing, outcome } from "./outcome";
+import { left, Stages } from "./stages";
 import { claimed, claims, figuresOf, measured, type Report } from "./reports";
 
 /** Actions on a job. */
@@ -30,6 +31,7 @@ export class ProgressPanel {
   readonly #energies: number[] = [];
   readonly #bar = element("progress", { max: 1, value: 0, aria: { label: "Share of the work done" } });
   readonly #stage = element("p", { className: "stage", aria: { role: "status" } });
+  readonly #stages = new Stages();
   readonly #facts = element("div");
   readonly #finish: HTMLButtonElement;
   readonly #note = element("p", { className: "hint", aria: { role: "status" } });
@@ -46,7 +48,7 @@ export class ProgressPanel {
       element("section", { className: "progress-panel" }, this.#stage, this.#bar,
         // The buttons come before the parts that grow, so that they do not move.
         element("div", { className: "actions" }, this.#finish, this.#cancel), this.#note,
-        this.#facts, this.#curve),
+        this.#stages.list, this.#facts, this.#curve),
       ...notesOf(job, actions.noted));
     this.show(job);
   }
@@ -64,6 +66,7 @@ export class ProgressPanel {
     const position = this.actions.position();
     this.#stage.textContent = event.state === "queued" ? (position ? `Number ${position} in the queue` : "In the queue") : doing(event);
     this.#bar.value = event.fraction;
+    this.#stages.show(event);
     this.#finish.textContent = this.#isFinishing ? "Finishing …" : "Finish early";
     this.#finish.disabled = this.#isFinishing || isFinal(event.state);
     this.#cancel.disabled = isFinal(event.state);
@@ -73,6 +76,7 @@ export class ProgressPanel {
     this.#facts.replaceChildren(pairs([
       ["Done", percent(event.fraction)],
       ["Time", duration(event.elapsed_ms)],
+      ["Time left", left(event)],
       ["Maps made", event.charts ? `${event.chart} of ${event.charts} so far` : "–", "Pieces that are cut again are mapped again"],
       ["Iteration", isMapping ? whole(event.iteration) : "–"],
       ["Energy", isMapping ? short(event.energy) : "–"],

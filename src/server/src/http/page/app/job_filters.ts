@@ -1,12 +1,10 @@
 // Filters of the job list.
 
-import type { Job } from "./api";
 import { byId } from "./dom";
-import { wordsOf } from "./notes";
 
 const HOUR_MS = 3_600_000;
 
-/** Time without a key after which words are sought. Shorter ones ask the service for every letter. */
+/** Time without a key after which words are searched. Shorter ones ask the service for every letter. */
 const TYPING_MS = 250;
 
 /** Parses a member of metadata like the service: as JSON if it is valid JSON, otherwise as text. */
@@ -31,8 +29,8 @@ export class JobFilters {
   readonly #since = byId<HTMLSelectElement>("filter-since");
   readonly #metadata = byId<HTMLInputElement>("filter-metadata");
 
-  /** The words that are sought among names and tags. */
-  #words: string[] = [];
+  /** The words that are searched among names and tags. */
+  #words = "";
 
   constructor(changed: () => void) {
     const search = byId<HTMLInputElement>("search-jobs");
@@ -40,34 +38,27 @@ export class JobFilters {
     search.addEventListener("input", () => {
       clearTimeout(timer);
       timer = window.setTimeout(() => {
-        this.#words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
+        this.#words = search.value.trim();
         changed();
       }, TYPING_MS);
     });
     byId("filters").addEventListener("change", () => {
-      byId("filtered").textContent = this.query() ? "on" : "";
+      byId("filtered").textContent = this.#chosen() ? "on" : "";
       changed();
     });
   }
 
   /** Returns whether any filter is set. */
   get isAny(): boolean {
-    return this.isSearching || this.query() !== "";
+    return this.query() !== "";
   }
 
-  /** Returns whether jobs are sought by words, which the service does not do. */
-  get isSearching(): boolean {
-    return 0 < this.#words.length;
-  }
-
-  /** Returns whether a job has all words that are sought. */
-  finds(job: Job): boolean {
-    const words = wordsOf(job);
-    return this.#words.every((word) => words.includes(word));
-  }
-
-  /** Returns the filters as query parameters, to be appended to others. */
+  /** Returns the words and the filters as query parameters, to be appended to others. */
   query(): string {
+    return `${this.#words && `&search=${encodeURIComponent(this.#words)}`}${this.#chosen()}`;
+  }
+
+  #chosen(): string {
     const wanted = members(this.#metadata.value);
     const asked = {
       state: this.#state.value,

@@ -11,8 +11,6 @@ import type { Store } from "./store";
 import { thumbnail } from "./thumbnails";
 
 const PAGE = 20;
-/** Number of jobs that are asked for at once while some are sought by their names: the most that the service lists. */
-const SOUGHT_PAGE = 200;
 /** Intervals at which the list is fetched: while a job may change, and otherwise. Shorter ones mean more requests. */
 const BUSY_MS = 1500;
 const IDLE_MS = 15000;
@@ -68,8 +66,7 @@ export class JobList {
       // Keep the list; the next request may succeed.
     }
     const isBusy = !connection.isUp || this.#jobs.some(({ state }) => !isFinal(state));
-    // A search reads many pages, so it is not repeated by itself.
-    if (!document.hidden && !(this.#filters.isSearching && connection.isUp)) this.#timer = setTimeout(() => void this.refresh(), isBusy ? BUSY_MS : IDLE_MS);
+    if (!document.hidden) this.#timer = setTimeout(() => void this.refresh(), isBusy ? BUSY_MS : IDLE_MS);
   }
 
   /** Returns the position in the queue, from 1, or null. */
@@ -144,17 +141,9 @@ export class JobList {
     this.#show();
   }
 
-  /** Asks for jobs from a cursor on. While some are sought by their names, asks until a page of them is found. */
-  async #page(cursor: string | null): Promise<{ jobs: Job[]; next: string | null }> {
-    const [filterings, { isSearching }] = [this.#filterings, this.#filters];
-    const jobs: Job[] = [];
-    let next = cursor;
-    do {
-      const page: { jobs: Job[]; next: string | null } = await call(`v1/jobs?limit=${isSearching ? SOUGHT_PAGE : PAGE}${this.#filters.query()}${next === null ? "" : `&cursor=${next}`}`);
-      jobs.push(...page.jobs.filter((job) => this.#filters.finds(job)));
-      next = page.next;
-    } while (isSearching && jobs.length < PAGE && next !== null && filterings === this.#filterings);
-    return { jobs, next };
+  /** Asks for jobs from a cursor on. */
+  #page(cursor: string | null): Promise<{ jobs: Job[]; next: string | null }> {
+    return call(`v1/jobs?limit=${PAGE}${this.#filters.query()}${cursor === null ? "" : `&cursor=${cursor}`}`);
   }
 
   #show(): void {

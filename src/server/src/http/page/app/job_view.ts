@@ -228,7 +228,7 @@ export class JobView {
 
 /** Runs a job again with other options in addition to its own. */
 async function againOf(job: Job, more: Record<string, boolean>): Promise<Job> {
-  return createJobFrom(job, job.kind, { ...(await chosenOptions(job.kind, job.options)), ...more });
+  return createJobFrom(job, job.kind, { ...(await chosenOptions(job.kind, job.options)), ...more }, job.accept);
 }
 
 /** Returns the text to show until there are UVs. */

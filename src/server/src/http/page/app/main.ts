@@ -14,7 +14,8 @@ import { followStage } from "./follow_stage";
 import { bytes, short, whole } from "./format";
 import { JobList } from "./job_list";
 import { JobView, note } from "./job_view";
-import { listen, showKeys } from "./keys";
+import type { Given } from "./given";
+import { type Key, listen, showKeys } from "./keys";
 import { forget } from "./memory";
 import { load, NoView } from "../viewer/loading";
 import { startNavigation } from "./navigation";
@@ -25,8 +26,7 @@ import { showLegend, showPointed } from "./status";
 import { type Chosen, elsewhere, modelOf, modelOfJob, Store } from "./store";
 import { startTheme } from "./theme";
 import { showTitle } from "./title";
-import { pullKeys } from "../pull/keys";
-import { PullView } from "../pull/pull_view";
+import type { PullView } from "../pull/pull_view";
 import type { Known, Origin } from "../pull/what";
 import { Toolbar } from "./toolbar";
 import { viewKeys } from "./view_keys";
@@ -36,12 +36,14 @@ const store = new Store(readPlace());
 const viewer = new Viewer(store);
 const toolbar = new Toolbar(viewer, change, compare);
 const list = new JobList(store, (id) => void open(id), (listed) => { jobs.listed(listed); batch?.listed(listed); });
-const setup = new Setup(store, { shown: (chosen) => void preview(chosen), made, failed });
+const setup = new Setup(store, { shown: (chosen) => void preview(chosen), made, pulled: (file) => void takeInHand([file]).catch(failed), failed });
 const jobs = new JobView({ store, viewer, list, setup, failed, ended: solved, removed: () => void open(null), made });
-const pull = new PullView(store, { failed, changed: refresh, shown: () => (store.state.inHand ? null : viewer.shown), baked: (job) => { void list.refresh(); void open(job.id, { ...elsewhere(store.place) }); } });
 const arrange = new ArrangeView(viewer, { failed, open: (job) => open(job, { ...store.place, face: null, chart: null, seam: null }), changed: refresh });
-/** The view of a batch, fetched when it is first shown. */
+/** The views of a batch and of pulling, fetched when they are first shown. */
 let batch: BatchView | null = null;
+let pull: PullView | null = null;
+/** Keys of the view of pulling. */
+let pulls: Key[] = [];
 /** Analysis of the input of the shown job, which the report compares with the result. */
 let before: { job: Job; analysis: Analysis } | null = null;
 
@@ -74,8 +76,8 @@ function refresh(): void {
   if (place.tab === "batch" && !isOfBatch && store.job?.id === place.job) return change({ tab: "view" });
   if (place.tab === "report") void report().catch(failed);
   if (place.tab === "batch") void showBatch().catch(failed);
-  if (place.tab === "pull") pull.offer(inHand ?? offered(), inHand ? null : known());
-  const isPulled = place.tab === "pull" && pull.isActive;
+  if (place.tab === "pull") void showPull().then((pull) => pull.offer(inHand ?? offered(), inHand ? null : known())).catch(failed);
+  const isPulled = place.tab === "pull" && pull !== null && pull.isActive;
   byId("inspector").hidden = isPulled;
   byId("pull-facts").hidden = !isPulled;
   showTitle(store.state);
@@ -233,10 +235,26 @@ async function showBatch(): Promise<void> {
   batch.follow();
 }
 
+// ---- pulling
+
+async function showPull(): Promise<PullView> {
+  const { PullView, pullKeys } = await import("../demand");
+  if (pull) return pull;
+  pull = new PullView(store, { failed, changed: refresh, shown: () => (store.state.inHand ? null : viewer.shown), baked: (job) => { void list.refresh(); void open(job.id, { ...elsewhere(store.place) }); } });
+  pulls = pullKeys(pull);
+  return pull;
+}
+
+/** Shows files in the view of pulling. */
+async function takeInHand(files: Given[]): Promise<void> {
+  change({ tab: "pull" });
+  (await showPull()).takeFiles(files);
+}
+
 // ---- keys and events
 
 function wire(): void {
-  const [views, pulls, arranges] = [viewKeys({ viewer, setup, arrange, change, compare }), pullKeys(pull), arrangeKeys(arrange)];
+  const [views, arranges] = [viewKeys({ viewer, setup, arrange, change, compare }), arrangeKeys(arrange)];
   const keys = () => (store.place.tab === "pull" ? pulls : store.place.tab === "view" && arrange.isOn ? arranges : views);
   listen(keys);
   byId("keys-button").addEventListener("click", () => showKeys(keys()));
@@ -258,7 +276,7 @@ function wire(): void {
     if (place.job !== store.place.job) void open(place.job, place);
     else change(place);
   });
-  takeDropped((files) => (store.place.tab === "pull" ? pull.takeFiles(files) : void setup.takeFiles(files)), failed);
+  takeDropped((files) => void (store.place.tab === "pull" ? takeInHand(files).catch(failed) : setup.takeFiles(files)), failed);
 }
 
 /** Goes to the tab beside by the arrow keys. */

@@ -18,8 +18,8 @@ export interface Preset {
 
 /** The remembered values by name. */
 interface Memory {
-  /** Kind and options of the form. */
-  form: { kind?: FormKind; options?: Values };
+  /** Kind, options and gates of the form. */
+  form: { kind?: FormKind; options?: Values; gates?: Values };
   /** Options that a person has saved, by name in the order of the alphabet. */
   presets: Preset[];
   /** Fill, measure and switches of the views. */

@@ -10,6 +10,7 @@ const WAYS: Record<Navigation, { name: string; turn: string; move: string; zoom:
   page: { name: "Left button turns", turn: "Drag", move: "Right drag", zoom: "Wheel" },
   blender: { name: "Blender", turn: "Middle drag", move: "Shift Middle drag", zoom: "Wheel, Ctrl Middle drag" },
   maya: { name: "Maya", turn: "Alt Drag", move: "Alt Middle drag", zoom: "Wheel, Alt Right drag" },
+  rizom: { name: "RizomUV", turn: "Right drag", move: "Middle drag", zoom: "Wheel" },
 };
 
 /** Returns the kept way. */

@@ -19,11 +19,6 @@ export function tagsOf({ metadata }: Job): string[] {
   return Object.keys(metadata).filter((name) => metadata[name] === true);
 }
 
-/** Returns all that a job is found by. */
-export function wordsOf(job: Job): string {
-  return [nameOf(job), job.filename, ...tagsOf(job)].join(" ").toLowerCase();
-}
-
 /** Replaces the name and the tags of a job. The job keeps its identity, by which its views know it. */
 export async function note(job: Job, name: string, tags: string[]): Promise<void> {
   const others = Object.entries(job.metadata).filter(([member, value]) => member !== "name" && value !== true);

@@ -3,9 +3,11 @@
 import { createJob, createJobFrom, type Job, Refused, type Upload } from "./api";
 import { chosenOptions, type FormKind, KINDS } from "./definitions";
 import { button, byId, element } from "./dom";
-import { chosenIn, type Given, nameOfAll, resourcesOf, unpacked } from "./dropped";
+import { unpacked } from "./dropped";
+import { chosenIn, type Given, nameOfAll, resourcesOf } from "./given";
 import { bytes, counted } from "./format";
 import { extension, SHOWN } from "../viewer/formats";
+import { acceptOf, Gates } from "./gates";
 import { Presets } from "./presets";
 import { OptionForm, type Values, withOption } from "./option_form";
 import type { Chosen, State, Store } from "./store";
@@ -16,21 +18,27 @@ export interface Told {
   shown(chosen: Chosen): void;
   /** A job was made of an input; `isFurther` if it is another one of several files. */
   made(job: Job, input: Chosen | null, isFurther?: boolean): void;
+  /** A file was chosen that can only be pulled. */
+  pulled(file: Given): void;
   failed(error: unknown): void;
 }
 
 /** Kinds of jobs whose input is a surface, which can be unwrapped. */
 const SURFACES = ["unwrap", "repack", "measure", "verify", "edit_uv", "texture_map"];
+/** Entry of the list of resolutions that stands for all others. */
+const OTHER = "other";
 /** Options that have a place of their own in the form. */
 const ELSEWHERE = ["resolution"];
 /** Names of files that are inputs themselves; others belong to one of them. */
-const MESHES = [...SHOWN, "msh", "mesh", "vtk", "zip"];
+const MESHES = [...SHOWN, "zip"];
+/** Names of files that cannot be unwrapped but pulled: bodies, pictures and outlines. */
+const PULLED = ["msh", "mesh", "tet", "png", "jpg", "jpeg", "webp", "svg"];
 
 /** Inputs that the next jobs are made of: those on screen. */
 type Target = { files: Chosen[] } | { job: Job; input: Chosen | null } | { none: string };
 
 /** Returns the inputs that the next jobs are made of. */
-export function targetOf({ subject, chosen }: State): Target {
+function targetOf({ subject, chosen }: State): Target {
   if (subject.kind !== "job") return { files: chosen };
   const { job, input } = subject;
   if (!SURFACES.includes(job.kind)) return { none: "The job on screen has no surface to unwrap." };
@@ -43,10 +51,12 @@ export function targetOf({ subject, chosen }: State): Target {
 export class Setup {
   readonly #options: OptionForm;
   readonly #presets: Presets;
+  readonly #gates: Gates;
 
   constructor(readonly store: Store, readonly told: Told) {
     this.#options = new OptionForm(byId("options"), (options) => store.change({ options }));
     this.#presets = new Presets(store);
+    this.#gates = new Gates(store);
     this.#wire();
     store.show(() => this.#refresh());
   }
@@ -76,6 +86,8 @@ export class Setup {
     const files = await unpacked(given);
     const meshes = files.filter(({ path }) => MESHES.includes(extension(path))).sort((one, other) => one.path.localeCompare(other.path));
     const others = files.filter((file) => !meshes.includes(file));
+    const pulled = others.find(({ path }) => PULLED.includes(extension(path)));
+    if (!meshes.length && pulled) return this.told.pulled(pulled);
     if (!meshes.length) {
       this.told.failed(new Error(`${files.length === 1 ? "This file is no mesh" : `These ${files.length} files include no mesh`}. Choose GLB, glTF, OBJ, PLY, STL or OFF, a folder of them, or a ZIP.`));
       return;
@@ -117,7 +129,20 @@ export class Setup {
         this.#set("quality", radio.value === "few" ? "few" : null);
       });
     }
-    byId("resolution").addEventListener("change", () => this.#set("resolution", resolutionOf(byId<HTMLSelectElement>("resolution").value)));
+    byId("resolution").addEventListener("change", () => this.#chooseResolution(byId<HTMLSelectElement>("resolution").value));
+    const size = byId<HTMLInputElement>("size");
+    const takeSize = () => {
+      const text = size.value.replaceAll(" ", "").replace("×", "x");
+      size.setCustomValidity(isSize(text) ? "" : "The sides must differ by a power of two up to 16: 3000 × 1500.");
+      if (text && size.reportValidity()) this.#set("resolution", resolutionOf(text));
+    };
+    size.addEventListener("change", takeSize);
+    size.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter") return;
+      // The form would be submitted.
+      event.preventDefault();
+      takeSize();
+    });
     byId("keep").addEventListener("change", () => this.#set("cut", byId<HTMLInputElement>("keep").checked ? "keep" : null));
     byId("kind").addEventListener("change", () => this.store.change({ kind: byId<HTMLSelectElement>("kind").value as FormKind }));
     byId("find-option").addEventListener("input", () => this.#options.filter(byId<HTMLInputElement>("find-option").value));
@@ -141,6 +166,7 @@ export class Setup {
     byId("changed").textContent = count ? `${counted(count, "option")} set` : "";
     byId("reset").hidden = count === 0;
     this.#presets.refresh();
+    this.#gates.refresh();
     this.#refreshTarget();
     const looked = subject.kind === "file" ? subject.file : null;
     byId("chosen").replaceChildren(...chosen.map((one) => this.#chip(one, one === looked)));
@@ -157,10 +183,23 @@ export class Setup {
     byId("target").textContent = "none" in target ? target.none : "job" in target ? `The input of this job: ${target.job.filename}` : "";
   }
 
+  /** Takes a resolution of the list, or shows the field for another one. */
+  #chooseResolution(value: string): void {
+    const size = byId<HTMLInputElement>("size");
+    size.parentElement!.hidden = value !== OTHER;
+    if (value !== OTHER) return this.#set("resolution", resolutionOf(value));
+    size.value = String(this.store.state.options.resolution ?? 1024).replace("x", " × ");
+    size.select();
+  }
+
   #refreshResolution(value: string): void {
     const select = byId<HTMLSelectElement>("resolution");
-    if (![...select.options].some((option) => option.value === value)) select.append(element("option", { value, textContent: value }));
-    select.value = value;
+    const isListed = [...select.options].some((option) => option.value === value);
+    const size = byId<HTMLInputElement>("size");
+    if (isListed && select.value === OTHER) return;
+    if (!isListed) size.value = value.replace("x", " × ");
+    select.value = isListed ? value : OTHER;
+    size.parentElement!.hidden = isListed;
   }
 
   #chip(one: Chosen, isLooked: boolean): HTMLElement {
@@ -179,15 +218,16 @@ export class Setup {
   /** Makes a job of each input on screen if all options are within their ranges; `more` are options of this time. */
   async submit(more: Values = {}): Promise<void> {
     if (this.#isSending || !byId<HTMLFormElement>("setup").reportValidity()) return;
-    const { kind, options } = this.store.state;
+    const { kind, options, gates } = this.store.state;
+    const accept = acceptOf(gates);
     const target = targetOf(this.store.state);
     if ("none" in target) return this.told.failed(new Error(target.none));
     if ("files" in target && !target.files.length) return this.ask();
     const values = { ...options, ...more };
     this.#send(true);
     try {
-      if ("job" in target) this.told.made(await createJobFrom(target.job, kind, values), target.input);
-      else await this.#upload(target.files, (input, metadata, sending) => createJob(kind, values, input, metadata, sending));
+      if ("job" in target) this.told.made(await createJobFrom(target.job, kind, values, accept), target.input);
+      else await this.#upload(target.files, (input, metadata, sending) => createJob(kind, values, input, { accept, metadata, sending }));
     } catch (error) {
       if (!(error instanceof DOMException && error.name === "AbortError")) this.told.failed(error);
     } finally {
@@ -232,6 +272,12 @@ export class Setup {
     byId("sending").hidden = !isSending || "job" in targetOf(this.store.state);
     this.#refreshTarget();
   }
+}
+
+/** Returns whether the sides of a resolution differ as the service allows. */
+function isSize(text: string): boolean {
+  const [width = 1, height = width] = text.split("x").map(Number);
+  return [1, 2, 4, 8, 16].includes(Math.max(width, height) / Math.min(width, height));
 }
 
 /** Parses a side, or width and height; null stands for the default. */

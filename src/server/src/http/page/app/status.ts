@@ -3,6 +3,7 @@
 import { type Analysis, type Atlas, UNMAPPED } from "../analysis/analysis";
 import { type Measure, MEASURES, stretchOf } from "../analysis/distortion";
 import { gradient } from "../viewer/colors";
+import { levelsOf } from "../viewer/gutters";
 import { CELLS, type Place } from "./address";
 import { button, byId, element } from "./dom";
 import { counted, percent, short, whole } from "./format";
@@ -54,7 +55,11 @@ export function showLegend(viewer: Viewer, changed: (changes: Partial<Place>) =>
   const parts: Node[] = [];
   if (shown && place.shade === "heat") parts.push(choice(place.measure, (measure) => changed({ measure })), fitting(viewer, changed), scale(viewer));
   if (shown && place.shade === "checker") parts.push(cells(place.cells, changed));
-  byId("legend").replaceChildren(...parts);
+  if (shown && place.shade === "padding") parts.push(...levels(viewer, changed));
+  const legend = byId("legend");
+  const focused = legend.contains(document.activeElement) ? document.activeElement!.id : "";
+  legend.replaceChildren(...parts);
+  if (focused) byId(focused)?.focus();
   byId("faults").replaceChildren(...(shown && place.problems ? faults(shown) : []));
 }
 
@@ -78,6 +83,26 @@ function cells(now: number, changed: (changes: Partial<Place>) => void): HTMLEle
   const select = element("select", { id: "cells", aria: { label: "Cells of the checkerboard" } }, ...CELLS.map((count) => element("option", { value: String(count), textContent: `${count} cells across`, selected: count === now })));
   select.addEventListener("change", () => changed({ cells: Number(select.value) }));
   return select;
+}
+
+/** Creates the fields of the filled texture: its level and its padding. */
+function levels({ facts, place }: Viewer, changed: (changes: Partial<Place>) => void): HTMLElement[] {
+  if (!facts) return [];
+  const { texture } = facts;
+  const padding = place.padding ?? texture.padding;
+  const most = levelsOf(texture);
+  const mip = Math.min(place.mip, most);
+  const field = (id: string, value: number, max: number, does: (value: number) => void) => {
+    const made = element("input", { id, type: "number", min: "0", max: String(max), step: "1", value: String(value) });
+    made.addEventListener("change", () => made.value && made.checkValidity() && does(made.valueAsNumber));
+    return made;
+  };
+  const side = (length: number) => Math.max(1, length >> mip);
+  return [
+    element("label", {}, "Mip level ", field("mip", mip, most, (value) => changed({ mip: value }))),
+    element("label", {}, "Padding ", field("gutter", padding, Math.max(texture.width, texture.height), (value) => changed({ padding: value === texture.padding ? null : value })), " texels"),
+    element("span", { className: "numbers", title: "Texels of the level, and the padding in them", textContent: `${side(texture.width)} × ${side(texture.height)} texels · padding ${short(padding / 2 ** mip)} of them` }),
+  ];
 }
 
 function scale(viewer: Viewer): HTMLElement {

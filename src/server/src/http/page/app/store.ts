@@ -42,6 +42,8 @@ export interface State {
   /** The form: the kind of the next jobs, and their options that differ from the defaults. */
   kind: FormKind;
   options: Values;
+  /** Gates of the next jobs: limits by name. */
+  gates: Values;
   presets: Preset[];
   /** A file that was chosen in the pull view. */
   inHand: Origin | null;
@@ -65,8 +67,8 @@ export class Store {
   readonly #grips = new Map(kept("grips"));
 
   constructor(place: Place) {
-    const { kind = "unwrap", options = {} } = kept("form");
-    this.#state = { place, subject: { kind: "none" }, chosen: [], source: null, refused: null, kind, options, presets: kept("presets"), inHand: null };
+    const { kind = "unwrap", options = {}, gates = {} } = kept("form");
+    this.#state = { place, subject: { kind: "none" }, chosen: [], source: null, refused: null, kind, options, gates, presets: kept("presets"), inHand: null };
   }
 
   get state(): Readonly<State> {
@@ -91,7 +93,8 @@ export class Store {
   /** Changes the state and updates all views. */
   change(changes: Partial<State>): void {
     this.#state = { ...this.#state, ...changes };
-    if ("kind" in changes || "options" in changes) keep("form", { kind: this.#state.kind, options: this.#state.options });
+    const { kind, options, gates } = this.#state;
+    if ("kind" in changes || "options" in changes || "gates" in changes) keep("form", { kind, options, gates });
     if ("presets" in changes) keep("presets", this.#state.presets);
     this.#tell();
   }
@@ -149,8 +152,8 @@ export class Store {
 }
 
 /** Returns the part of a state that holds for all files: how they are filled, marked, pointed at, laid out and listed. */
-export function looksOf({ shade, measure, scale, seams, wire, problems, cells, aim, alone, split, sheet, sort }: Place): Partial<Place> {
-  return { shade, measure, scale, seams, wire, problems, cells, aim, alone, split, sheet, sort };
+function looksOf({ shade, measure, scale, seams, wire, problems, cells, mip, aim, alone, split, sheet, sort }: Place): Partial<Place> {
+  return { shade, measure, scale, seams, wire, problems, cells, mip, aim, alone, split, sheet, sort };
 }
 
 /** Returns the place of another file or job: with the same looks, and nothing selected. */

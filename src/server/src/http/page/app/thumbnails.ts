@@ -9,7 +9,9 @@ const NONE = "data:image/gif;base64,R0lGODlhAQABAAAAACH5BAEKAAEALAAAAAABAAEAAAIC
 /** Creates the picture of a job, which is requested when it becomes visible. */
 export function thumbnail(job: Job): HTMLImageElement {
   const made = fileOf(job, "thumbnail.png");
-  const image = element("img", { width: 36, height: 36, alt: "", loading: "lazy", src: made ? address(made.href) : NONE });
+  // A warped picture is no drawing, and looks alike in the dark.
+  const className = job.kind === "warp" ? "" : "drawn";
+  const image = element("img", { width: 36, height: 36, alt: "", loading: "lazy", className, src: made ? address(made.href) : NONE });
   image.addEventListener("error", () => (image.src = NONE), { once: true });
   return image;
 }

@@ -6,12 +6,12 @@ import { button, byId, element } from "./dom";
 import { counted } from "./format";
 import type { Viewer } from "./viewer";
 
-export const SHADE_NAMES: Record<Shade, string> = { plain: "Plain", charts: "Charts", checker: "Checker", heat: "Heat map", image: "Image", material: "Material" };
+const SHADE_NAMES: Record<Shade, string> = { plain: "Plain", charts: "Charts", checker: "Checker", heat: "Heat map", image: "Image", material: "Material", padding: "Padding" };
 export const MEASURE_NAMES = { "sym-dirichlet": "Symmetric Dirichlet", angle: "Angle", area: "Area", density: "Texel density" } as const;
 const AIMS: Record<Aim, string> = { face: "Face", chart: "Chart", seam: "Seam" };
 const SWITCHES = { seams: "Seams", wire: "Wire", problems: "Problems", only: "Isolate" } as const;
 type Switch = keyof typeof SWITCHES;
-export const ALONE = [["solid", "3D", "The surface alone (M)"], ["plane", "UV", "The UVs alone (M)"]] as const;
+const ALONE = [["solid", "3D", "The surface alone (M)"], ["plane", "UV", "The UVs alone (M)"]] as const;
 
 /** The tools; each changes the state. */
 export class Toolbar {
@@ -37,7 +37,7 @@ export class Toolbar {
     byId("toolbar").append(
       this.#fill, group("Fill", ...SHADES.map((shade) => this.#choice("shade", shade, SHADE_NAMES[shade]))),
       group("Alone", ...ALONE.map(([alone, text, title]) => button(text, () => changed({ alone: viewer.place.alone === alone ? null : alone }), { title, data: { alone }, aria: { pressed: "false" } }))),
-      button("Frame", () => viewer.frame(), { title: "Show everything (F)" }), this.#before, this.#both, this.#set, this.#atlas, this.#image,
+      button("Frame", () => viewer.frameSelection(), { title: "Show the selection, or everything (F)" }), this.#before, this.#both, this.#set, this.#atlas, this.#image,
     );
     byId("pointed").after(group("Point at", ...(Object.keys(AIMS) as Aim[]).map((aim) => this.#choice("aim", aim, AIMS[aim]))));
     byId("faults").after(group("Show", ...(Object.keys(SWITCHES) as Switch[]).map((name) => this.#toggle(name))));
@@ -81,6 +81,7 @@ export class Toolbar {
     this.#atlas.value = atlases[this.#viewer.atlas]?.name ?? "";
     this.#atlas.hidden = atlases.length < 2;
     this.#showSets();
+    byId("toolbar").classList.toggle("crowded", !this.#atlas.hidden || !this.#set.hidden);
   }
 
   #showSets(): void {

@@ -2,8 +2,10 @@
 
 import { Box3, type Object3D, Sphere, type Texture as Image } from "three";
 import type { Analysis } from "../analysis/analysis";
+import type { Texture } from "../analysis/soup";
 import { MEASURES } from "../analysis/distortion";
 import { rangeOf } from "../analysis/statistics";
+import { Gutters, levelsOf } from "../viewer/gutters";
 import { imageOf } from "../viewer/image";
 import { load, type Loaded } from "../viewer/loading";
 import { SHADES, type Uniforms, uniformsBeside } from "../viewer/look";
@@ -33,7 +35,7 @@ export class Viewer {
   facts: Facts | null = null;
   readonly #sheet = new Sheet();
   /** Another file beside, and its background. */
-  #beside: { model: Model; uniforms: Uniforms } | null = null;
+  #beside: { model: Model; uniforms: Uniforms; texture: Texture } | null = null;
   readonly #sheetBeside = new Sheet();
   /** Width of the surface in percent as the views have it. */
   #split = START.split;
@@ -44,6 +46,8 @@ export class Viewer {
   #seen: string | null = null;
   #relaxing: Relaxing | null = null;
   #image: Image | null = null;
+  readonly #gutters = new Gutters();
+  readonly #guttersBeside = new Gutters();
   /** Callback for another file. */
   changed: () => void = () => {};
 
@@ -96,7 +100,7 @@ export class Viewer {
     this.#beside = null;
     if (loaded && uvs && soup && analysis) {
       const uniforms = uniformsBeside(stage.uniforms);
-      this.#beside = { uniforms, model: new Model(loaded, analysis, { set: uvs.set, aspect: soup.texture.width / soup.texture.height }, uniforms) };
+      this.#beside = { uniforms, texture: soup.texture, model: new Model(loaded, analysis, { set: uvs.set, aspect: soup.texture.width / soup.texture.height }, uniforms) };
     }
     byId("panes").classList.toggle("both", this.#beside !== null);
     stage.resize();
@@ -224,6 +228,20 @@ export class Viewer {
     this.#framePlane();
   }
 
+  /** Fits what is selected into the views, or everything without a selection. */
+  frameSelection(): void {
+    const { stage, model, place, atlas } = this;
+    const { face, chart, seam } = place;
+    if (!stage || !model) return;
+    const { chart: charts, group, borders } = model.analysis;
+    const ofSeam = new Set(borders.face.filter((_, k) => borders.seam[k] === seam));
+    const isMeant = (one: number) => (face !== null ? one === face : chart !== null ? charts[one] === chart && group[one] === atlas : ofSeam.has(one));
+    const extent = (face ?? chart ?? seam) === null ? null : model.extent(isMeant);
+    if (!extent) return this.frame();
+    stage.solid.fit(extent.sphere);
+    if (extent.rectangle) stage.plane.fit(extent.rectangle);
+  }
+
   #framePlane(): void {
     const atlas = this.analysis?.atlases[this.atlas];
     if (!atlas || !this.model) return;
@@ -262,22 +280,34 @@ export class Viewer {
     uniforms.uRange.value.set(...this.range());
     if (this.#image) uniforms.uImage.value = this.#image;
     this.pointing.apply();
-    const main = contents(stage, model, { place, atlas: this.atlas, sheet: this.#sheet });
+    const filled = this.facts && this.#filled(stage, this.#gutters, { model, atlas: this.atlas, texture: this.facts.texture }, uniforms);
+    const main = contents(stage, model, { place, atlas: this.atlas, sheet: this.#sheet, filled });
     stage.solid.show(main.solid, model.sphere);
     stage.plane.show(this.#relaxing?.meshes ?? main.plane);
     this.#applyBeside(stage);
     stage.redraw();
   }
 
+  /** Fills the texture of an atlas if it is shown, and frees it otherwise. */
+  #filled(stage: Stage, gutters: Gutters, shown: { model: Model; atlas: number; texture: Texture }, uniforms: Uniforms): Object3D | null {
+    const { place } = this;
+    if (place.shade === "padding" && shown.model.analysis.atlases[shown.atlas]?.isMapped) {
+      return gutters.show(stage.renderer, { ...shown, padding: place.padding ?? shown.texture.padding, mip: Math.min(place.mip, levelsOf(shown.texture)) }, uniforms);
+    }
+    gutters.dispose();
+    return null;
+  }
+
   /** Applies the state to the file beside. */
   #applyBeside(stage: Stage): void {
     const { place } = this;
     for (const scene of Object.values(stage.beside)) scene.clear();
-    if (!this.#beside) return;
-    const { model, uniforms } = this.#beside;
+    if (!this.#beside) return this.#guttersBeside.dispose();
+    const { model, uniforms, texture } = this.#beside;
     uniforms.uAspect.value = model.aspect;
     uniforms.uChecker.value.set(place.cells, place.cells / model.aspect);
-    const { solid, plane } = contents(stage, model, { place, atlas: 0, sheet: this.#sheetBeside });
+    const filled = this.#filled(stage, this.#guttersBeside, { model, atlas: 0, texture }, uniforms);
+    const { solid, plane } = contents(stage, model, { place, atlas: 0, sheet: this.#sheetBeside, filled });
     stage.beside.solid.add(...solid);
     stage.beside.plane.add(...plane);
   }
@@ -323,7 +353,7 @@ export class Viewer {
 }
 
 /** Returns what a model shows in both views. */
-function contents(stage: Stage, model: Model, { place, atlas, sheet }: { place: Readonly<Place>; atlas: number; sheet: Sheet }) {
+function contents(stage: Stage, model: Model, { place, atlas, sheet, filled }: { place: Readonly<Place>; atlas: number; sheet: Sheet; filled: Object3D | null }) {
   const { solid, plane } = model.surface.layers;
   const isOwn = place.shade === "material" && !(place.only && place.chart !== null);
   const shown = model.analysis.atlases[atlas];
@@ -331,7 +361,7 @@ function contents(stage: Stage, model: Model, { place, atlas, sheet }: { place: 
   const colors = { paper: color("--sheet"), line: color("--sheet-line"), border: color("--sheet-border") };
   return {
     solid: [...(isOwn ? [model.loaded.scene, ...stage.light(), solid.overlay] : [solid.surface]), solid.borders],
-    plane: [...sheet.of(shown ? pagesOf(shown.bounds) : 1, model.aspect, colors, picture), picture ? plane.overlay : plane.surface, plane.borders],
+    plane: [...sheet.of(shown ? pagesOf(shown.bounds) : 1, model.aspect, colors, picture), ...(filled ? [filled, plane.overlay] : [picture ? plane.overlay : plane.surface]), plane.borders],
   };
 }
 

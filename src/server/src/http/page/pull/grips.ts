@@ -25,7 +25,7 @@ export function handleOf({ at, to, radius, turn, axis }: Grip): Handle {
 }
 
 /** Converts a handle to a grip. */
-export function gripOf(name: number, handle: Handle, isLocked: boolean): Grip {
+function gripOf(name: number, handle: Handle, isLocked: boolean): Grip {
   if ("center" in handle) {
     const { center, radius, to, turn = 0, axis = null } = handle;
     return { name, at: center, to, radius, turn, axis, isLocked };

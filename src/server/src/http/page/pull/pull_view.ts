@@ -1,7 +1,7 @@
 // The page's third view: a file that is pulled live.
 
 import { call, type Job, Refused } from "../app/api";
-import { type Given, resourcesOf } from "../app/dropped";
+import { type Given, resourcesOf } from "../app/given";
 import { LiveClient, type Reply, type Wish } from "../live/client";
 import type { LiveFrame, LiveMesh } from "../live/decode";
 import type { Store } from "../app/store";

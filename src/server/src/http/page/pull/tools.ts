@@ -1,7 +1,7 @@
 // The tools of the pull view: choice of the input, actions, and messages of the solver.
 
 import { button, byId, element } from "../app/dom";
-import { chosenIn, type Given } from "../app/dropped";
+import { chosenIn, type Given } from "../app/given";
 import { counted, short } from "../app/format";
 import type { LiveFrame } from "../live/decode";
 import type { Gesture } from "../viewer/gesture";

@@ -5,7 +5,7 @@ import { GLTFLoader, type GLTFParser } from "three/addons/loaders/GLTFLoader.js"
 import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
 import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
 import { STLLoader } from "three/addons/loaders/STLLoader.js";
-import { extension } from "./formats";
+import { extension, resourceAt } from "./formats";
 
 /** A file with the files that it may reference. */
 export interface Bundle {
@@ -45,12 +45,19 @@ export async function load(bundle: Bundle): Promise<Loaded> {
   const kind = extension(bundle.name);
   if (kind === "glb" || kind === "gltf") return loadGltf(bundle);
   const plain = (scene: Object3D): Loaded => ({ scene, record: null, parser: null });
-  if (kind === "obj") return plain(withoutPlaceholders(new OBJLoader().parse(await bundle.content.text())));
+  if (kind === "obj") return plain(withoutPlaceholders(await parseObj(bundle)));
   if (kind === "ply") return plain(meshOf(new PLYLoader().parse(await bundle.content.arrayBuffer())));
   if (kind === "stl") return plain(meshOf(new STLLoader().parse(await bundle.content.arrayBuffer())));
   if (kind === "off") return plain(meshOf(parseOff(await bundle.content.text())));
   if (kind === "zip") throw new NoView("The archive cannot be read here. Unwrap it to be told what is wrong with it.");
   throw new NoView(`There is no view of .${kind} files here. The job works on it all the same.`);
+}
+
+async function parseObj({ content, resources }: Bundle): Promise<Object3D> {
+  const text = await content.text();
+  const loader = new OBJLoader();
+  if (resources.size) loader.setMaterials(await (await import("../demand")).materialsOf(text, resources));
+  return loader.parse(text);
 }
 
 /** Replaces zeros by NaN: three.js gives them to faces without UVs if other faces of the object have UVs. */
@@ -79,8 +86,8 @@ async function loadGltf({ content, resources }: Bundle): Promise<Loaded> {
   manager.setURLModifier((url) => {
     if (url.startsWith("blob:") || url.startsWith(assets)) return url;
     if (url.startsWith("data:")) return made[made.push(URL.createObjectURL(embedded(url))) - 1]!;
-    const path = decodeURIComponent(url).replace(/^\.\//, "");
-    const resource = resources.get(path) ?? resources.get(path.split("/").pop() ?? "");
+    const path = decodeURIComponent(url);
+    const resource = resourceAt(resources, path);
     // Do not ask the service for the resources of a file that is not uploaded yet.
     if (!resource) {
       missing.add(path);
@@ -100,7 +107,6 @@ async function loadGltf({ content, resources }: Bundle): Promise<Loaded> {
     return { scene: gltf.scene, record: extras?.unwrapd ?? null, parser: gltf.parser };
   } catch (error) {
     const detail = String(error instanceof Error ? error.message : error);
-    if (/ktx2/i.test(detail)) throw new NoView("The pictures of this file are in KTX2, which this view does not decode. The job works on it all the same.");
     const buffer = [...missing].find((path) => !/\.(png|jpe?g|webp|ktx2|avif)$/i.test(path));
     if (buffer) throw new NoView(`The file needs ${buffer}, which was not chosen with it. Choose both together.`);
     throw new Error(`The view cannot read this glTF${detail.startsWith("it has") ? `: ${detail}` : ". Unwrap it to be told what is wrong with it."}`);
@@ -118,7 +124,7 @@ function embedded(url: string): Blob {
 }
 
 /** Extensions of glTF that need a decoder. */
-const COMPRESSED = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"];
+const COMPRESSED = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_texture_basisu"];
 
 /** Magic number of binary glTF, and the bytes before its JSON. */
 const GLB = 0x46546c67;

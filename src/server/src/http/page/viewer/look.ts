@@ -3,7 +3,7 @@
 import { DataTexture, Vector2, Vector4, type Texture } from "three";
 
 /** Fillings of faces. */
-export const SHADES = ["plain", "charts", "checker", "heat", "image", "material"] as const;
+export const SHADES = ["plain", "charts", "checker", "heat", "image", "material", "padding"] as const;
 export type Shade = (typeof SHADES)[number];
 
 /** Values of uniforms that the shaders of both views share. */
@@ -19,6 +19,10 @@ export function uniforms() {
     uRange: { value: new Vector2(0, 1) },
     uChecker: { value: new Vector2(32, 32) },
     uImage: { value: none as Texture },
+    /** The filled texture, its number of pages, and its level that is shown. */
+    uTexels: { value: none as Texture },
+    uPages: { value: 1 },
+    uLevel: { value: 0 },
     /** The hovered and the selected face, chart with its group, and seam; -1 for none. */
     uHover: { value: new Vector4(-1, -1, -1, -1) },
     uSelected: { value: new Vector4(-1, -1, -1, -1) },
@@ -40,8 +44,8 @@ export function uniforms() {
 
 /** Returns uniforms for another file with the same looks, in which nothing is pointed at or selected. */
 export function uniformsBeside(shared: Uniforms): Uniforms {
-  const { uValues, uIds, uAtlas, uAspect, uChecker, uHover, uSelected, uOnly, uArranging } = uniforms();
-  return { ...shared, uValues, uIds, uAtlas, uAspect, uChecker, uHover, uSelected, uOnly, uArranging };
+  const { uValues, uIds, uAtlas, uAspect, uChecker, uTexels, uPages, uLevel, uHover, uSelected, uOnly, uArranging } = uniforms();
+  return { ...shared, uValues, uIds, uAtlas, uAspect, uChecker, uTexels, uPages, uLevel, uHover, uSelected, uOnly, uArranging };
 }
 
 export type Uniforms = ReturnType<typeof uniforms>;

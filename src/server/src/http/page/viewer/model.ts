@@ -1,6 +1,6 @@
 // A shown file: its scene, its analysis, and its data on the GPU.
 
-import { type Mesh, type MeshStandardMaterial, Sphere, type Texture, Vector3 } from "three";
+import { Box2, Box3, type Mesh, type MeshStandardMaterial, Sphere, type Texture, Vector2, Vector3 } from "three";
 import type { Analysis } from "../analysis/analysis";
 import { dispose, type Loaded } from "./loading";
 import type { Uniforms } from "./look";
@@ -60,6 +60,21 @@ export class Model {
     };
   }
 
+  /** Returns a sphere around drawn faces and a rectangle around them in the plane; null if none of them is drawn. */
+  extent(isMeant: (face: number) => boolean): { sphere: Sphere; rectangle: [number, number, number, number] | null } | null {
+    const { face, positions, uvs } = this.analysis.drawn;
+    const [box, area] = [new Box3(), new Box2()];
+    face.forEach((one, k) => {
+      if (!isMeant(one)) return;
+      for (let corner = 3 * k; corner < 3 * k + 3; corner++) {
+        box.expandByPoint(new Vector3().fromArray(positions, 3 * corner));
+        if (!Number.isNaN(uvs[2 * corner])) area.expandByPoint(new Vector2(uvs[2 * corner]! * this.aspect, uvs[2 * corner + 1]!));
+      }
+    });
+    if (box.isEmpty()) return null;
+    return { sphere: box.getBoundingSphere(new Sphere()), rectangle: area.isEmpty() ? null : [area.min.x, area.min.y, area.max.x, area.max.y] };
+  }
+
   #drawnOfChart(face: number): number | undefined {
     const { chart, group, drawn } = this.analysis;
     const found = drawn.face.findIndex((other) => chart[other] === chart[face] && group[other] === group[face]);
@@ -70,8 +85,10 @@ export class Model {
   picture(): Texture | null {
     let found: Texture | null = null;
     this.loaded.scene.traverse((object) => {
-      const map = ((object as Mesh).material as MeshStandardMaterial | undefined)?.map;
-      if (map && map.channel === this.#set) found ??= map;
+      for (const material of [(object as Mesh).material ?? []].flat()) {
+        const { map } = material as MeshStandardMaterial;
+        if (map && map.channel === this.#set) found ??= map;
+      }
     });
     return found;
   }

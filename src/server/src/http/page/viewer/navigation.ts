@@ -3,7 +3,7 @@
 import { MOUSE } from "three";
 
 /** Names of the ways. */
-export type Navigation = "page" | "blender" | "maya";
+export type Navigation = "page" | "blender" | "maya" | "rizom";
 
 /** Actions of the left, middle and right button; null leaves the camera alone. */
 export interface Buttons {
@@ -17,6 +17,7 @@ const NONE: Buttons = { LEFT: null, MIDDLE: null, RIGHT: null };
 /** Returns the actions for a press of a button. While Shift is held, `OrbitControls` take turning for moving. */
 export function buttonsOf(navigation: Navigation, { altKey, ctrlKey }: Pick<PointerEvent, "altKey" | "ctrlKey">): Buttons {
   if (navigation === "blender") return { ...NONE, MIDDLE: ctrlKey ? MOUSE.DOLLY : MOUSE.ROTATE };
+  if (navigation === "rizom") return { ...NONE, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.ROTATE };
   if (navigation === "maya") return altKey ? { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.DOLLY } : NONE;
   return { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
 }

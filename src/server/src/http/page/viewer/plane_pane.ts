@@ -56,6 +56,13 @@ export class PlanePane {
     this.isMoved = false;
   }
 
+  /** Moves so that a rectangle fills the view. */
+  fit([u0, v0, u1, v1]: [number, number, number, number]): void {
+    const from = this.place;
+    const to = [(u0 + u1) / 2, (v0 + v1) / 2, this.#clamped(this.#halfFor(u1 - u0, v1 - v0))];
+    move((t) => (this.place = from.map((x, k) => x + (to[k]! - x) * t)));
+  }
+
   #halfFor(width: number, height: number): number {
     const [w, h] = this.#size as [number, number];
     const least = Math.min(w, h);
@@ -127,7 +134,11 @@ export class PlanePane {
 
   /** Returns a multiple of the distance to the nearer borders, within limits. */
   #limited(factor: number): number {
-    return Math.min(Math.max(this.#half * factor, 1e-4), 20);
+    return this.#clamped(this.#half * factor);
+  }
+
+  #clamped(half: number): number {
+    return Math.min(Math.max(half, 1e-4), 20);
   }
 
   #drag(event: PointerEvent, pane: HTMLElement): void {

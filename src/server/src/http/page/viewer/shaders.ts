@@ -75,6 +75,9 @@ uniform int uMeasure;
 uniform vec2 uRange;
 uniform vec2 uChecker;
 uniform sampler2D uImage;
+uniform sampler2D uTexels;
+uniform float uPages;
+uniform int uLevel;
 uniform vec4 uHover;
 uniform vec4 uSelected;
 uniform int uWire;
@@ -113,12 +116,13 @@ vec3 heat() {
   return heatColor((stretchOf(value) - uRange.x) / (uRange.y - uRange.x));
 }
 
-vec3 fill(uint chart) {
+vec3 fill(uint chart, uint group) {
   if (uShade == 3) return heat();
   if (isnan(vUv.x)) return CLAY;
   if (uShade == 1) return chartColor(chart);
   if (uShade == 2) return checker();
   if (uShade == 4) return texture(uImage, vUv).rgb;
+  if (uShade == 6 && int(group) == uAtlas) return textureLod(uTexels, vec2(vUv.x / uPages, vUv.y), float(uLevel)).rgb;
   return CLAY;
 }
 
@@ -142,7 +146,7 @@ void main() {
 #ifdef OVERLAY
   if (!isHovered && !isPicked && !isWrong && placed == 0) discard;
 #endif
-  vec3 base = fill(ids.y);
+  vec3 base = fill(ids.y, ids.z & 0xffffu);
   float strength = 1.0;
   if (isWrong) base = (marks & 1u) != 0u ? vec3(0.87, 0.15, 0.17) : vec3(1.0, 0.84, 0.04);
   if ((placed & 4) != 0) base = mix(base, vec3(0.87, 0.15, 0.17), 0.7);
@@ -266,4 +270,87 @@ void main() {
 #else
   color = vColor;
 #endif
+}`;
+
+// The texture as a baker fills it.
+
+export const GUTTER_FACE_VERTEX = /* glsl */ `${FACES}
+uniform float uPages;
+in vec2 faceUv;
+flat out uint vChart;
+void main() {
+  uvec4 ids = texelFetch(uIds, texelOf(uint(gl_VertexID / 3)), 0);
+  vChart = ids.y;
+  gl_Position = vec4(2.0 * faceUv.x / uPages - 1.0, 2.0 * faceUv.y - 1.0, -1.0, 1.0);
+  if (int(ids.z & 0xffffu) != uAtlas || isnan(faceUv.x)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+}`;
+
+export const GUTTER_FACE_FRAGMENT = /* glsl */ `
+precision highp float;
+precision highp int;
+${COLORS}
+flat in uint vChart;
+layout(location = 0) out vec4 color;
+void main() { color = vec4(chartColor(vChart), 1.0); }`;
+
+/** Vertex shader of everything that is not farther from a border than the radius, in texels. */
+export const GUTTER_VERTEX = /* glsl */ `
+precision highp float;
+precision highp int;
+uniform int uAtlas;
+uniform float uPages;
+uniform float uRadius;
+uniform vec2 uSize;
+in vec4 planeEnds;
+in uvec4 facts;
+flat out uint vChart;
+flat out vec4 vEnds;
+out vec2 vAt;
+void main() {
+  vec2 scale = vec2(uSize.x / uPages, uSize.y);
+  vec2 a = planeEnds.xy * scale, b = planeEnds.zw * scale;
+  vec2 along = distance(a, b) < 1e-6 ? vec2(1.0, 0.0) : normalize(b - a);
+  float end = 2.0 * position.x - 1.0;
+  vAt = (end < 0.0 ? a : b) + uRadius * (end * along + position.y * vec2(-along.y, along.x));
+  vEnds = vec4(a, b);
+  vChart = facts.x;
+  gl_Position = vec4(2.0 * vAt / uSize - 1.0, 0.0, 1.0);
+  if (int(facts.y & 0xffffu) != uAtlas || uRadius <= 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+}`;
+
+export const GUTTER_FRAGMENT = /* glsl */ `
+precision highp float;
+precision highp int;
+${COLORS}
+uniform float uRadius;
+flat in uint vChart;
+flat in vec4 vEnds;
+in vec2 vAt;
+layout(location = 0) out vec4 color;
+void main() {
+  vec2 line = vEnds.zw - vEnds.xy;
+  float t = clamp(dot(vAt - vEnds.xy, line) / max(dot(line, line), 1e-12), 0.0, 1.0);
+  float away = distance(vAt, vEnds.xy + t * line) / uRadius;
+  if (1.0 < away) discard;
+  color = vec4(chartColor(vChart), 1.0);
+  // The nearest chart covers the others.
+  gl_FragDepth = max(away, 1e-4);
+}`;
+
+export const TEXELS_VERTEX = /* glsl */ `
+out vec2 vAt;
+void main() {
+  vAt = uv;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
+
+export const TEXELS_FRAGMENT = /* glsl */ `
+precision highp float;
+uniform sampler2D uTexels;
+uniform int uLevel;
+in vec2 vAt;
+layout(location = 0) out vec4 color;
+void main() {
+  ivec2 size = textureSize(uTexels, uLevel);
+  color = vec4(texelFetch(uTexels, clamp(ivec2(vAt * vec2(size)), ivec2(0), size - 1), uLevel).rgb, 1.0);
 }`;

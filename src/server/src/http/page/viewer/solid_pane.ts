@@ -16,6 +16,8 @@ const TURNING_MS = 60_000 / SPEED;
 export class SolidPane {
   readonly camera = new PerspectiveCamera(32, 1, 0.01, 100);
   readonly scene = new Scene();
+  readonly #all: OrbitControls[];
+  /** Those of the first pane. */
   readonly #controls: OrbitControls;
   #around = new Sphere(new Vector3(), 1);
   #rest = 0;
@@ -27,6 +29,7 @@ export class SolidPane {
   /** Moves the camera by the pointer in several panes of the same size. */
   constructor(panes: HTMLElement[], changed: () => void) {
     const all = panes.map((pane) => new OrbitControls(this.camera, pane));
+    this.#all = all;
     this.#controls = all[0]!;
     this.#controls.autoRotateSpeed = SPEED;
     for (const [k, controls] of all.entries()) {
@@ -56,11 +59,24 @@ export class SolidPane {
   /** Fits everything into the view, from the front and a little above by default. */
   frame(from: readonly [number, number, number] = FRONT): void {
     const { center, radius } = this.#around;
+    this.isMoved = false;
+    this.#look(center.clone().add(new Vector3(...from).setLength(this.#distanceFor(radius))), center);
+  }
+
+  /** Returns the distance from which a sphere fills the view. */
+  #distanceFor(radius: number): number {
     const upright = (this.camera.fov * Math.PI) / 360;
     const narrowest = Math.min(upright, Math.atan(Math.tan(upright) * this.camera.aspect));
-    const distance = radius / Math.sin(narrowest);
-    this.isMoved = false;
-    this.#look(center.clone().add(new Vector3(...from).normalize().multiplyScalar(distance)), center);
+    return radius / Math.sin(narrowest);
+  }
+
+  /** Fits a part into the view, seen from where the camera is. */
+  fit({ center, radius }: Sphere): void {
+    this.turn(false);
+    this.isMoved = true;
+    const [from, target] = [this.camera.position.clone(), this.#controls.target.clone()];
+    const arm = from.clone().sub(target).setLength(Math.max(this.#distanceFor(radius), this.#controls.minDistance));
+    move((t) => this.#look(from.clone().lerp(center.clone().add(arm), t), target.clone().lerp(center, t)));
   }
 
   /** Flies to a place, seen from a direction. */
@@ -136,6 +152,8 @@ export class SolidPane {
     this.#controls.target.copy(at);
     this.camera.near = this.#around.radius / 500;
     this.camera.far = this.#around.radius * 100;
+    // Stay well between the planes that clip.
+    for (const controls of this.#all) Object.assign(controls, { minDistance: 2 * this.camera.near, maxDistance: this.camera.far / 2 });
     this.camera.updateProjectionMatrix();
     this.#controls.update();
   }

@@ -22,11 +22,16 @@ export interface Layer {
 
 /** The layers of both views. */
 export interface Surface {
+  /** Number that no other surface has. */
+  id: number;
   layers: Record<View, Layer>;
   /** Size on the GPU, in bytes. */
   bytes: number;
   dispose(): void;
 }
+
+/** Number of surfaces that were created. */
+let made = 0;
 
 /** Creates the meshes of an analysis on the GPU. */
 export function surfaceOf(analysis: Analysis, shared: Uniforms): Surface {
@@ -45,6 +50,7 @@ export function surfaceOf(analysis: Analysis, shared: Uniforms): Surface {
   const layers = { solid: layer("solid"), plane: layer("plane") };
   layers.plane.borders.renderOrder = layers.solid.borders.renderOrder = 2;
   return {
+    id: made++,
     layers,
     bytes: bytesOf(faces) + bytesOf(borders) + [values, ids].reduce((sum, one) => sum + (one.image.data as ArrayBufferView).byteLength, 0),
     dispose() {

@@ -1,0 +1,26 @@
+// What fifty opened jobs leave on the GPU is no more than what the first ones do.
+import assert from "node:assert/strict";
+import { settled, shown } from "../look.mjs";
+
+const OPENED = 50;
+/** Fills one after the other, so that each meets each job. */
+const FILLS = ["charts", "material", "padding", "heat"];
+
+export async function run(page, url, ...ids) {
+  await page.goto(url);
+  await shown(page);
+  const seen = [];
+  for (let k = 0; k < OPENED; k++) {
+    await page.click(`#job-list li[data-id="${ids[k % ids.length]}"] a`);
+    await page.waitForFunction((id) => window.unwrapd.store.job?.id === id, ids[k % ids.length]);
+    await page.waitForSelector(".verdict");
+    await shown(page);
+    await page.selectOption("#fill", FILLS[k % FILLS.length]).catch(() => page.click(`button[data-shade=${FILLS[k % FILLS.length]}]`));
+    await settled(page);
+    seen.push(await page.evaluate(() => ({ ...window.unwrapd.viewer.stage.renderer.info.memory })));
+  }
+  // Jobs and fills come again in the same pairs.
+  const round = ids.length * FILLS.length;
+  for (let k = 2 * round; k < OPENED; k++) assert.deepEqual(seen[k], seen[k - round], `job ${k}`);
+  return { first: seen[round], last: seen.at(-1) };
+}
