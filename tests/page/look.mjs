@@ -87,3 +87,17 @@ export async function visibleFace(page, accept = () => true) {
   }
   throw new Error("no face is seen in both views");
 }
+
+/** Chooses a fill: a button, or an option of the list that takes the place of the buttons where other lists take their room. */
+export async function fill(page, shade) {
+  for (;;) {
+    const isList = await page.isVisible("#fill");
+    const chosen = isList ? page.selectOption("#fill", shade, { timeout: 10_000 }) : page.click(`button[data-shade=${shade}]`, { timeout: 10_000 });
+    try {
+      return await chosen;
+    } catch (error) {
+      // The lists appear once the file is read.
+      if (error.name !== "TimeoutError") throw error;
+    }
+  }
+}

@@ -1,6 +1,6 @@
 // Before and after side by side: one camera, one scale, and as much room.
 import assert from "node:assert/strict";
-import { colorsOf, difference, settled, shown, variety } from "../look.mjs";
+import { colorsOf, difference, fill, settled, shown, variety } from "../look.mjs";
 
 const PANES = ["#solid", "#plane", "#solid-beside", "#plane-beside"];
 const geometries = (page) => page.evaluate(() => window.unwrapd.viewer.stage.renderer.info.memory.geometries);
@@ -9,7 +9,7 @@ const both = (page) => page.waitForSelector("#panes.both").then(() => settled(pa
 export async function run(page, url) {
   await page.goto(url);
   await shown(page);
-  await page.click("button[data-shade=heat]");
+  await fill(page, "heat");
   await page.locator("#plane").hover();
   await page.keyboard.press("d");
   await both(page);

@@ -1,6 +1,6 @@
 // What fifty opened jobs leave on the GPU is no more than what the first ones do.
 import assert from "node:assert/strict";
-import { settled, shown } from "../look.mjs";
+import { fill, settled, shown } from "../look.mjs";
 
 const OPENED = 50;
 /** Fills one after the other, so that each meets each job. */
@@ -15,10 +15,7 @@ export async function run(page, url, ...ids) {
     await page.waitForFunction((id) => window.unwrapd.store.job?.id === id, ids[k % ids.length]);
     await page.waitForSelector(".verdict");
     await shown(page);
-    const fill = FILLS[k % FILLS.length];
-    // The fills are a list where other lists take their room.
-    if (await page.isVisible("#fill")) await page.selectOption("#fill", fill);
-    else await page.click(`button[data-shade=${fill}]`);
+    await fill(page, FILLS[k % FILLS.length]);
     await settled(page);
     seen.push(await page.evaluate(() => ({ ...window.unwrapd.viewer.stage.renderer.info.memory })));
   }

@@ -20,7 +20,7 @@ export async function run(page, url) {
   await charts;
   await page.waitForSelector("#relaxing:not(:empty)");
   await page.waitForFunction(() => document.querySelector(".progress-panel .stage").textContent === "Relaxing charts");
-  await page.click("text=Cancel");
+  await page.click(`.progress-panel button:text-is("Cancel")`);
   await page.waitForSelector(".verdict.cancelled");
   assert.ok(await page.isHidden("#problem"));
 }

@@ -1,6 +1,6 @@
 // Another UV set of a file is chosen, seen, and opened again by its address.
 import assert from "node:assert/strict";
-import { colorsOf, difference, shown } from "../look.mjs";
+import { colorsOf, difference, fill, shown } from "../look.mjs";
 
 /** How far the UVs that are shown reach. */
 const bounds = (page) => page.evaluate(() => window.unwrapd.viewer.analysis.atlases[0].bounds);
@@ -14,7 +14,7 @@ export async function run(page, url) {
   await shown(page);
   assert.deepEqual(await page.locator("#set option").allTextContents(), ["UV set 0", "UV set 1", "UV set 2 · new"]);
   assert.equal(await page.inputValue("#set"), "2");
-  await page.click("button[data-shade=plain]");
+  await fill(page, "plain");
   const written = await colorsOf(page, "#plane");
   // The bounds that the file states, v turned up.
   await choose(page, "1");
