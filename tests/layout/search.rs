@@ -359,7 +359,8 @@ fn a_cube_has_eight_cones() {
             seam(&maps)
         );
     }
-    assert!(energy(&maps_at_cones(&cube, 7)) > 4.01);
+    // The first slit passes a third corner.
+    assert!(energy(&maps_at_cones(&cube, 5)) > 4.01);
 }
 
 /// Charts that are cut more than they need to be are glued and closed.
