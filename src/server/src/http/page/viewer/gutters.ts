@@ -33,8 +33,6 @@ export class Gutters {
   #key = "";
   #target: WebGLRenderTarget | null = null;
   #picture: Mesh | null = null;
-  /** Puts back the texture that the uniform had before. */
-  #restore = (): void => {};
 
   /** Shows a level on the surface. Returns the picture for the background of the UVs. */
   show(renderer: WebGLRenderer, filled: Filled, shared: Uniforms): Mesh {
@@ -45,8 +43,6 @@ export class Gutters {
     if (key !== this.#key || !this.#target || !this.#picture) {
       this.dispose();
       this.#key = key;
-      const before = shared.uTexels.value;
-      this.#restore = () => { shared.uTexels.value = before; };
       const [width, height] = [texture.width * pages, texture.height].map((side) => Math.max(1, Math.round(side * scale))) as [number, number];
       this.#target = new WebGLRenderTarget(width, height, { generateMipmaps: true, minFilter: LinearMipmapLinearFilter, magFilter: LinearFilter });
       fill(renderer, this.#target, model, { atlas, pages, radius: padding * scale }, shared);
@@ -60,9 +56,6 @@ export class Gutters {
 
   dispose(): void {
     this.#key = "";
-    // A uniform that still had the freed texture would upload it again.
-    this.#restore();
-    this.#restore = () => {};
     this.#target?.dispose();
     this.#picture?.geometry.dispose();
     (this.#picture?.material as ShaderMaterial | undefined)?.dispose();
