@@ -28,10 +28,11 @@ from pathlib import Path
 GAP = 2.0
 # Gaps that count as equal: what is asked for less the rounding of the tools, and that plus a tenth.
 NEAR = (0.99 * GAP, 1.1 * GAP)
+# Runs of a tool with different margins, and seconds after which one is killed.
 RUNS = 5
 LIMIT = 300
 TOOLS = ["blender", "xatlas", "sparrow"]
-# Seconds that sparrow is given, and the part of them that looks for the height of the strip.
+# Seconds that sparrow has in all; two searches of 2 s first look for the height at which the strip becomes a square.
 SPARROW_SECONDS = 10
 
 
@@ -115,7 +116,6 @@ def sparrow(uv, island, margin):
         )
         return spyrrow.StripPackingInstance("", height, items).solve(config)
 
-    # The lowest strip that holds the longest island is where the search for a square starts at the least.
     height = math.sqrt(area / 0.8)
     for seconds in (2, 2, SPARROW_SECONDS - 4):
         solution = solve(height, seconds)

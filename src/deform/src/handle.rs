@@ -243,7 +243,7 @@ pub fn parse_body_handles(json: &[u8]) -> Result<Vec<Handle>, ProblemError> {
 
 /// A selector, as `material=Glass`, and what it selects in a file once that is known.
 ///
-/// This crate knows no materials and colors: whoever reads the file [fills in](Self::fill) the members.
+/// This crate knows no materials and colors: the reader of the file [fills in](Self::fill) the members.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "String", into = "String")]
 pub struct Select {

@@ -298,7 +298,7 @@ impl Search<'_> {
 /// There are fewer cones where nothing is left to relieve. Returns `None` if a component cannot be opened.
 ///
 /// The choice by the metric is that of Ben-Chen et al. 2008, *Conformal flattening by curvature prescription and metric scaling*. Test:
-/// `cones::more_of_them_lower_the_distortion`.
+/// `search::more_cones_lower_the_distortion`.
 pub fn charts_at_cones(surface: &Surface, n_cones: usize) -> Option<Vec<Chart>> {
     let metric = Metric::new(surface);
     let charts = components(&metric)
