@@ -48,10 +48,11 @@ impl SurfacePart {
 /// facets, gently folded, that are developable together, with sharp folds around.
 pub fn panels(metric: &Metric, observer: &dyn Observer) -> Vec<bool> {
     let mut pieces = Pieces::of_facets(metric);
-    let facets = parts(metric, &pieces.label);
+    let facet = pieces.labels();
+    let facets = parts(metric, &facet);
     let is_flat =
         |part: &SurfacePart| part.area > LEAST && (part.is_set_apart() || part.is_larger());
-    let mut is_panel: Vec<bool> = (pieces.label.iter())
+    let mut is_panel: Vec<bool> = (facet.iter())
         .map(|&facet| is_flat(&facets[facet as usize]))
         .collect();
     let may_be_inside = |edge: u32| {
@@ -60,8 +61,9 @@ pub fn panels(metric: &Metric, observer: &dyn Observer) -> Vec<bool> {
         metric.fold[edge as usize] < SET_APART && sides.all(|h| !is_panel[h as usize / 3])
     };
     pieces.join(STRAIGHT, may_be_inside, observer);
-    let walls = parts(metric, &pieces.label);
-    for (is_panel, &wall) in is_panel.iter_mut().zip(&pieces.label) {
+    let wall = pieces.labels();
+    let walls = parts(metric, &wall);
+    for (is_panel, &wall) in is_panel.iter_mut().zip(&wall) {
         let wall = &walls[wall as usize];
         *is_panel |= wall.area > LEAST_WALL && wall.is_set_apart();
     }

@@ -5,10 +5,10 @@ use super::net::Net;
 use super::opening::Ways;
 use super::state::Search;
 use crate::charts::Observer;
-use std::cmp::Ordering;
-use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
+use std::cmp::{Ordering, Reverse};
+use std::collections::{BTreeMap, BinaryHeap};
 use unwrapd_maps::measure::cost::PER_CHART;
-use unwrapd_maps::mesh::{CUT, UnionFind};
+use unwrapd_maps::mesh::{CUT, UnionFind, VertexFaces};
 use unwrapd_method::solver::Control;
 
 /// Fold of an edge, in radians, below which its faces lie in one facet.
@@ -46,9 +46,10 @@ fn facets(metric: &Metric) -> (Vec<u32>, usize) {
     sets.labels()
 }
 
-/// Two pieces that may be joined; the largest share of contact in the smaller perimeter comes first.
+/// Two pieces that may be joined; the largest share of contact in the smaller perimeter comes first, then the older nodes.
 struct Joint {
     share: f64,
+    nodes: [u32; 2],
     pieces: [u32; 2],
 }
 
@@ -69,60 +70,85 @@ impl PartialOrd for Joint {
 impl Ord for Joint {
     fn cmp(&self, other: &Self) -> Ordering {
         let by_share = self.share.total_cmp(&other.share);
-        by_share.then_with(|| other.pieces.cmp(&self.pieces))
+        by_share.then_with(|| other.nodes.cmp(&self.nodes))
     }
 }
 
-/// Pieces with the pieces that they were joined from: a forest whose leaves are facets.
+/// Pieces of a surface: facets at first, then unions of facets.
+///
+/// A union keeps the number of the part with more neighbors, so only the neighbors of the other part are told, and refusals are
+/// final, since what grows holds no fewer edges and no less curvature. Each edge changes hands O(log n) times.
 pub struct Pieces<'a> {
     metric: &'a Metric<'a>,
-    /// For each face the piece that holds it.
-    pub label: Vec<u32>,
+    /// For each face its facet.
+    facet: Vec<u32>,
+    /// Facets that are one piece.
+    sets: UnionFind,
+    /// For the first facet of each piece its number.
+    number: Vec<u32>,
     list: Vec<SurfacePiece>,
+    /// Nodes that each node unites; the first nodes are the facets, which unite none.
+    tree: Vec<Option<[u32; 2]>>,
     /// Faces around each vertex.
-    around: Vec<Vec<u32>>,
+    around: VertexFaces,
     /// Absolute angle defect of each vertex, 0 on the boundary.
     defect: Vec<f64>,
 }
 
 #[derive(Default)]
 struct SurfacePiece {
-    faces: Vec<u32>,
-    joined_from: Option<[u32; 2]>,
-    is_current: bool,
+    /// Node of the tree; `None` once the piece is part of another.
+    node: Option<u32>,
+    /// Facet that it holds.
+    facet: u32,
     perimeter: f64,
     /// Sum of the angle defects inside.
     bent: f64,
-    /// Edges to each neighbor.
-    contacts: BTreeMap<u32, Vec<u32>>,
+    /// Contact to each neighbor.
+    contacts: BTreeMap<u32, Contact>,
+}
+
+/// Common border of two pieces.
+#[derive(Clone, Default)]
+struct Contact {
+    edges: Vec<u32>,
+    length: f64,
+    is_refused: bool,
+}
+
+impl Contact {
+    fn add(&mut self, mut other: Self) {
+        if self.edges.len() < other.edges.len() {
+            std::mem::swap(&mut self.edges, &mut other.edges);
+        }
+        self.edges.append(&mut other.edges);
+        self.length += other.length;
+        self.is_refused |= other.is_refused;
+    }
 }
 
 impl<'a> Pieces<'a> {
     /// Makes each facet a piece.
     pub fn of_facets(metric: &'a Metric<'a>) -> Self {
-        let (label, n) = facets(metric);
-        let mut list: Vec<SurfacePiece> = Vec::new();
-        list.resize_with(n, || SurfacePiece {
-            is_current: true,
-            ..SurfacePiece::default()
-        });
-        for (face, &label) in (0u32..).zip(&label) {
-            list[label as usize].faces.push(face);
-        }
+        let (facet, n) = facets(metric);
+        let mut list: Vec<SurfacePiece> = (0..n as u32)
+            .map(|facet| SurfacePiece {
+                node: Some(facet),
+                facet,
+                ..SurfacePiece::default()
+            })
+            .collect();
         let n_vertices = metric.surface.positions.len();
-        let (mut around, mut total) = (vec![Vec::new(); n_vertices], vec![0.0; n_vertices]);
-        for (face, corners) in (0u32..).zip(&metric.corners) {
-            for (k, &v) in corners.iter().enumerate() {
-                around[v as usize].push(face);
-                total[v as usize] += metric.angle[3 * face as usize + k];
-            }
+        let mut total = vec![0.0; n_vertices];
+        for (corner, &v) in metric.corners.as_flattened().iter().enumerate() {
+            total[v as usize] += metric.angle[corner];
         }
         let tau = 2.0 * std::f64::consts::PI;
         let mut defect: Vec<f64> = total.iter().map(|angle| (tau - angle).abs()).collect();
         for (edge, &h) in (0u32..).zip(&metric.halfedge) {
             let t = metric.twin[h as usize];
             let length = metric.length[edge as usize];
-            let here = label[h as usize / 3];
+            let here = facet[h as usize / 3];
             if t == CUT {
                 list[here as usize].perimeter += length;
                 for v in metric.ends(h) {
@@ -130,22 +156,34 @@ impl<'a> Pieces<'a> {
                 }
                 continue;
             }
-            let there = label[t as usize / 3];
+            let there = facet[t as usize / 3];
             if here != there {
                 for (a, b) in [(here, there), (there, here)] {
                     let piece = &mut list[a as usize];
                     piece.perimeter += length;
-                    piece.contacts.entry(b).or_default().push(edge);
+                    let contact = piece.contacts.entry(b).or_default();
+                    contact.edges.push(edge);
+                    contact.length += length;
                 }
             }
         }
         Self {
             metric,
-            label,
+            facet,
+            sets: UnionFind::new(n),
+            number: (0..n as u32).collect(),
             list,
-            around,
+            tree: vec![None; n],
+            around: VertexFaces::new(n_vertices, &metric.corners),
             defect,
         }
+    }
+
+    /// Labels each face by its piece.
+    pub fn labels(&mut self) -> Vec<u32> {
+        let (label, _) = self.sets.labels();
+        let of_face = self.facet.iter().map(|&facet| label[facet as usize]);
+        of_face.collect()
     }
 
     /// Joins pieces, the longest contact by perimeter first, while the sum of the angle defects inside is at most `most_bent` and
@@ -158,106 +196,138 @@ impl<'a> Pieces<'a> {
     ) {
         let mut heap = BinaryHeap::new();
         for a in 0..self.list.len() as u32 {
-            for &b in self.list[a as usize].contacts.keys().filter(|&&b| a < b) {
-                heap.push(self.joint(a, b));
-            }
+            let later = self.list[a as usize].contacts.keys().filter(|&&b| a < b);
+            heap.extend(later.filter_map(|&b| self.joint(a, b)));
         }
         let mut n_seen = 0;
-        while let Some(Joint { pieces: [a, b], .. }) = heap.pop() {
+        while let Some(seen) = heap.pop() {
             n_seen += 1;
             if n_seen % UNWATCHED == 0 && observer.control() == Control::Finish {
                 return;
             }
+            let [a, b] = seen.pieces;
+            let Some(joint) = self.joint(a, b) else {
+                continue;
+            };
+            if joint < seen {
+                // A part has grown since.
+                heap.push(joint);
+                continue;
+            }
             let [first, second] = [a, b].map(|piece| &self.list[piece as usize]);
-            if !(first.is_current && second.is_current) {
-                continue;
-            }
-            let edges = &first.contacts[&b];
-            let contact = self.metric.length_of(edges);
-            let perimeter = first.perimeter + second.perimeter - 2.0 * contact;
-            if perimeter < OPEN || !edges.iter().all(|&edge| may_be_inside(edge)) {
-                continue;
-            }
-            let bent = first.bent + second.bent + self.closed(a, b);
+            let contact = &first.contacts[&b];
+            let perimeter = first.perimeter + second.perimeter - 2.0 * contact.length;
+            let bent = first.bent + second.bent;
+            let may_be_inside =
+                perimeter >= OPEN && contact.edges.iter().all(|&edge| may_be_inside(edge));
+            let bent = if may_be_inside {
+                bent + self.closed(a, b)
+            } else {
+                f64::INFINITY
+            };
             if bent > most_bent {
+                for (a, b) in [(a, b), (b, a)] {
+                    let contact = self.list[a as usize].contacts.get_mut(&b);
+                    contact.expect("neighbors").is_refused = true;
+                }
                 continue;
             }
-            let joined = self.joined([a, b], perimeter, bent);
-            for &other in self.list[joined as usize].contacts.keys() {
-                heap.push(self.joint(joined, other));
-            }
+            let changed = self.unite(a, b, perimeter, bent);
+            heap.extend(changed);
         }
     }
 
-    fn joint(&self, a: u32, b: u32) -> Joint {
+    /// Returns two pieces as they may be joined; `None` if they are no neighbors, or were refused.
+    fn joint(&self, a: u32, b: u32) -> Option<Joint> {
         let [first, second] = [a, b].map(|piece| &self.list[piece as usize]);
-        let contact = self.metric.length_of(&first.contacts[&b]);
-        Joint {
-            share: contact / first.perimeter.min(second.perimeter).max(f64::MIN_POSITIVE),
-            pieces: [a.min(b), a.max(b)],
-        }
+        let contact = first
+            .contacts
+            .get(&b)
+            .filter(|contact| !contact.is_refused)?;
+        let [m, n] = [first.node?, second.node?];
+        Some(Joint {
+            share: contact.length / first.perimeter.min(second.perimeter).max(f64::MIN_POSITIVE),
+            nodes: [m.min(n), m.max(n)],
+            pieces: [a, b],
+        })
     }
 
     /// Returns the sum of the defects of the vertices that a union of two pieces would hold inside.
-    fn closed(&self, a: u32, b: u32) -> f64 {
+    fn closed(&mut self, a: u32, b: u32) -> f64 {
         let contact = &self.list[a as usize].contacts[&b];
-        let vertices: BTreeSet<u32> = (contact.iter())
+        let mut vertices: Vec<u32> = (contact.edges.iter())
             .flat_map(|&edge| self.metric.ends_of_edge(edge))
             .collect();
-        let is_inside = |v: &u32| {
-            let mut faces = self.around[*v as usize].iter();
-            faces.all(|&face| [a, b].contains(&self.label[face as usize]))
+        vertices.sort_unstable();
+        vertices.dedup();
+        let mut sum = 0.0;
+        for v in vertices {
+            let mut faces = self.around.of(v).iter();
+            let is_inside = faces.all(|&face| {
+                let first = self.sets.find(self.facet[face as usize]);
+                [a, b].contains(&self.number[first as usize])
+            });
+            sum += if is_inside {
+                self.defect[v as usize]
+            } else {
+                0.0
+            };
+        }
+        sum
+    }
+
+    /// Unites two pieces; returns the joints whose share may have risen.
+    fn unite(&mut self, a: u32, b: u32, perimeter: f64, bent: f64) -> Vec<Joint> {
+        let n_neighbors = |piece: u32| self.list[piece as usize].contacts.len();
+        let (kept, gone) = if n_neighbors(a) < n_neighbors(b) {
+            (b, a)
+        } else {
+            (a, b)
         };
-        let inside = vertices.into_iter().filter(is_inside);
-        inside.map(|v| self.defect[v as usize]).sum()
+        let part = std::mem::take(&mut self.list[gone as usize]);
+        let piece = &mut self.list[kept as usize];
+        let is_shorter = perimeter < piece.perimeter;
+        let parts = [piece.node, part.node].map(|node| node.expect("pieces that are there"));
+        piece.node = Some(self.tree.len() as u32);
+        (piece.perimeter, piece.bent) = (perimeter, bent);
+        piece.contacts.remove(&gone);
+        let [first, second] = [piece.facet, part.facet];
+        self.tree.push(Some(parts));
+        self.sets.unite(first, second);
+        let first = self.sets.find(first);
+        self.number[first as usize] = kept;
+        let mut changed = Vec::new();
+        for (other, contact) in part
+            .contacts
+            .into_iter()
+            .filter(|(other, _)| *other != kept)
+        {
+            let of_other = &mut self.list[other as usize].contacts;
+            of_other.remove(&gone);
+            of_other.entry(kept).or_default().add(contact.clone());
+            let contacts = &mut self.list[kept as usize].contacts;
+            contacts.entry(other).or_default().add(contact);
+            changed.push(other);
+        }
+        if is_shorter {
+            changed = self.list[kept as usize].contacts.keys().copied().collect();
+        }
+        let joints = changed
+            .into_iter()
+            .filter_map(|other| self.joint(kept, other));
+        joints.collect()
     }
 
-    /// Returns the length of the border between two pieces, which may be joined.
-    fn border(&self, [a, b]: [u32; 2]) -> f64 {
-        let [a, b] = [a, b].map(|piece| &self.list[piece as usize].faces);
-        let halfedges = a.iter().flat_map(|&face| 3 * face..3 * face + 3);
-        let edges = halfedges.filter(|&h| {
-            let t = self.metric.twin[h as usize];
-            t != CUT && b.binary_search(&(t / 3)).is_ok()
-        });
-        let lengths = edges.map(|h| self.metric.length[self.metric.edge[h as usize] as usize]);
-        lengths.sum()
-    }
-
-    /// Replaces two pieces by their union and returns its number.
-    fn joined(&mut self, [a, b]: [u32; 2], perimeter: f64, bent: f64) -> u32 {
-        let number = self.list.len() as u32;
-        let mut contacts: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        let mut faces = Vec::new();
-        for part in [a, b] {
-            let piece = &mut self.list[part as usize];
-            piece.is_current = false;
-            faces.extend(&piece.faces);
-            for (other, edges) in std::mem::take(&mut piece.contacts) {
-                if other != a && other != b {
-                    contacts.entry(other).or_default().extend(edges);
-                }
+    /// Returns the facets of a node, in any order.
+    fn facets(&self, node: u32) -> Vec<u32> {
+        let (mut facets, mut pending) = (Vec::new(), vec![node]);
+        while let Some(node) = pending.pop() {
+            match self.tree[node as usize] {
+                Some(parts) => pending.extend(parts),
+                None => facets.push(node),
             }
         }
-        for &face in &faces {
-            self.label[face as usize] = number;
-        }
-        for (&other, edges) in &contacts {
-            let of_other = &mut self.list[other as usize].contacts;
-            of_other.remove(&a);
-            of_other.remove(&b);
-            of_other.insert(number, edges.clone());
-        }
-        faces.sort_unstable();
-        self.list.push(SurfacePiece {
-            faces,
-            joined_from: Some([a, b]),
-            is_current: true,
-            perimeter,
-            bent,
-            contacts,
-        });
-        number
+        facets
     }
 }
 
@@ -266,29 +336,39 @@ impl Search<'_> {
     /// excess cost more than the border between them. The effort is counted but not limited: what is not mapped would fall into its faces.
     pub fn start_from_pieces(&mut self, lambda: f64) {
         let most = std::mem::replace(&mut self.counts.effort.most, f64::INFINITY);
-        let mut pieces = Pieces::of_facets(self.nets.metric);
+        let metric = self.nets.metric;
+        let mut pieces = Pieces::of_facets(metric);
         pieces.join(DEVELOPABLE, |_| true, self.observer);
-        let mut pending: Vec<u32> = (0..pieces.list.len() as u32)
-            .rev()
-            .filter(|&piece| pieces.list[piece as usize].is_current)
-            .collect();
-        while let Some(number) = pending.pop() {
-            let piece = &pieces.list[number as usize];
-            let border = piece
-                .joined_from
-                .map_or(f64::INFINITY, |parts| pieces.border(parts) + PER_CHART);
-            let net = self.opened(&piece.faces, lambda);
-            match (
-                net.filter(|net| net.price(lambda) <= border),
-                piece.joined_from,
-            ) {
+        let mut faces_of_facet = vec![Vec::new(); pieces.list.len()];
+        for (face, &facet) in (0u32..).zip(&pieces.facet) {
+            faces_of_facet[facet as usize].push(face);
+        }
+        let faces_of = |node: u32| {
+            let facets = pieces.facets(node).into_iter();
+            let mut faces: Vec<u32> = facets
+                .flat_map(|facet| &faces_of_facet[facet as usize])
+                .copied()
+                .collect();
+            faces.sort_unstable();
+            faces
+        };
+        let mut pending: Vec<u32> = pieces.list.iter().filter_map(|piece| piece.node).collect();
+        pending.sort_unstable_by_key(|&node| Reverse(node));
+        while let Some(node) = pending.pop() {
+            let faces = faces_of(node);
+            let parts = pieces.tree[node as usize];
+            let border = parts.map_or(f64::INFINITY, |parts| {
+                border(metric, parts.map(faces_of)) + PER_CHART
+            });
+            let net = self.opened(&faces, lambda);
+            match (net.filter(|net| net.price(lambda) <= border), parts) {
                 (Some(net), _) => {
                     self.nets.add(net);
                 }
                 (None, Some(parts)) => pending.extend(parts),
                 (None, None) => {
-                    for &face in &piece.faces {
-                        self.nets.add(Net::of_face(self.nets.metric, face));
+                    for face in faces {
+                        self.nets.add(Net::of_face(metric, face));
                     }
                 }
             }
@@ -310,4 +390,15 @@ impl Search<'_> {
         let way = ways.take()?;
         self.map(faces, &way)
     }
+}
+
+/// Returns the length of the border between two sets of faces.
+fn border(metric: &Metric, [a, b]: [Vec<u32>; 2]) -> f64 {
+    let halfedges = a.iter().flat_map(|&face| 3 * face..3 * face + 3);
+    let edges = halfedges.filter(|&h| {
+        let t = metric.twin[h as usize];
+        t != CUT && b.binary_search(&(t / 3)).is_ok()
+    });
+    let lengths = edges.map(|h| metric.length[metric.edge[h as usize] as usize]);
+    lengths.sum()
 }
