@@ -79,6 +79,10 @@ const LOOSE: [f64; 2] = [8.0, 2.0];
 /// 18 have .65 or more, one .34 and eight at most .20.
 const PANELED: f64 = 0.3;
 
+/// Maps of each face that the start from components slit open may take: 1 to 6 on 27 surfaces (`cargo bench -p unwrapd-layout --bench
+/// search`).
+const OF_START: f64 = 7.0;
+
 /// Cost that cuts alike on both sides of a mirror plane are worth. Not tuned: about a tenth of the seams.
 const SYMMETRY: f64 = 0.1;
 
@@ -211,10 +215,10 @@ pub fn from_surface(
 /// Glues charts and gives slits back as long as the charts keep a bound on the mean energy; slits charts that break it.
 ///
 /// The search starts from given charts, which hold every face of the surface once, or from its components slit open if these cost less.
-/// Charts that are cut alike on both sides of a plane give way only to much cheaper ones. Where panels are so small that their share of
-/// the effort is not one map, nothing is slit: the cutters have slit such a surface open already. The search takes the share of the effort
-/// that the charts leave of the bound, or that panels have of the area: bent parts without much of the bound left have little to gain. It
-/// takes all of the effort if the charts break the bound.
+/// Charts that are cut alike on both sides of a plane give way only to much cheaper ones. A surface so large that the other start may
+/// take all of the effort keeps its charts. The search takes the share of the effort that panels have of the area, or the square of the
+/// share that the charts leave of the bound: 17 of 18 surfaces without panels, which left less than half of it, gained nothing. It takes
+/// all of the effort if the charts break the bound.
 ///
 /// Returns the charts, and the work that the search took. If the given charts kept the bound, so do those returned. Charts that no move
 /// changed stay as they are; so do all if the stretch is bounded.
@@ -236,7 +240,7 @@ pub fn from_charts(
     } = problem;
     let mut search = problem.search(terms, options, observer);
     search.nets = nets_of(metric, &charts);
-    if *is_measured && terms.effort.share(*panels).most >= metric.corners.len() as f64 {
+    if *is_measured && terms.effort.most >= OF_START * metric.corners.len() as f64 {
         let [beyond, cost] = search.cost_unweighted();
         let bonus = if is_symmetric(&charts) { SYMMETRY } else { 0.0 };
         if is_slit_open_below(&mut search, [beyond, cost - bonus]) {
@@ -246,7 +250,11 @@ pub fn from_charts(
     }
     let unspent = 1.0 - search.nets.excess() / bound.budget().max(f64::MIN_POSITIVE);
     let is_broken = *is_measured && search.cost_unweighted()[0] > 0.0;
-    let share = if is_broken { 1.0 } else { unspent.max(*panels) };
+    let share = if is_broken {
+        1.0
+    } else {
+        panels.max(unspent.max(0.0).powi(2))
+    };
     let effort = search.counts.effort.left().share(share);
     let smallest = charts.iter().map(|map| map.chart.corners.len()).min();
     if smallest.is_none_or(|faces| effort.most < faces as f64) {

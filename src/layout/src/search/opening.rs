@@ -160,6 +160,9 @@ impl<'a> Plans<'a> {
             None => false,
         };
         if !is_known {
+            if effort.is_spent() {
+                return None;
+            }
             let plan = planned(self.metric, start, lambda, most, effort);
             if effort.is_spent() {
                 return None;
