@@ -6,7 +6,7 @@ use super::opening::Ways;
 use super::state::Search;
 use crate::charts::Observer;
 use std::cmp::{Ordering, Reverse};
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::{BinaryHeap, HashMap};
 use unwrapd_maps::measure::cost::PER_CHART;
 use unwrapd_maps::mesh::{CUT, UnionFind, VertexFaces};
 use unwrapd_method::solver::Control;
@@ -77,7 +77,7 @@ impl Ord for Joint {
 /// Pieces of a surface: facets at first, then unions of facets.
 ///
 /// A union keeps the number of the part with more neighbors, so only the neighbors of the other part are told, and refusals are
-/// final, since what grows holds no fewer edges and no less curvature. Each edge changes hands O(log n) times.
+/// final, since what grows holds no fewer edges and no less curvature. Each contact changes hands O(log n) times.
 pub struct Pieces<'a> {
     metric: &'a Metric<'a>,
     /// For each face its facet.
@@ -87,6 +87,10 @@ pub struct Pieces<'a> {
     /// For the first facet of each piece its number.
     number: Vec<u32>,
     list: Vec<SurfacePiece>,
+    /// Contacts by their two pieces, in ascending order.
+    contacts: HashMap<[u32; 2], Contact>,
+    /// For each edge the next one of its contact; [`LAST`] for the last.
+    next_edge: Vec<u32>,
     /// Nodes that each node unites; the first nodes are the facets, which unite none.
     tree: Vec<Option<[u32; 2]>>,
     /// Faces around each vertex.
@@ -104,34 +108,32 @@ struct SurfacePiece {
     perimeter: f64,
     /// Sum of the angle defects inside.
     bent: f64,
-    /// Contact to each neighbor.
-    contacts: BTreeMap<u32, Contact>,
+    /// Neighbors, and pieces that were neighbors before they became part of others.
+    neighbors: Vec<u32>,
 }
 
-/// Common border of two pieces.
-#[derive(Clone, Default)]
+/// Common border of two pieces, a list of edges.
+#[derive(Clone, Copy)]
 struct Contact {
-    edges: Vec<u32>,
+    first: u32,
+    last: u32,
     length: f64,
     is_refused: bool,
 }
 
-impl Contact {
-    fn add(&mut self, mut other: Self) {
-        if self.edges.len() < other.edges.len() {
-            std::mem::swap(&mut self.edges, &mut other.edges);
-        }
-        self.edges.append(&mut other.edges);
-        self.length += other.length;
-        self.is_refused |= other.is_refused;
-    }
+/// End of a list of edges.
+const LAST: u32 = u32::MAX;
+
+/// Returns the key of the contact of two pieces.
+fn pair(a: u32, b: u32) -> [u32; 2] {
+    [a.min(b), a.max(b)]
 }
 
 impl<'a> Pieces<'a> {
     /// Makes each facet a piece.
     pub fn of_facets(metric: &'a Metric<'a>) -> Self {
         let (facet, n) = facets(metric);
-        let mut list: Vec<SurfacePiece> = (0..n as u32)
+        let list = (0..n as u32)
             .map(|facet| SurfacePiece {
                 node: Some(facet),
                 facet,
@@ -144,39 +146,43 @@ impl<'a> Pieces<'a> {
             total[v as usize] += metric.angle[corner];
         }
         let tau = 2.0 * std::f64::consts::PI;
-        let mut defect: Vec<f64> = total.iter().map(|angle| (tau - angle).abs()).collect();
-        for (edge, &h) in (0u32..).zip(&metric.halfedge) {
-            let t = metric.twin[h as usize];
-            let length = metric.length[edge as usize];
-            let here = facet[h as usize / 3];
-            if t == CUT {
-                list[here as usize].perimeter += length;
-                for v in metric.ends(h) {
-                    defect[v as usize] = 0.0;
-                }
-                continue;
-            }
-            let there = facet[t as usize / 3];
-            if here != there {
-                for (a, b) in [(here, there), (there, here)] {
-                    let piece = &mut list[a as usize];
-                    piece.perimeter += length;
-                    let contact = piece.contacts.entry(b).or_default();
-                    contact.edges.push(edge);
-                    contact.length += length;
-                }
-            }
-        }
-        Self {
+        let mut pieces = Self {
             metric,
             facet,
             sets: UnionFind::new(n),
             number: (0..n as u32).collect(),
             list,
+            contacts: HashMap::with_capacity(metric.halfedge.len()),
+            next_edge: vec![LAST; metric.halfedge.len()],
             tree: vec![None; n],
             around: VertexFaces::new(n_vertices, &metric.corners),
-            defect,
+            defect: total.iter().map(|angle| (tau - angle).abs()).collect(),
+        };
+        for (edge, &h) in (0u32..).zip(&metric.halfedge) {
+            let t = metric.twin[h as usize];
+            let length = metric.length[edge as usize];
+            let here = pieces.facet[h as usize / 3];
+            if t == CUT {
+                pieces.list[here as usize].perimeter += length;
+                for v in metric.ends(h) {
+                    pieces.defect[v as usize] = 0.0;
+                }
+                continue;
+            }
+            let there = pieces.facet[t as usize / 3];
+            if here != there {
+                pieces.list[here as usize].perimeter += length;
+                pieces.list[there as usize].perimeter += length;
+                let contact = Contact {
+                    first: edge,
+                    last: edge,
+                    length,
+                    is_refused: false,
+                };
+                pieces.add_contact(here, there, contact);
+            }
         }
+        pieces
     }
 
     /// Labels each face by its piece.
@@ -196,7 +202,7 @@ impl<'a> Pieces<'a> {
     ) {
         let mut heap = BinaryHeap::new();
         for a in 0..self.list.len() as u32 {
-            let later = self.list[a as usize].contacts.keys().filter(|&&b| a < b);
+            let later = self.list[a as usize].neighbors.iter().filter(|&&b| a < b);
             heap.extend(later.filter_map(|&b| self.joint(a, b)));
         }
         let mut n_seen = 0;
@@ -215,21 +221,18 @@ impl<'a> Pieces<'a> {
                 continue;
             }
             let [first, second] = [a, b].map(|piece| &self.list[piece as usize]);
-            let contact = &first.contacts[&b];
+            let contact = self.contacts[&pair(a, b)];
             let perimeter = first.perimeter + second.perimeter - 2.0 * contact.length;
             let bent = first.bent + second.bent;
-            let may_be_inside =
-                perimeter >= OPEN && contact.edges.iter().all(|&edge| may_be_inside(edge));
+            let may_be_inside = perimeter >= OPEN && self.edges(contact).all(&may_be_inside);
             let bent = if may_be_inside {
                 bent + self.closed(a, b)
             } else {
                 f64::INFINITY
             };
             if bent > most_bent {
-                for (a, b) in [(a, b), (b, a)] {
-                    let contact = self.list[a as usize].contacts.get_mut(&b);
-                    contact.expect("neighbors").is_refused = true;
-                }
+                let contact = self.contacts.entry(pair(a, b));
+                contact.and_modify(|contact| contact.is_refused = true);
                 continue;
             }
             let changed = self.unite(a, b, perimeter, bent);
@@ -240,10 +243,8 @@ impl<'a> Pieces<'a> {
     /// Returns two pieces as they may be joined; `None` if they are no neighbors, or were refused.
     fn joint(&self, a: u32, b: u32) -> Option<Joint> {
         let [first, second] = [a, b].map(|piece| &self.list[piece as usize]);
-        let contact = first
-            .contacts
-            .get(&b)
-            .filter(|contact| !contact.is_refused)?;
+        let contact = self.contacts.get(&pair(a, b));
+        let contact = contact.filter(|contact| !contact.is_refused)?;
         let [m, n] = [first.node?, second.node?];
         Some(Joint {
             share: contact.length / first.perimeter.min(second.perimeter).max(f64::MIN_POSITIVE),
@@ -254,9 +255,8 @@ impl<'a> Pieces<'a> {
 
     /// Returns the sum of the defects of the vertices that a union of two pieces would hold inside.
     fn closed(&mut self, a: u32, b: u32) -> f64 {
-        let contact = &self.list[a as usize].contacts[&b];
-        let mut vertices: Vec<u32> = (contact.edges.iter())
-            .flat_map(|&edge| self.metric.ends_of_edge(edge))
+        let mut vertices: Vec<u32> = (self.edges(self.contacts[&pair(a, b)]))
+            .flat_map(|edge| self.metric.ends_of_edge(edge))
             .collect();
         vertices.sort_unstable();
         vertices.dedup();
@@ -276,9 +276,30 @@ impl<'a> Pieces<'a> {
         sum
     }
 
+    /// Returns the edges of a contact.
+    fn edges(&self, contact: Contact) -> impl Iterator<Item = u32> {
+        std::iter::successors(Some(contact.first), |&edge| {
+            Some(self.next_edge[edge as usize]).filter(|&next| next != LAST)
+        })
+    }
+
+    /// Adds to the contact of two pieces.
+    fn add_contact(&mut self, a: u32, b: u32, added: Contact) {
+        if let Some(contact) = self.contacts.get_mut(&pair(a, b)) {
+            self.next_edge[contact.last as usize] = added.first;
+            contact.last = added.last;
+            contact.length += added.length;
+            contact.is_refused |= added.is_refused;
+            return;
+        }
+        self.contacts.insert(pair(a, b), added);
+        self.list[a as usize].neighbors.push(b);
+        self.list[b as usize].neighbors.push(a);
+    }
+
     /// Unites two pieces; returns the joints whose share may have risen.
     fn unite(&mut self, a: u32, b: u32, perimeter: f64, bent: f64) -> Vec<Joint> {
-        let n_neighbors = |piece: u32| self.list[piece as usize].contacts.len();
+        let n_neighbors = |piece: u32| self.list[piece as usize].neighbors.len();
         let (kept, gone) = if n_neighbors(a) < n_neighbors(b) {
             (b, a)
         } else {
@@ -290,31 +311,23 @@ impl<'a> Pieces<'a> {
         let parts = [piece.node, part.node].map(|node| node.expect("pieces that are there"));
         piece.node = Some(self.tree.len() as u32);
         (piece.perimeter, piece.bent) = (perimeter, bent);
-        piece.contacts.remove(&gone);
         let [first, second] = [piece.facet, part.facet];
         self.tree.push(Some(parts));
         self.sets.unite(first, second);
         let first = self.sets.find(first);
         self.number[first as usize] = kept;
-        let mut changed = Vec::new();
-        for (other, contact) in part
-            .contacts
-            .into_iter()
-            .filter(|(other, _)| *other != kept)
-        {
-            let of_other = &mut self.list[other as usize].contacts;
-            of_other.remove(&gone);
-            of_other.entry(kept).or_default().add(contact.clone());
-            let contacts = &mut self.list[kept as usize].contacts;
-            contacts.entry(other).or_default().add(contact);
-            changed.push(other);
+        self.contacts.remove(&pair(a, b));
+        for &other in &part.neighbors {
+            if let Some(contact) = self.contacts.remove(&pair(gone, other)) {
+                self.add_contact(kept, other, contact);
+            }
         }
-        if is_shorter {
-            changed = self.list[kept as usize].contacts.keys().copied().collect();
-        }
-        let joints = changed
-            .into_iter()
-            .filter_map(|other| self.joint(kept, other));
+        let changed = if is_shorter {
+            &self.list[kept as usize].neighbors
+        } else {
+            &part.neighbors
+        };
+        let joints = changed.iter().filter_map(|&other| self.joint(kept, other));
         joints.collect()
     }
 
