@@ -239,6 +239,19 @@ async fn a_chart_on_another_is_red_while_it_is_pulled() {
 }
 
 #[tokio::test]
+async fn fifty_jobs_take_no_more_memory_than_a_few() {
+    let server = Server::start();
+    let mut ids = Vec::new();
+    // Spot has no materials, the fox has a texture and bones.
+    for name in ["spot.ply", "cat_head.obj", "gltf/Fox.glb"] {
+        let url = unwrapped(&server, name).await;
+        let (_, id) = url.split_once("#job=").expect("a job");
+        ids.push(id.to_owned());
+    }
+    scenario("fifty", server.url("/"), &ids).await;
+}
+
+#[tokio::test]
 async fn materials_of_obj_files_are_seen() {
     let server = Server::start();
     scenario("materials", server.url("/"), &[asset("pictures/spot.png")]).await;

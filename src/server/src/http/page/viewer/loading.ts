@@ -1,6 +1,6 @@
 // Files as three.js scenes: glTF with its resources, OBJ, PLY, STL, OFF.
 
-import { BufferAttribute, BufferGeometry, LoadingManager, Mesh, MeshStandardMaterial, type Object3D } from "three";
+import { BufferAttribute, BufferGeometry, InstancedMesh, LoadingManager, Mesh, MeshStandardMaterial, type Object3D, type SkinnedMesh } from "three";
 import { GLTFLoader, type GLTFParser } from "three/addons/loaders/GLTFLoader.js";
 import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
 import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
@@ -167,6 +167,9 @@ export function dispose(scene: Object3D): void {
   scene.traverse((object) => {
     const { geometry, material } = object as Partial<Mesh>;
     geometry?.dispose();
+    // Bones and instances have textures and buffers of their own.
+    (object as Partial<SkinnedMesh>).skeleton?.dispose();
+    if (object instanceof InstancedMesh) object.dispose();
     for (const one of [material ?? []].flat()) {
       for (const value of Object.values(one)) {
         if (value && typeof value === "object" && "isTexture" in value) (value as unknown as { dispose(): void }).dispose();
