@@ -238,6 +238,16 @@ async fn a_chart_on_another_is_red_while_it_is_pulled() {
     });
 }
 
+#[tokio::test(flavor = "multi_thread")]
+async fn a_page_finds_a_service_again_that_was_killed() {
+    let mut server = Server::start();
+    let job = server.submit(meshes::hills(800), "cut=disk").await;
+    let url = with_job(&server, &job);
+    tokio::task::block_in_place(|| {
+        scenario_of_a_lost_server("killed", &url, &[], &mut server);
+    });
+}
+
 #[tokio::test]
 async fn fifty_jobs_take_no_more_memory_than_a_few() {
     let server = Server::start();
@@ -376,6 +386,12 @@ async fn compressed_meshes_are_seen() {
     ];
     let given = faces.map(|(name, faces)| format!("{}={faces}", asset(name)));
     scenario("compressed", server.url("/"), &given).await;
+}
+
+#[tokio::test]
+async fn a_picture_that_cannot_be_read_is_named() {
+    let server = Server::start();
+    scenario("undecodable", server.url("/"), &[]).await;
 }
 
 #[tokio::test]

@@ -157,7 +157,7 @@ async function preview(file: Chosen): Promise<void> {
   byId("inspector").replaceChildren();
   try {
     viewer.clear();
-    if (await viewer.show({ ...file, model: modelOf(file), isTurning: true })) describe(viewer.analysis);
+    if (await viewer.show({ ...file, model: modelOf(file), isTurning: true })) describe(viewer);
   } catch (error) {
     if (store.state.subject !== subject) return;
     note(error instanceof NoView ? error.message : "");
@@ -167,14 +167,16 @@ async function preview(file: Chosen): Promise<void> {
 }
 
 /** Describes a file without a job. */
-function describe(analysis: Analysis | null): void {
+function describe({ analysis, facts }: Viewer): void {
   if (!analysis) return;
+  const { missing = [] } = facts ?? {};
   const isMapped = analysis.atlases.some((atlas) => atlas.isMapped);
   const unmapped = isMapped ? analysis.atlases.reduce((sum, atlas) => sum + atlas.unmapped, 0) : 0;
   note(isMapped ? "" : "No UVs yet. Unwrap makes them.");
   byId("inspector").replaceChildren(element("section", {}, element("h2", { textContent: "File" }), pairs([
     ["Faces", whole(analysis.faces)], ["Surface area", short(analysis.area)], ["UV charts", isMapped ? whole(analysis.charts) : "none"],
     ...(unmapped ? [["Faces without UVs", whole(unmapped)] as [string, string]] : []),
+    ...(missing.length ? [["Pictures not shown", missing.join(", ")] as [string, string]] : []),
   ])), element("section", { className: "intro" }, element("h2", { textContent: "What comes back" }),
     element("p", { textContent: "The same mesh with UVs in which no face is flipped and no two overlap. That is proven on the bytes of the file." })));
 }

@@ -76,7 +76,7 @@ export class Viewer {
     if (!soup.parts.some(({ positions }) => positions.length)) throw new Error("The file has no triangles to show.");
     const analysis = await analyzed(soup);
     if (mine !== this.#shown) return false;
-    this.facts = { source, ...uvs, texture: soup.texture, origins: originsOf(soup) };
+    this.facts = { source, ...uvs, texture: soup.texture, origins: originsOf(soup), missing: loaded.missing };
     this.#take(this.facts, loaded, analysis);
     return true;
   }
