@@ -1,14 +1,21 @@
-// A service is killed while a job runs. The page says that it is gone, finds it again, and shows the charts of the job as it goes on.
+// A job runs: each stage has a bar, and the time that is left is told. Then its service is killed. The page says that it is gone, finds it again, and shows the charts of the job as it goes on.
 import assert from "node:assert/strict";
 import { kill, restart } from "../service.mjs";
 
 // A service that is gone tells in the console that it was asked for.
 export const hasErrors = true;
 
+/** A fact of the running job. */
+const fact = (page, name) => page.evaluate((name) => [...document.querySelectorAll(".progress-panel dt")].find(({ textContent }) => textContent === name).nextSibling.textContent, name);
+
 export async function run(page, url) {
   await page.goto(url);
   await page.waitForSelector("#relaxing:not(:empty)");
-  await page.waitForSelector(".stages li");
+  // Stages that are over have full bars, and the one under way a part of one.
+  await page.waitForFunction(() => document.querySelector(".stages li:last-child progress")?.value < 1);
+  const bars = await page.evaluate(() => [...document.querySelectorAll(".stages progress")].map(({ value }) => value));
+  assert.ok(1 < bars.length && bars.slice(0, -1).every((value) => value === 1), String(bars));
+  while (!/^about ([\d,]+ s|\d+ min \d+ s)$/.test(await fact(page, "Time left"))) await page.waitForTimeout(200);
   await kill();
   await page.waitForSelector("#connection:not([hidden])");
   assert.match(await page.textContent("#connection"), /does not answer/);

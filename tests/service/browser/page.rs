@@ -142,6 +142,13 @@ async fn fills_and_seams_change_what_is_seen() {
 }
 
 #[tokio::test]
+async fn what_the_table_of_viewers_promises_is_there() {
+    let server = Server::start();
+    let url = unwrapped(&server, "spot.ply").await;
+    scenario("viewers", url, &[asset("pictures/spot.png")]).await;
+}
+
+#[tokio::test]
 async fn another_uv_set_is_chosen() {
     let server = Server::start();
     let url = unwrapped(&server, "MultiUVTest.glb").await;
@@ -220,6 +227,13 @@ async fn every_pane_has_room_at_every_width() {
     let server = Server::start();
     let url = unwrapped(&server, "cat_head.obj").await;
     scenario("layouts", url, &[]).await;
+}
+
+#[tokio::test]
+async fn the_dark_theme_covers_views_and_pictures() {
+    let server = Server::start();
+    let url = unwrapped(&server, "cat_head.obj").await;
+    scenario("dark", url, &[]).await;
 }
 
 #[tokio::test]
