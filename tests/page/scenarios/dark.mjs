@@ -25,13 +25,14 @@ async function parts(page) {
   await page.click("#tab-report");
   // The report is drawn again once the input is measured, too.
   await page.waitForFunction(async () => {
-    const image = document.querySelector("#report img.drawn");
+    const image = document.querySelector("#report img[alt^='UV layout']");
     await new Promise((over) => setTimeout(over, 500));
     if (!image?.isConnected) return false;
     image.scrollIntoView();
     return image.complete;
   });
-  seen.layout = mean(await colorsOf(page, "#report img.drawn", 24));
+  seen.layout = mean(await colorsOf(page, "#report img[alt^='UV layout']"));
+  seen.heat = mean(await colorsOf(page, "#report img[alt^='Heat map']"));
   seen.report = mean(await colors(page, [[(await page.locator("#report").boundingBox()).x + 4, 300]]));
   await page.click("#tab-view");
   return seen;

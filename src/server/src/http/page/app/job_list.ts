@@ -24,6 +24,8 @@ export class JobList {
   #next: string | null = null;
   #queue: string[] = [];
   #timer = 0;
+  /** Set once the service has listed its jobs. */
+  #isKnown = false;
   /** The job that the list marks. */
   #current: string | null = null;
   /** Number of changes of the filters, by which late responses are recognized and dropped. */
@@ -59,6 +61,7 @@ export class JobList {
       const known = new Map(this.#jobs.map((job) => [job.id, job]));
       const latest = page.jobs.map((job) => (job.seq < (known.get(job.id)?.seq ?? 0) ? known.get(job.id)! : job));
       this.#jobs = [...latest, ...older];
+      this.#isKnown = true;
       this.listed(this.#jobs);
       this.#queue = page.jobs.some(({ state }) => state === "queued") ? await queue() : [];
       this.#show();
@@ -157,7 +160,7 @@ export class JobList {
       return old?.dataset.key === key ? old : this.#row(job, key);
     }));
     const none = this.#filters.isAny ? "No job meets the filter." : "None yet. Press Unwrap to make one of the sample.";
-    if (!shownJobs.length) list.replaceChildren(element("li", { className: "none", textContent: none }));
+    if (!shownJobs.length && this.#isKnown) list.replaceChildren(element("li", { className: "none", textContent: none }));
     byId("older").hidden = this.#next === null;
   }
 

@@ -6,7 +6,7 @@ import type { BatchView } from "./batch";
 import { analyzed } from "./analyst";
 import { ArrangeView } from "../arrange/arrange_view";
 import { arrangeKeys } from "../arrange/keys";
-import { address, batchOf, call, connection, download, fileOf, type Job } from "./api";
+import { address, batchOf, call, connection, download, fileOf, type Job, Unanswered } from "./api";
 import { byId, element, pairs } from "./dom";
 import { startDivider } from "./divider";
 import { takeDropped } from "./dropped";
@@ -77,7 +77,7 @@ function refresh(): void {
   if (place.tab === "report") void report().catch(failed);
   if (place.tab === "batch") void showBatch().catch(failed);
   if (place.tab === "pull") void showPull().then((pull) => pull.offer(inHand ?? offered(), inHand ? null : known())).catch(failed);
-  const isPulled = place.tab === "pull" && pull !== null && pull.isActive;
+  const isPulled = place.tab === "pull" && (inHand !== null || (pull?.isActive ?? false));
   byId("inspector").hidden = isPulled;
   byId("pull-facts").hidden = !isPulled;
   showTitle(store.state);
@@ -99,7 +99,7 @@ function offered(): Origin | null {
 
 /** Returns what is known of the shown file. */
 function known(): Known {
-  return { isMapped: viewer.analysis?.atlases.some(({ isMapped }) => isMapped) ?? false, isFlat: viewer.model?.isFlat ?? false };
+  return { isMapped: viewer.analysis?.atlases.some(({ isMapped }) => isMapped) ?? false, isFlat: viewer.model?.isFlat ?? false, set: viewer.facts?.set ?? 0 };
 }
 
 /** Hides the last problem. */
@@ -132,10 +132,11 @@ async function open(id: string | null, place: Place = { ...elsewhere(store.place
     else await sample();
   } catch (error) {
     jobs.leave();
-    store.change({ subject: { kind: "missing" } });
+    // What is not known for lack of an answer is opened once there is one.
+    store.change({ subject: { kind: error instanceof Unanswered ? "none" : "missing" } });
     viewer.clear();
     byId("inspector").replaceChildren();
-    failed(error);
+    if (!(error instanceof Unanswered)) failed(error);
   }
 }
 
@@ -160,6 +161,7 @@ async function preview(file: Chosen): Promise<void> {
     if (await viewer.show({ ...file, model: modelOf(file), isTurning: true })) describe(viewer);
   } catch (error) {
     if (store.state.subject !== subject) return;
+    viewer.clear();
     note(error instanceof NoView ? error.message : "");
     if (!(error instanceof NoView)) failed(error);
     byId("inspector").replaceChildren(element("section", {}, element("h2", { textContent: "File" }), pairs([["Name", file.name], ["Size", bytes(file.content.size)]])));
@@ -226,7 +228,8 @@ function visit(face: number): void {
 
 /** Shows the UVs of the input, alone or beside the result, or the result alone again. */
 function compare(uvs: "before" | "both"): void {
-  if (jobs.before()) change({ uvs: store.place.uvs === uvs ? "after" : uvs });
+  // Charts and seams of other UVs have other numbers.
+  if (jobs.before()) change({ uvs: store.place.uvs === uvs ? "after" : uvs, chart: null, seam: null });
 }
 
 // ---- batches
@@ -270,6 +273,7 @@ function wire(): void {
   connection.changed = (isUp) => {
     byId("connection").hidden = isUp;
     if (!isUp) void list.refresh();
+    else if (store.state.subject.kind === "none") void open(store.place.job, store.place);
   };
   startDivider(store, change);
   startTheme(() => viewer.apply());
