@@ -11,7 +11,7 @@ import { byId, element, pairs } from "./dom";
 import { startDivider } from "./divider";
 import { takeDropped } from "./dropped";
 import { followStage } from "./follow_stage";
-import { bytes, short, whole } from "./format";
+import { bytes, sentence, short, whole } from "./format";
 import { JobList } from "./job_list";
 import { JobView, note } from "./job_view";
 import type { Given } from "./given";
@@ -108,7 +108,7 @@ function solved(): void {
 }
 
 function failed(error: unknown): void {
-  const text = error instanceof Error ? error.message : String(error);
+  const text = sentence(error instanceof Error ? error.message : String(error));
   const close = element("button", { type: "button", textContent: "Close", on: { click: solved } });
   byId("problem").replaceChildren(element("span", { textContent: text }), close);
   byId("problem").hidden = false;
@@ -273,7 +273,7 @@ function wire(): void {
   connection.changed = (isUp) => {
     byId("connection").hidden = isUp;
     if (!isUp) void list.refresh();
-    else if (store.state.subject.kind === "none") void open(store.place.job, store.place);
+    else if (store.state.subject.kind === "none") void begin();
   };
   startDivider(store, change);
   startTheme(() => viewer.apply());
@@ -303,12 +303,17 @@ async function signOut(): Promise<void> {
   location.reload();
 }
 
+/** Shows whose page it is, the jobs, and what the address says, as soon as the service answers. */
+async function begin(): Promise<void> {
+  const who = call<Caller>("v1/sign-in").then((caller) => showCaller(caller, () => void signOut().catch(failed)), (error: unknown) => error instanceof Unanswered || failed(error));
+  await Promise.all([who, list.refresh(), open(store.place.job, store.place)]);
+}
+
 wire();
 if (viewer.stage) {
   followStage(viewer, viewer.stage);
   startNavigation(viewer.stage.solid);
 }
-void call<Caller>("v1/sign-in").then((caller) => showCaller(caller, () => void signOut().catch(failed)), failed);
 // Expose the views to scripts that drive the page.
 Object.assign(window, { unwrapd: { viewer, store, address } });
-await Promise.all([list.refresh(), open(store.place.job, store.place)]);
+await begin();
