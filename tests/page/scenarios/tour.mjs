@@ -4,7 +4,7 @@ import { basename, join } from "node:path";
 import { fill, settled, shown, visibleFace } from "../look.mjs";
 
 export const hasErrors = true;
-const WIDTHS = [[390, 844]];
+const WIDTHS = [[1440, 900], [1024, 768], [390, 844]];
 
 export async function run(page, url, folder, ...files) {
   page.setDefaultTimeout(60_000);
