@@ -255,7 +255,7 @@ async fn a_chart_on_another_is_red_while_it_is_pulled() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_page_finds_a_service_again_that_was_killed() {
     let mut server = Server::start();
-    let job = server.submit(meshes::hills(800), "cut=disk").await;
+    let job = server.submit(meshes::hills(300), "cut=disk").await;
     let url = with_job(&server, &job);
     tokio::task::block_in_place(|| {
         scenario_of_a_lost_server("killed", &url, &[], &mut server);
