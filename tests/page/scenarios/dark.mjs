@@ -17,7 +17,7 @@ async function paper(page) {
   return mean(await colors(page, corners));
 }
 
-/** Whether each part that is seen is dark, by its mean brightness. */
+/** Mean brightness of each part that is seen. */
 async function parts(page) {
   const picture = page.locator(THUMBNAIL);
   await picture.evaluate((image) => image.decode());
