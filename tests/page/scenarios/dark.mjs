@@ -17,22 +17,28 @@ async function paper(page) {
   return mean(await colors(page, corners));
 }
 
+/** Colors of a picture of the report, which is drawn again, and so scrolled back, once the input is measured, too. */
+async function colorsInReport(page, name) {
+  for (;;) {
+    const picture = page.locator(`#report img[alt^="${name}"]`);
+    const isSeen = () => picture.evaluate((image) => {
+      const { top, bottom } = image.getBoundingClientRect();
+      return image.complete && 0 < image.naturalWidth && 0 <= top && bottom <= innerHeight;
+    });
+    await picture.evaluate((image) => image.scrollIntoView({ block: "center" }));
+    const seen = await colorsOf(page, `#report img[alt^="${name}"]`);
+    if (await isSeen()) return seen;
+  }
+}
+
 /** Mean brightness of each part that is seen. */
 async function parts(page) {
   const picture = page.locator(THUMBNAIL);
   await picture.evaluate((image) => image.decode());
   const seen = { surface: mean(await colorsOf(page, "#solid")), paper: await paper(page), thumbnail: mean(await colorsOf(page, THUMBNAIL, 12)) };
   await page.click("#tab-report");
-  // The report is drawn again once the input is measured, too.
-  await page.waitForFunction(async () => {
-    const image = document.querySelector("#report img[alt^='UV layout']");
-    await new Promise((over) => setTimeout(over, 500));
-    if (!image?.isConnected) return false;
-    image.scrollIntoView();
-    return image.complete;
-  });
-  seen.layout = mean(await colorsOf(page, "#report img[alt^='UV layout']"));
-  seen.heat = mean(await colorsOf(page, "#report img[alt^='Heat map']"));
+  seen.layout = mean(await colorsInReport(page, "UV layout"));
+  seen.heat = mean(await colorsInReport(page, "Heat map"));
   seen.report = mean(await colors(page, [[(await page.locator("#report").boundingBox()).x + 4, 300]]));
   await page.click("#tab-view");
   return seen;
