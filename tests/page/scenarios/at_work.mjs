@@ -64,6 +64,16 @@ async function reconnected(page) {
   await page.waitForSelector("#connection", { state: "hidden" });
   await page.selectOption("#filter-kind", "");
   await page.click("#filters summary");
+  // A page that is opened meanwhile says so once, and shows what it names as soon as the service answers.
+  await page.route(/\/v1\//, (route) => route.abort());
+  await page.reload();
+  await page.waitForSelector("#connection:not([hidden])");
+  assert.ok(await page.isHidden("#problem"));
+  assert.ok(!(await page.isVisible("#job-list .none")), "nobody knows whether there are jobs");
+  await page.unroute(/\/v1\//);
+  await page.waitForSelector("#connection", { state: "hidden" });
+  await page.waitForSelector(".verdict");
+  await shown(page);
 }
 
 /** A warning that has a remedy has a button for it, which makes the job that the warning speaks of. */

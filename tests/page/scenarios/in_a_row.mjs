@@ -25,6 +25,13 @@ export async function run(page, url, mesh, other) {
   await problem();
   assert.ok(!(await page.textContent("#inspector")).includes("Surface area"), await page.textContent("#inspector"));
   assert.match(await page.textContent("#inspector"), /broken\.ply/);
+  // Nothing turns where nothing is.
+  await page.waitForFunction(async () => {
+    const { figures } = window.unwrapd.viewer.stage;
+    const before = figures.frames;
+    await new Promise((over) => setTimeout(over, 400));
+    return figures.frames === before;
+  });
   assert.ok(faces.includes("Surface area"));
   // The next one is good, and so is what is said of it.
   await choose(file("good.obj", good));
@@ -74,6 +81,11 @@ export async function run(page, url, mesh, other) {
     return { over: side.scrollWidth - side.clientWidth, out: shownOnes.filter((one) => right < one.getBoundingClientRect().right).map((one) => one.id || one.textContent) };
   });
   assert.deepEqual(spread, { over: 0, out: [] });
+
+  // Neither do they make the page of a phone wider.
+  await page.setViewportSize({ width: 390, height: 844 });
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+  await page.setViewportSize({ width: 1280, height: 800 });
 
   // A chosen file can be looked at, and the one that is looked at can be taken out.
   await page.click("#chosen >> text=second.ply");

@@ -1,6 +1,6 @@
 // Every pane has room at every width and keeps it under a legend, the tools are in one row, and a person can give either view more room.
 import assert from "node:assert/strict";
-import { shown, settled, colorsOf, variety } from "../look.mjs";
+import { fill, shown, settled, colorsOf, variety } from "../look.mjs";
 
 /** Widths of a phone, a tablet, two laptops and a large screen, with the least visible width and height of each pane. */
 const WIDTHS = [[390, 390, 200], [768, 380, 400], [1024, 270, 500], [1280, 400, 500], [1440, 440, 500], [2560, 950, 500]];
@@ -43,6 +43,10 @@ export async function run(page, url) {
     for (const pane of ["#solid", "#plane"]) {
       const [w, h] = await visible(page, pane);
       assert.ok(least <= w && high <= h, `${pane} at ${screen}: ${w} by ${h}`);
+    }
+    for (const shade of ["heat", "charts"]) {
+      await fill(page, shade);
+      assert.equal(await page.evaluate(() => window.unwrapd.store.place.shade), shade, `the fill at ${screen}`);
     }
     if (768 <= screen) await keepsRoom(page, screen);
     if (screen < 1280) continue;

@@ -27,9 +27,12 @@ export async function run(page, url, picture) {
   // A material without its picture has its color.
   const red = await seen([file("red.obj", OBJ), file("my colors.mtl", MTL)], "red.obj");
   assert.ok(10 < red.filter(isRed).length, "the red square is red");
+  assert.match(await page.textContent("#legend"), /Not shown: textures.spot\.png, none\.tga/);
+  assert.match(await page.textContent("#inspector"), /Pictures not shown/);
   const full = await seen([file("full.obj", OBJ), file("my colors.mtl", MTL), png], "full.obj");
   assert.ok(10 < full.filter(isRed).length);
   assert.ok(variety(red) + 20 < variety(full), `the picture is seen: ${variety(red)} and ${variety(full)} colors`);
   assert.ok(20 < variety(await colorsOf(page, "#plane")), "also below the UVs");
+  assert.equal(await page.textContent("#legend"), "Not shown: none.tga");
   assert.ok(await page.isHidden("#problem"));
 }

@@ -1,8 +1,9 @@
-// The pictures of the page's README: run it by hand as `node drive.mjs pictures URL FOLDER`, with Spot unwrapped at the URL.
+// The pictures of the page's README: run it by hand as `node drive.mjs pictures URL FOLDER MAPPED`, with Spot unwrapped at the URL, and the fox, which had
+// UVs before, at the other one.
 import { join } from "node:path";
 import { hover, settled, shown, visibleFace } from "../look.mjs";
 
-export async function run(page, url, folder) {
+export async function run(page, url, folder, mapped) {
   const take = async (name) => {
     await settled(page);
     await page.screenshot({ path: join(folder, `page-${name}.png`) });
@@ -30,10 +31,6 @@ export async function run(page, url, folder) {
   await page.press("#mip", "Enter");
   await take("padding");
   await fill("charts");
-  await page.click("text=Side by side");
-  await page.waitForSelector("#panes.both");
-  await take("beside");
-  await page.click("text=Side by side");
   await page.click("#arrange");
   await page.keyboard.press("n");
   await take("arrange");
@@ -42,6 +39,13 @@ export async function run(page, url, folder) {
   await page.waitForSelector(".certificate");
   await take("report");
   await pulled(page, take);
+  await page.goto(mapped);
+  await page.reload();
+  await shown(page);
+  await page.waitForSelector(".verdict");
+  await page.click("text=Side by side");
+  await page.waitForSelector("#panes.both");
+  await take("beside");
 }
 
 /** UVs are pulled, and their surface shows it. */
@@ -56,7 +60,7 @@ async function pulled(page, take) {
   await page.mouse.click(...at(0.4, 0.55));
   await page.mouse.move(...at(0.35, 0.5));
   await page.mouse.down();
-  await page.mouse.move(...at(0.4, 0.42), { steps: 8 });
+  await page.mouse.move(...at(0.37, 0.47), { steps: 8 });
   await page.mouse.up();
   await page.waitForFunction(() => document.querySelector("#pull-figures").textContent.includes("at rest"));
   await take("pull");

@@ -2,10 +2,19 @@
 import assert from "node:assert/strict";
 import { colorsOf, shown, variety } from "../look.mjs";
 
+/** Most bytes of scripts that the first view fetches, compressed. */
+const MOST_SCRIPT = 240_000;
+
 export async function run(page, url, mesh, output) {
   await page.goto(url);
   await shown(page, "spot.ply");
   const first = await page.evaluate(() => performance.now());
+  // What the first view fetches of scripts, as they are sent, and nothing that it does not show.
+  const fetched = await page.evaluate(() => performance.getEntriesByType("resource").map(({ name, encodedBodySize }) => [name.split("/").pop().split("?")[0], encodedBodySize]));
+  const scripts = fetched.filter(([name]) => name.endsWith(".js"));
+  const size = scripts.reduce((sum, [, bytes]) => sum + bytes, 0);
+  assert.ok(100_000 < size && size <= MOST_SCRIPT, `${size} bytes of ${scripts}`);
+  for (const name of ["openapi.json", "demand.js", "draco_decoder.wasm"]) assert.ok(!fetched.some(([other]) => other === name), name);
   await page.setInputFiles("#files", mesh);
   const name = mesh.split("/").pop();
   await shown(page, name);
@@ -31,5 +40,5 @@ export async function run(page, url, mesh, output) {
   assert.match(await page.textContent("#inspector"), new RegExp(`Charts${charts}(?!\\d)`));
   const [download] = await Promise.all([page.waitForEvent("download"), page.click(".files a.primary")]);
   await download.saveAs(output);
-  return { stages, firstView: first };
+  return { stages, firstView: first, size };
 }

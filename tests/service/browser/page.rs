@@ -142,6 +142,13 @@ async fn fills_and_seams_change_what_is_seen() {
 }
 
 #[tokio::test]
+async fn what_the_table_of_viewers_promises_is_there() {
+    let server = Server::start();
+    let url = unwrapped(&server, "spot.ply").await;
+    scenario("viewers", url, &[asset("pictures/spot.png")]).await;
+}
+
+#[tokio::test]
 async fn another_uv_set_is_chosen() {
     let server = Server::start();
     let url = unwrapped(&server, "MultiUVTest.glb").await;
@@ -223,6 +230,13 @@ async fn every_pane_has_room_at_every_width() {
 }
 
 #[tokio::test]
+async fn the_dark_theme_covers_views_and_pictures() {
+    let server = Server::start();
+    let url = unwrapped(&server, "cat_head.obj").await;
+    scenario("dark", url, &[]).await;
+}
+
+#[tokio::test]
 async fn the_surface_hides_seams_behind_it() {
     let server = Server::start();
     let url = unwrapped(&server, "spot.ply").await;
@@ -236,6 +250,29 @@ async fn a_chart_on_another_is_red_while_it_is_pulled() {
     tokio::task::block_in_place(|| {
         scenario_of_a_lost_server("pull_onto", &url, &[], &mut server);
     });
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_page_finds_a_service_again_that_was_killed() {
+    let mut server = Server::start();
+    let job = server.submit(meshes::hills(300), "cut=disk").await;
+    let url = with_job(&server, &job);
+    tokio::task::block_in_place(|| {
+        scenario_of_a_lost_server("killed", &url, &[], &mut server);
+    });
+}
+
+#[tokio::test]
+async fn fifty_jobs_take_no_more_memory_than_a_few() {
+    let server = Server::start();
+    let mut ids = Vec::new();
+    // Spot has no materials, the fox has a texture and bones.
+    for name in ["spot.ply", "cat_head.obj", "gltf/Fox.glb"] {
+        let url = unwrapped(&server, name).await;
+        let (_, id) = url.split_once("#job=").expect("a job");
+        ids.push(id.to_owned());
+    }
+    scenario("fifty", server.url("/"), &ids).await;
 }
 
 #[tokio::test]
@@ -363,6 +400,12 @@ async fn compressed_meshes_are_seen() {
     ];
     let given = faces.map(|(name, faces)| format!("{}={faces}", asset(name)));
     scenario("compressed", server.url("/"), &given).await;
+}
+
+#[tokio::test]
+async fn a_picture_that_cannot_be_read_is_named() {
+    let server = Server::start();
+    scenario("undecodable", server.url("/"), &[]).await;
 }
 
 #[tokio::test]

@@ -85,9 +85,12 @@ export const connection = {
   },
 };
 
-function unanswered(): Error {
-  connection.set(false);
-  return new Error("The service does not answer. Check that it runs, then try again.");
+/** Error of a request without an answer. */
+export class Unanswered extends Error {
+  constructor() {
+    super("The service does not answer. Check that it runs, then try again.");
+    connection.set(false);
+  }
 }
 
 async function reach(path: string, request: RequestInit = {}): Promise<Response> {
@@ -95,7 +98,7 @@ async function reach(path: string, request: RequestInit = {}): Promise<Response>
   try {
     answer = await fetch(address(path), request);
   } catch (error) {
-    throw request.signal?.aborted ? error : unanswered();
+    throw request.signal?.aborted ? error : new Unanswered();
   }
   connection.set(true);
   if (answer.ok) return answer;
@@ -127,7 +130,7 @@ async function upload<T>(path: string, form: FormData, { progressed, signal }: U
   request.upload.onprogress = ({ loaded, total }) => progressed(loaded, total);
   await new Promise<void>((done, failed) => {
     request.onload = () => done();
-    request.onerror = () => failed(unanswered());
+    request.onerror = () => failed(new Unanswered());
     request.onabort = () => failed(signal.reason);
     signal.addEventListener("abort", () => request.abort());
     signal.throwIfAborted();

@@ -36,7 +36,7 @@ export const KINDS = { unwrap: "Options", repack: "RepackOptions", measure: "Mea
 export type FormKind = keyof typeof KINDS;
 
 /** The schemas of all kinds' options. */
-const ALL: Record<string, string> = { ...KINDS, solve: "SolveOptions", deform: "DeformOptions", warp: "WarpOptions", edit_uv: "EditOptions", texture_map: "EditOptions" };
+const ALL: Record<string, string> = { ...KINDS, solve: "SolveOptions", deform: "DeformOptions", warp: "WarpOptions", edit_uv: "EditOptions", texture_map: "EditOptions", untangle: "UntangleOptions" };
 
 let fetched: Promise<Schemas> | null = null;
 

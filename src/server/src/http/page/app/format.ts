@@ -43,6 +43,11 @@ export function counted(count: number, one: string, several = `${one}s`): string
   return `${whole(count)} ${count === 1 ? one : several}`;
 }
 
+/** Begins a message with a capital and ends it with a stop. */
+export function sentence(message: string): string {
+  return message.charAt(0).toUpperCase() + message.slice(1) + (/[.!?]$/.test(message) ? "" : ".");
+}
+
 /** Formats a word of the API for people. */
 export function plain(word: string): string {
   const text = word.replaceAll("_", " ").replaceAll("-", " ").replace(/\buv(s?)\b/g, "UV$1");

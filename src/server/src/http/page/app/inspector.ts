@@ -5,7 +5,7 @@ import { chosenOptions } from "./definitions";
 import { commandLine, copy, curl } from "./commands";
 import { curve } from "./charts_svg";
 import { button, byId, element, pairs, prose } from "./dom";
-import { bytes, duration, percent, plain, short, whole } from "./format";
+import { bytes, duration, percent, plain, sentence, short, whole } from "./format";
 import { notesOf } from "./notes";
 import { doing, outcome } from "./outcome";
 import { left, Stages } from "./stages";
@@ -124,7 +124,7 @@ const REMEDIES: Record<string, { label: string; more: Record<string, boolean> }>
 
 function warned({ code, message }: Job["warnings"][number], actions: Actions): HTMLElement {
   const remedy = REMEDIES[code];
-  return element("li", {}, ...prose(message), remedy ? button(remedy.label, () => actions.again(remedy.more)) : null);
+  return element("li", {}, ...prose(sentence(message)), remedy ? button(remedy.label, () => actions.again(remedy.more)) : null);
 }
 
 /** Shows the gates of a job and the outcome of judging it. */

@@ -1,6 +1,6 @@
 // The list of jobs, with pictures, states and positions in the queue.
 
-import { address, call, connection, isFinal, type Job, type Progress } from "./api";
+import { address, call, connection, fileOf, isFinal, type Job, type Progress } from "./api";
 import { button, byId, element } from "./dom";
 import { ago, duration, percent, plain } from "./format";
 import { fragmentOf, START } from "./address";
@@ -8,7 +8,6 @@ import { JobFilters } from "./job_filters";
 import { nameOf, tagsOf, titleOf } from "./notes";
 import { doing, outcome, OUTCOMES } from "./outcome";
 import type { Store } from "./store";
-import { thumbnail } from "./thumbnails";
 
 const PAGE = 20;
 /** Intervals at which the list is fetched: while a job may change, and otherwise. Shorter ones mean more requests. */
@@ -24,6 +23,8 @@ export class JobList {
   #next: string | null = null;
   #queue: string[] = [];
   #timer = 0;
+  /** Set once the service has listed its jobs. */
+  #isKnown = false;
   /** The job that the list marks. */
   #current: string | null = null;
   /** Number of changes of the filters, by which late responses are recognized and dropped. */
@@ -59,6 +60,7 @@ export class JobList {
       const known = new Map(this.#jobs.map((job) => [job.id, job]));
       const latest = page.jobs.map((job) => (job.seq < (known.get(job.id)?.seq ?? 0) ? known.get(job.id)! : job));
       this.#jobs = [...latest, ...older];
+      this.#isKnown = true;
       this.listed(this.#jobs);
       this.#queue = page.jobs.some(({ state }) => state === "queued") ? await queue() : [];
       this.#show();
@@ -157,7 +159,7 @@ export class JobList {
       return old?.dataset.key === key ? old : this.#row(job, key);
     }));
     const none = this.#filters.isAny ? "No job meets the filter." : "None yet. Press Unwrap to make one of the sample.";
-    if (!shownJobs.length) list.replaceChildren(element("li", { className: "none", textContent: none }));
+    if (!shownJobs.length && this.#isKnown) list.replaceChildren(element("li", { className: "none", textContent: none }));
     byId("older").hidden = this.#next === null;
   }
 
@@ -192,4 +194,17 @@ async function queue(): Promise<string[]> {
   const { jobs } = await call<{ jobs: Job[] }>("v1/jobs?state=queued&limit=200");
   const order = (one: Job, other: Job) => other.priority - one.priority || one.created_at.localeCompare(other.created_at);
   return jobs.sort(order).map(({ id }) => id);
+}
+
+/** Shown in place of a missing picture. */
+const NO_PICTURE = "data:image/gif;base64,R0lGODlhAQABAAAAACH5BAEKAAEALAAAAAABAAEAAAICTAEAOw==";
+
+/** Creates the picture of a job, which is requested when it becomes visible. */
+function thumbnail(job: Job): HTMLImageElement {
+  const made = fileOf(job, "thumbnail.png");
+  // A warped picture is no drawing, and looks alike in the dark.
+  const className = job.kind === "warp" ? "" : "drawn";
+  const image = element("img", { width: 36, height: 36, alt: "", loading: "lazy", className, src: made ? address(made.href) : NO_PICTURE });
+  image.addEventListener("error", () => (image.src = NO_PICTURE), { once: true });
+  return image;
 }

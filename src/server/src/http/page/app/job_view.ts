@@ -250,7 +250,7 @@ export function showFallback(job: Job | null, why = ""): void {
   const holder = byId("fallback");
   const pictures = job ? job.links.files.filter(({ name }) => name.endsWith(".png") && name !== "thumbnail.png") : [];
   holder.hidden = job === null;
-  holder.replaceChildren(element("p", { textContent: why }), ...pictures.map(({ href, name }) => element("img", { src: address(href), alt: name })));
+  holder.replaceChildren(element("p", { textContent: why }), ...pictures.map(({ href, name }) => element("img", { src: address(href), alt: name, className: "drawn" })));
 }
 
 function showPictures(pictures: [string, string][]): void {

@@ -6,12 +6,12 @@ import type { BatchView } from "./batch";
 import { analyzed } from "./analyst";
 import { ArrangeView } from "../arrange/arrange_view";
 import { arrangeKeys } from "../arrange/keys";
-import { address, batchOf, call, connection, download, fileOf, type Job } from "./api";
+import { address, batchOf, call, connection, download, fileOf, type Job, Unanswered } from "./api";
 import { byId, element, pairs } from "./dom";
 import { startDivider } from "./divider";
 import { takeDropped } from "./dropped";
 import { followStage } from "./follow_stage";
-import { bytes, short, whole } from "./format";
+import { bytes, sentence, short, whole } from "./format";
 import { JobList } from "./job_list";
 import { JobView, note } from "./job_view";
 import type { Given } from "./given";
@@ -77,7 +77,7 @@ function refresh(): void {
   if (place.tab === "report") void report().catch(failed);
   if (place.tab === "batch") void showBatch().catch(failed);
   if (place.tab === "pull") void showPull().then((pull) => pull.offer(inHand ?? offered(), inHand ? null : known())).catch(failed);
-  const isPulled = place.tab === "pull" && pull !== null && pull.isActive;
+  const isPulled = place.tab === "pull" && (inHand !== null || (pull?.isActive ?? false));
   byId("inspector").hidden = isPulled;
   byId("pull-facts").hidden = !isPulled;
   showTitle(store.state);
@@ -99,7 +99,7 @@ function offered(): Origin | null {
 
 /** Returns what is known of the shown file. */
 function known(): Known {
-  return { isMapped: viewer.analysis?.atlases.some(({ isMapped }) => isMapped) ?? false, isFlat: viewer.model?.isFlat ?? false };
+  return { isMapped: viewer.analysis?.atlases.some(({ isMapped }) => isMapped) ?? false, isFlat: viewer.model?.isFlat ?? false, set: viewer.facts?.set ?? 0 };
 }
 
 /** Hides the last problem. */
@@ -108,7 +108,7 @@ function solved(): void {
 }
 
 function failed(error: unknown): void {
-  const text = error instanceof Error ? error.message : String(error);
+  const text = sentence(error instanceof Error ? error.message : String(error));
   const close = element("button", { type: "button", textContent: "Close", on: { click: solved } });
   byId("problem").replaceChildren(element("span", { textContent: text }), close);
   byId("problem").hidden = false;
@@ -132,10 +132,11 @@ async function open(id: string | null, place: Place = { ...elsewhere(store.place
     else await sample();
   } catch (error) {
     jobs.leave();
-    store.change({ subject: { kind: "missing" } });
+    // What is not known for lack of an answer is opened once there is one.
+    store.change({ subject: { kind: error instanceof Unanswered ? "none" : "missing" } });
     viewer.clear();
     byId("inspector").replaceChildren();
-    failed(error);
+    if (!(error instanceof Unanswered)) failed(error);
   }
 }
 
@@ -157,9 +158,10 @@ async function preview(file: Chosen): Promise<void> {
   byId("inspector").replaceChildren();
   try {
     viewer.clear();
-    if (await viewer.show({ ...file, model: modelOf(file), isTurning: true })) describe(viewer.analysis);
+    if (await viewer.show({ ...file, model: modelOf(file), isTurning: true })) describe(viewer);
   } catch (error) {
     if (store.state.subject !== subject) return;
+    viewer.clear();
     note(error instanceof NoView ? error.message : "");
     if (!(error instanceof NoView)) failed(error);
     byId("inspector").replaceChildren(element("section", {}, element("h2", { textContent: "File" }), pairs([["Name", file.name], ["Size", bytes(file.content.size)]])));
@@ -167,14 +169,16 @@ async function preview(file: Chosen): Promise<void> {
 }
 
 /** Describes a file without a job. */
-function describe(analysis: Analysis | null): void {
+function describe({ analysis, facts }: Viewer): void {
   if (!analysis) return;
+  const { missing = [] } = facts ?? {};
   const isMapped = analysis.atlases.some((atlas) => atlas.isMapped);
   const unmapped = isMapped ? analysis.atlases.reduce((sum, atlas) => sum + atlas.unmapped, 0) : 0;
   note(isMapped ? "" : "No UVs yet. Unwrap makes them.");
   byId("inspector").replaceChildren(element("section", {}, element("h2", { textContent: "File" }), pairs([
     ["Faces", whole(analysis.faces)], ["Surface area", short(analysis.area)], ["UV charts", isMapped ? whole(analysis.charts) : "none"],
     ...(unmapped ? [["Faces without UVs", whole(unmapped)] as [string, string]] : []),
+    ...(missing.length ? [["Pictures not shown", missing.join(", ")] as [string, string]] : []),
   ])), element("section", { className: "intro" }, element("h2", { textContent: "What comes back" }),
     element("p", { textContent: "The same mesh with UVs in which no face is flipped and no two overlap. That is proven on the bytes of the file." })));
 }
@@ -224,7 +228,8 @@ function visit(face: number): void {
 
 /** Shows the UVs of the input, alone or beside the result, or the result alone again. */
 function compare(uvs: "before" | "both"): void {
-  if (jobs.before()) change({ uvs: store.place.uvs === uvs ? "after" : uvs });
+  // Charts and seams of other UVs have other numbers.
+  if (jobs.before()) change({ uvs: store.place.uvs === uvs ? "after" : uvs, chart: null, seam: null });
 }
 
 // ---- batches
@@ -268,6 +273,7 @@ function wire(): void {
   connection.changed = (isUp) => {
     byId("connection").hidden = isUp;
     if (!isUp) void list.refresh();
+    else if (store.state.subject.kind === "none") void begin();
   };
   startDivider(store, change);
   startTheme(() => viewer.apply());
@@ -297,12 +303,17 @@ async function signOut(): Promise<void> {
   location.reload();
 }
 
+/** Shows whose page it is, the jobs, and what the address says, as soon as the service answers. */
+async function begin(): Promise<void> {
+  const who = call<Caller>("v1/sign-in").then((caller) => showCaller(caller, () => void signOut().catch(failed)), (error: unknown) => error instanceof Unanswered || failed(error));
+  await Promise.all([who, list.refresh(), open(store.place.job, store.place)]);
+}
+
 wire();
 if (viewer.stage) {
   followStage(viewer, viewer.stage);
   startNavigation(viewer.stage.solid);
 }
-void call<Caller>("v1/sign-in").then((caller) => showCaller(caller, () => void signOut().catch(failed)), failed);
 // Expose the views to scripts that drive the page.
 Object.assign(window, { unwrapd: { viewer, store, address } });
-await Promise.all([list.refresh(), open(store.place.job, store.place)]);
+await begin();

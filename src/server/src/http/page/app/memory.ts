@@ -24,6 +24,8 @@ interface Memory {
   presets: Preset[];
   /** Fill, measure and switches of the views. */
   looks: Partial<Place>;
+  /** The theme that was chosen instead of the system's. */
+  theme: { name?: "light" | "dark" };
   /** How a mouse moves the surface. */
   navigation: { name?: Navigation };
   /** Cameras by model, least recent first. */
@@ -32,7 +34,7 @@ interface Memory {
   grips: [string, Grip[]][];
 }
 
-const EMPTY: Memory = { form: {}, presets: [], looks: {}, navigation: {}, cameras: [], grips: [] };
+const EMPTY: Memory = { form: {}, presets: [], looks: {}, theme: {}, navigation: {}, cameras: [], grips: [] };
 const key = (name: keyof Memory) => `unwrapd.${name}`;
 
 /** Returns a remembered value, or an empty one if there is none or the browser refuses. */

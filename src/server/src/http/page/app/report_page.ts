@@ -115,7 +115,7 @@ function pictures(job: Job): HTMLElement | null {
   const drawn = made.map(([role, caption]) => {
     const file = fileOf(job, role);
     if (!file) return null;
-    const image = element("img", { src: address(file.href), alt: `${caption} of ${job.filename}`, loading: "lazy", width: 512, height: 512, className: role === "layout.png" ? "drawn" : "" });
+    const image = element("img", { src: address(file.href), alt: `${caption} of ${job.filename}`, loading: "lazy", width: 512, height: 512, className: "drawn" });
     return element("figure", {}, element("a", { href: address(file.href) }, image), element("figcaption", { textContent: caption }));
   });
   return drawn.some(Boolean) ? block("Pictures", element("div", { className: "figures" }, ...drawn)) : null;

@@ -34,7 +34,7 @@ export interface Uvs {
 }
 
 /** Facts about a file that is shown. */
-export interface Facts extends Uvs { source: Source; texture: Texture; origins: Origin[] }
+export interface Facts extends Uvs { source: Source; texture: Texture; origins: Origin[]; missing: string[] }
 
 /** Returns the UVs of a chosen set, or of the one shown first. */
 export function uvsOf(source: Source, loaded: Loaded, chosen: number | null): Uvs {

@@ -12,6 +12,10 @@ const ENDS: Record<string, number> = { read: 0.02, cut: 0.04, pack: 0.92, deform
 /** Share of the work below which its speed says little about the rest: reading and cutting, which go otherwise than mapping. */
 const LEAST_SHARE = 0.04;
 
+/** Share beyond which the bar of a stage under way does not go: only that of a stage that is over is full. More charts may be
+ * cut again, and the last one may be relaxed for long. */
+const MOST_UNDER_WAY = 0.95;
+
 /** A stage that a job has entered: when, and what share of the work was done then. */
 interface Entered { name: string; text: string; since: number; from: number }
 
@@ -27,7 +31,7 @@ export class Stages {
     if (stage && !isFinal(event.state) && stage !== last?.name) this.#entered.push({ name: stage, text: doing(event), since: elapsed_ms, from: fraction });
     this.list.replaceChildren(...this.#entered.map((one, k) => {
       const next = this.#entered[k + 1];
-      const done = next || isFinal(event.state) ? 1 : shareOf(one, event);
+      const done = next || isFinal(event.state) ? 1 : Math.min(shareOf(one, event), MOST_UNDER_WAY);
       return element("li", {}, element("span", { textContent: one.text }), element("progress", { max: 1, value: done, aria: { label: one.text } }),
         element("small", { textContent: duration((next?.since ?? elapsed_ms) - one.since) }));
     }));

@@ -56,6 +56,7 @@ export function showLegend(viewer: Viewer, changed: (changes: Partial<Place>) =>
   if (shown && place.shade === "heat") parts.push(choice(place.measure, (measure) => changed({ measure })), fitting(viewer, changed), scale(viewer));
   if (shown && place.shade === "checker") parts.push(cells(place.cells, changed));
   if (shown && place.shade === "padding") parts.push(...levels(viewer, changed));
+  if (shown && place.shade === "material") parts.push(...missing(viewer.facts?.missing ?? []));
   const legend = byId("legend");
   const focused = legend.contains(document.activeElement) ? document.activeElement!.id : "";
   legend.replaceChildren(...parts);
@@ -71,6 +72,12 @@ function faults(shown: Atlas): HTMLElement[] {
   const text = wrong.join(", ");
   if (text) return [element("span", { className: "wrong", textContent: text, title: text })];
   return shown.isMapped ? [element("span", { className: "right", textContent: "No overlaps or flips" })] : [];
+}
+
+/** Names the pictures of the materials that are not shown. */
+function missing(names: string[]): HTMLElement[] {
+  const text = `Not shown: ${names.join(", ")}`;
+  return names.length ? [element("span", { className: "wrong missing", textContent: text, title: `${text}. A picture was not chosen with the file, or cannot be read.` })] : [];
 }
 
 function choice(measure: Measure, changed: (measure: Measure) => void): HTMLElement {

@@ -1,18 +1,17 @@
 // Dark and light theme: that of the system until a person chooses.
 
 import { byId } from "./dom";
-
-const KEY = "unwrapd-theme";
+import { keep, kept } from "./memory";
 
 /** Applies the theme chosen earlier, and follows new choices. */
 export function startTheme(changed: () => void): void {
-  const stored = localStorage.getItem(KEY);
-  if (stored) document.documentElement.dataset.theme = stored;
+  const { name } = kept("theme");
+  if (name) document.documentElement.dataset.theme = name;
   const say = () => (byId("theme").textContent = isDark() ? "Light" : "Dark");
   byId("theme").addEventListener("click", () => {
-    const chosen = isDark() ? "light" : "dark";
-    document.documentElement.dataset.theme = chosen;
-    localStorage.setItem(KEY, chosen);
+    const name = isDark() ? "light" : "dark";
+    document.documentElement.dataset.theme = name;
+    keep("theme", { name });
     say();
     changed();
   });

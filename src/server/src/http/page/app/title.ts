@@ -9,7 +9,9 @@ import type { State } from "./store";
 export function showTitle(state: State): void {
   const name = nameOf(state);
   byId("title").textContent = name || (state.subject.kind === "missing" ? "Not found" : "Loading …");
-  byId("title-state").textContent = state.subject.kind === "job" && state.place.uvs === "before" ? "before" : "";
+  const before = state.subject.kind === "job" && state.place.uvs === "before" ? "before" : "";
+  byId("title-state").textContent = before;
+  for (const pane of ["solid", "plane"]) byId(pane).dataset.uvs = before;
   document.title = name ? `${name} · unwrapd` : "unwrapd";
 }
 

@@ -76,7 +76,7 @@ export class Viewer {
     if (!soup.parts.some(({ positions }) => positions.length)) throw new Error("The file has no triangles to show.");
     const analysis = await analyzed(soup);
     if (mine !== this.#shown) return false;
-    this.facts = { source, ...uvs, texture: soup.texture, origins: originsOf(soup) };
+    this.facts = { source, ...uvs, texture: soup.texture, origins: originsOf(soup), missing: loaded.missing };
     this.#take(this.facts, loaded, analysis);
     return true;
   }
@@ -116,6 +116,7 @@ export class Viewer {
     void this.showBeside(null);
     this.model?.dispose();
     this.model = this.analysis = this.facts = null;
+    this.stage?.solid.turn(false);
     this.stage?.solid.show([], null);
     this.stage?.plane.show([]);
     this.stage?.redraw();
@@ -153,8 +154,9 @@ export class Viewer {
 
   /** Shows the scene alone until its analysis is ready. */
   #preview(stage: Stage, loaded: Loaded, source: Source): void {
-    if (this.model) return;
-    stage.solid.show([loaded.scene, ...lights()], boundsOf(loaded.scene));
+    const bounds = boundsOf(loaded.scene);
+    if (this.model || bounds.isEmpty()) return;
+    stage.solid.show([loaded.scene, ...lights()], bounds);
     this.#look(stage, source);
     stage.redraw();
   }

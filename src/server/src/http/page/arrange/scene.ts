@@ -1,11 +1,17 @@
 // The islands of the shown atlas at their places: on the GPU, and judged.
 
+import { DataTexture, FloatType, RGBAFormat } from "three";
 import type { Analysis } from "../analysis/analysis";
-import { LOCKED, PlacedTexture, SELECTED, WRONG } from "../viewer/placed";
-import { IDENTITY } from "../viewer/similarity";
+import { ROW } from "../viewer/shaders";
+import { IDENTITY, type Similarity } from "../viewer/similarity";
 import { keyOf, type Placed } from "./arrangement";
 import { isOnPage, Neighbors, type Pages } from "./faults";
 import { type Island, islandsOf, moved } from "./islands";
+
+/** Marks of islands. */
+const SELECTED = 1;
+const LOCKED = 2;
+const WRONG = 4;
 
 /** The islands being moved, and all others. */
 export interface Moving { charts: Set<number>; neighbors: Neighbors }
@@ -65,5 +71,25 @@ export class ArrangedScene {
 
   dispose(): void {
     this.placed.texture.dispose();
+  }
+}
+
+/** Places of the islands of an atlas on the GPU: two texels per chart, which the shaders of both views read. */
+class PlacedTexture {
+  readonly texture: DataTexture;
+  readonly #numbers: Float32Array;
+
+  constructor(readonly charts: number) {
+    const rows = Math.max(1, Math.ceil((2 * charts) / ROW));
+    this.#numbers = new Float32Array(4 * ROW * rows);
+    this.texture = new DataTexture(this.#numbers, ROW, rows, RGBAFormat, FloatType);
+    for (let chart = 0; chart < charts; chart++) this.#numbers[8 * chart] = 1;
+    this.texture.needsUpdate = true;
+  }
+
+  /** Sets the place of a chart. */
+  put(chart: number, { a, b, s, t }: Similarity, marks: number): void {
+    this.#numbers.set([a, b, s, t, marks], 8 * chart);
+    this.texture.needsUpdate = true;
   }
 }

@@ -1,6 +1,7 @@
 // The page's third view: a file that is pulled live.
 
 import { call, type Job, Refused } from "../app/api";
+import { byId, element, svg } from "../app/dom";
 import { type Given, resourcesOf } from "../app/given";
 import { LiveClient, type Reply, type Wish } from "../live/client";
 import type { LiveFrame, LiveMesh } from "../live/decode";
@@ -9,8 +10,7 @@ import { extension } from "../viewer/formats";
 import { type Grip, Grips, handleOf } from "./grips";
 import { type Doer, Pointer } from "./pointer";
 import type { Shown } from "./beside";
-import { sceneOn, showMarks } from "./pane";
-import type { PullScene, Touched } from "./scene";
+import { PullScene, type Touched } from "./scene";
 import { PullTools } from "./tools";
 import { type Known, type Origin, openSession, pulledOf, type Session, socketOf, type Way, waysOf } from "./what";
 
@@ -337,4 +337,34 @@ export class PullView implements Doer {
   #drawGrips(): void {
     if (this.#scene) showMarks(this.#scene, this.grips);
   }
+}
+
+/** Creates the scene of the page's third view; null without WebGL. */
+function sceneOn(): PullScene | null {
+  const pane = byId("pull-pane");
+  const places = { plane: element("div", { className: "pane" }), solid: element("div", { className: "pane", hidden: true }) };
+  for (const place of Object.values(places)) {
+    place.tabIndex = 0;
+    place.setAttribute("role", "application");
+    place.setAttribute("aria-label", "What is pulled: press to hold, drag to pull");
+    pane.insertBefore(place, byId("pull-grips"));
+  }
+  try {
+    return new PullScene(byId<HTMLCanvasElement>("pull-canvas"), places);
+  } catch {
+    return null;
+  }
+}
+
+/** Marks every handle at its place in the view. */
+function showMarks(scene: PullScene, grips: Grips): void {
+  byId("pull-grips").replaceChildren(...grips.all.map((grip) => mark(scene, grip, grips.selected.has(grip.name))));
+}
+
+function mark(scene: PullScene, grip: Grip, isSelected: boolean): SVGElement {
+  const [cx, cy] = scene.project(grip.to);
+  const classes = ["grip", isSelected && "selected", grip.isLocked && "locked"].filter(Boolean).join(" ");
+  const drawn = grip.isLocked ? svg("rect", { x: cx - 5, y: cy - 5, width: 10, height: 10, class: classes }) : svg("circle", { cx, cy, r: 6, class: classes });
+  drawn.append(svg("title", {}, `Handle ${grip.name + 1}`));
+  return drawn;
 }

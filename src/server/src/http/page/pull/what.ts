@@ -27,8 +27,8 @@ const DRAWING = way("Outline", "The outline is filled with triangles, which are 
 /** Extensions of files that can be pulled. */
 export const ACCEPTED = ".glb,.gltf,.obj,.ply,.stl,.off,.msh,.mesh,.tet,.png,.jpg,.jpeg,.webp,.svg";
 
-/** Facts about a surface. */
-export interface Known { isMapped: boolean; isFlat: boolean }
+/** Facts about a surface, and the UV set of it that is shown. */
+export interface Known { isMapped: boolean; isFlat: boolean; set: number }
 
 /** Returns the ways to pull a file, the likeliest first; all of them if nothing is known of a surface. */
 export function waysOf(name: string, known: Known | null): Way[] {
@@ -39,9 +39,13 @@ export function waysOf(name: string, known: Known | null): Way[] {
     case "msh": case "mesh": case "tet": return [SOLID];
     default:
       if (!known) return [CAGE, PLANAR, UVS, TEXTURE];
-      if (known.isFlat) return [PLANAR, ...(known.isMapped ? [UVS, TEXTURE] : [])];
-      return known.isMapped ? [UVS, TEXTURE, CAGE] : [CAGE];
+      return [...(known.isFlat ? [PLANAR] : []), ...(known.isMapped ? [UVS, TEXTURE].map((one) => ofSet(one, known.set)) : []), ...(known.isFlat ? [] : [CAGE])];
   }
+}
+
+/** Returns a way that pulls another UV set. */
+function ofSet(way: Way, set: number): Way {
+  return set === 0 ? way : { ...way, options: { ...way.options, texcoord: set } };
 }
 
 /** Input of a session: a file, or the result of a job. */
@@ -49,7 +53,7 @@ export type Origin = { name: string; content: Blob; resources: Map<string, Blob>
 
 /** Identifies what is pulled and how. */
 export function pulledOf(origin: Origin, way: Way): string {
-  return `${"job" in origin ? origin.job : modelOf(origin)} ${way.name}`;
+  return ["job" in origin ? origin.job : modelOf(origin), way.name, ...Object.values(way.options)].join(" ");
 }
 
 /** A session, in the JSON of the service. */

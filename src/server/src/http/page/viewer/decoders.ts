@@ -19,11 +19,15 @@ class ServiceDecoder {
   constructor(readonly manager: LoadingManager) {}
 
   load(url: string, loaded: (picture: ImageBitmap) => void, _progressed: unknown, failed: (error: unknown) => void): void {
-    void this.#picture(url).then(loaded, failed);
+    const address = this.manager.resolveURL(url);
+    void this.#picture(address).then(loaded, (error: unknown) => {
+      this.manager.itemError(address);
+      failed(error);
+    });
   }
 
-  async #picture(url: string): Promise<ImageBitmap> {
-    const texture = await (await fetch(this.manager.resolveURL(url))).blob();
+  async #picture(address: string): Promise<ImageBitmap> {
+    const texture = await (await fetch(address)).blob();
     return createImageBitmap(await decode(texture), { premultiplyAlpha: "none", colorSpaceConversion: "none" });
   }
 }

@@ -1,6 +1,6 @@
 // Files as three.js scenes: glTF with its resources, OBJ, PLY, STL, OFF.
 
-import { BufferAttribute, BufferGeometry, LoadingManager, Mesh, MeshStandardMaterial, type Object3D } from "three";
+import { BufferAttribute, BufferGeometry, InstancedMesh, LoadingManager, Mesh, MeshStandardMaterial, type Object3D, type SkinnedMesh } from "three";
 import { GLTFLoader, type GLTFParser } from "three/addons/loaders/GLTFLoader.js";
 import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
 import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
@@ -21,6 +21,8 @@ export interface Loaded {
   /** The file's record of UVs that this program wrote. */
   record: UvRecord | null;
   parser: GLTFParser | null;
+  /** Names of pictures that are not shown: those that were not chosen, and those that cannot be read. */
+  missing: string[];
 }
 
 /** Record of UVs, as in `asset.extras.unwrapd`. */
@@ -40,12 +42,15 @@ export class NoView extends Error {}
 /** One white pixel, in place of pictures that were not chosen. */
 const WHITE = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8/5+hHgAHggJ/PchI7wAAAABJRU5ErkJggg==";
 
+/** Name of pictures inside a file. */
+const EMBEDDED = "an embedded picture";
+
 /** Loads a file; errors say what to do. */
 export async function load(bundle: Bundle): Promise<Loaded> {
   const kind = extension(bundle.name);
   if (kind === "glb" || kind === "gltf") return loadGltf(bundle);
-  const plain = (scene: Object3D): Loaded => ({ scene, record: null, parser: null });
-  if (kind === "obj") return plain(withoutPlaceholders(await parseObj(bundle)));
+  const plain = (scene: Object3D, missing: string[] = []): Loaded => ({ scene, record: null, parser: null, missing });
+  if (kind === "obj") return parseObj(bundle).then(({ scene, missing }) => plain(withoutPlaceholders(scene), missing));
   if (kind === "ply") return plain(meshOf(new PLYLoader().parse(await bundle.content.arrayBuffer())));
   if (kind === "stl") return plain(meshOf(new STLLoader().parse(await bundle.content.arrayBuffer())));
   if (kind === "off") return plain(meshOf(parseOff(await bundle.content.text())));
@@ -53,11 +58,12 @@ export async function load(bundle: Bundle): Promise<Loaded> {
   throw new NoView(`There is no view of .${kind} files here. The job works on it all the same.`);
 }
 
-async function parseObj({ content, resources }: Bundle): Promise<Object3D> {
+async function parseObj({ content, resources }: Bundle): Promise<{ scene: Object3D; missing: string[] }> {
   const text = await content.text();
   const loader = new OBJLoader();
-  if (resources.size) loader.setMaterials(await (await import("../demand")).materialsOf(text, resources));
-  return loader.parse(text);
+  if (!resources.size) return { scene: loader.parse(text), missing: [] };
+  const { creator, missing } = await (await import("../demand")).materialsOf(text, resources);
+  return { scene: loader.setMaterials(creator).parse(text), missing };
 }
 
 /** Replaces zeros by NaN: three.js gives them to faces without UVs if other faces of the object have UVs. */
@@ -80,22 +86,27 @@ function meshOf(geometry: BufferGeometry): Mesh {
 async function loadGltf({ content, resources }: Bundle): Promise<Loaded> {
   const manager = new LoadingManager();
   const assets = new URL("assets/", document.baseURI).href;
-  const made: string[] = [];
+  // Addresses that stand for files, with their names, and the files that were not chosen or cannot be read.
+  const made = new Map<string, string>();
   const missing = new Set<string>();
+  const stand = (name: string, file: Blob) => {
+    const url = URL.createObjectURL(file);
+    made.set(url, name);
+    return url;
+  };
+  manager.onError = (url) => missing.add(made.get(url) ?? EMBEDDED);
   let free = () => {};
   manager.setURLModifier((url) => {
     if (url.startsWith("blob:") || url.startsWith(assets)) return url;
-    if (url.startsWith("data:")) return made[made.push(URL.createObjectURL(embedded(url))) - 1]!;
+    if (url.startsWith("data:")) return stand(EMBEDDED, embedded(url));
     const path = decodeURIComponent(url);
     const resource = resourceAt(resources, path);
     // Do not ask the service for the resources of a file that is not uploaded yet.
     if (!resource) {
       missing.add(path);
-      made.push(URL.createObjectURL(/\.(png|jpe?g|webp|ktx2|avif)$/i.test(path) ? embedded(WHITE) : new Blob()));
-      return made.at(-1)!;
+      return stand(path, isPicture(path) ? embedded(WHITE) : new Blob());
     }
-    made.push(URL.createObjectURL(resource));
-    return made.at(-1)!;
+    return stand(path, resource);
   });
   try {
     const loader = new GLTFLoader(manager);
@@ -104,16 +115,20 @@ async function loadGltf({ content, resources }: Bundle): Promise<Loaded> {
     const gltf = await loader.parseAsync(await content.arrayBuffer(), "");
     if (!gltf.scene) throw new Error("it has no scene. Its meshes can be unwrapped all the same.");
     const extras: { unwrapd?: UvRecord } | undefined = gltf.parser.json.asset?.extras;
-    return { scene: gltf.scene, record: extras?.unwrapd ?? null, parser: gltf.parser };
+    return { scene: gltf.scene, record: extras?.unwrapd ?? null, parser: gltf.parser, missing: [...missing] };
   } catch (error) {
     const detail = String(error instanceof Error ? error.message : error);
-    const buffer = [...missing].find((path) => !/\.(png|jpe?g|webp|ktx2|avif)$/i.test(path));
+    const buffer = [...missing].find((path) => path !== EMBEDDED && !isPicture(path));
     if (buffer) throw new NoView(`The file needs ${buffer}, which was not chosen with it. Choose both together.`);
     throw new Error(`The view cannot read this glTF${detail.startsWith("it has") ? `: ${detail}` : ". Unwrap it to be told what is wrong with it."}`);
   } finally {
     free();
-    made.forEach((url) => URL.revokeObjectURL(url));
+    for (const url of made.keys()) URL.revokeObjectURL(url);
   }
+}
+
+function isPicture(path: string): boolean {
+  return /\.(png|jpe?g|webp|ktx2|avif)$/i.test(path);
 }
 
 /** Decodes a `data:` address, which the page's security policy does not let loaders fetch. */
@@ -167,6 +182,9 @@ export function dispose(scene: Object3D): void {
   scene.traverse((object) => {
     const { geometry, material } = object as Partial<Mesh>;
     geometry?.dispose();
+    // Bones and instances have textures and buffers of their own.
+    (object as Partial<SkinnedMesh>).skeleton?.dispose();
+    if (object instanceof InstancedMesh) object.dispose();
     for (const one of [material ?? []].flat()) {
       for (const value of Object.values(one)) {
         if (value && typeof value === "object" && "isTexture" in value) (value as unknown as { dispose(): void }).dispose();

@@ -5,15 +5,21 @@ import { MTLLoader } from "three/addons/loaders/MTLLoader.js";
 import { resourceAt } from "./formats";
 
 /** Loads the materials that an OBJ file names, from the files beside it. Pictures that are missing or in another format than
- * browsers show are left out. */
-export async function materialsOf(obj: string, resources: Map<string, Blob>): Promise<MTLLoader.MaterialCreator> {
+ * browsers show are left out, and named. */
+export async function materialsOf(obj: string, resources: Map<string, Blob>): Promise<{ creator: MTLLoader.MaterialCreator; missing: string[] }> {
   // A line names one file, which may have blanks in its name, or several.
   const lines = [...obj.matchAll(/^[ \t]*mtllib[ \t]+(.*\S)/gm)].map(([, names]) => names!);
   const files = lines.flatMap((names) => (resourceAt(resources, names) ? [names] : names.split(/\s+/)));
   const texts = await Promise.all(files.map((name) => resourceAt(resources, name)?.text()));
-  const made: string[] = [];
+  const made = new Map<string, string>();
+  const missing = new Set<string>();
   const manager = new LoadingManager();
-  manager.setURLModifier((path) => made[made.push(URL.createObjectURL(resourceAt(resources, path) ?? new Blob())) - 1]!);
+  manager.setURLModifier((path) => {
+    const url = URL.createObjectURL(resourceAt(resources, path) ?? new Blob());
+    made.set(url, path);
+    return url;
+  });
+  manager.onError = (url) => missing.add(made.get(url) ?? url);
   const creator = new MTLLoader(manager).parse(texts.join("\n"), "");
   await new Promise<void>((done) => {
     manager.onLoad = done;
@@ -22,9 +28,9 @@ export async function materialsOf(obj: string, resources: Map<string, Blob>): Pr
     creator.preload();
     manager.itemEnd("materials");
   });
-  for (const url of made) URL.revokeObjectURL(url);
+  for (const url of made.keys()) URL.revokeObjectURL(url);
   Object.values(creator.materials).forEach(withoutMissing);
-  return creator;
+  return { creator, missing: [...missing] };
 }
 
 /** Removes pictures that could not be loaded, which would be black. */

@@ -14,7 +14,8 @@ export interface Buttons {
 
 const NONE: Buttons = { LEFT: null, MIDDLE: null, RIGHT: null };
 
-/** Returns the actions for a press of a button. While Shift is held, `OrbitControls` take turning for moving. */
+/** Returns the actions for a press of a button. While Shift is held, `OrbitControls` take turning for moving. Those of
+ * RizomUV are from memory: no public page that describes them was found. */
 export function buttonsOf(navigation: Navigation, { altKey, ctrlKey }: Pick<PointerEvent, "altKey" | "ctrlKey">): Buttons {
   if (navigation === "blender") return { ...NONE, MIDDLE: ctrlKey ? MOUSE.DOLLY : MOUSE.ROTATE };
   if (navigation === "rizom") return { ...NONE, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.ROTATE };

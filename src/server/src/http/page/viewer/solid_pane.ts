@@ -8,13 +8,16 @@ import { type Buttons, buttonsOf } from "./navigation";
 /** Initial direction of the camera, in front and a little above: the front of glTF is +z. */
 const FRONT = [0.55, 0.35, 1] as const;
 
+/** Half the angle of view across the narrower side, in radians: a longer lens than usual, with little perspective. */
+const HALF_VIEW = MathUtils.degToRad(16);
+
 /** Speed of turning, and the time of one turn: `OrbitControls` take 60 s at a speed of 1. */
 const SPEED = 1.4;
 const TURNING_MS = 60_000 / SPEED;
 
 /** Camera, scene and controls of the surface. */
 export class SolidPane {
-  readonly camera = new PerspectiveCamera(32, 1, 0.01, 100);
+  readonly camera = new PerspectiveCamera(2 * MathUtils.radToDeg(HALF_VIEW), 1, 0.01, 100);
   readonly scene = new Scene();
   readonly #all: OrbitControls[];
   /** Those of the first pane. */
@@ -60,14 +63,7 @@ export class SolidPane {
   frame(from: readonly [number, number, number] = FRONT): void {
     const { center, radius } = this.#around;
     this.isMoved = false;
-    this.#look(center.clone().add(new Vector3(...from).setLength(this.#distanceFor(radius))), center);
-  }
-
-  /** Returns the distance from which a sphere fills the view. */
-  #distanceFor(radius: number): number {
-    const upright = (this.camera.fov * Math.PI) / 360;
-    const narrowest = Math.min(upright, Math.atan(Math.tan(upright) * this.camera.aspect));
-    return radius / Math.sin(narrowest);
+    this.#look(center.clone().add(new Vector3(...from).setLength(radius / Math.sin(HALF_VIEW))), center);
   }
 
   /** Fits a part into the view, seen from where the camera is. */
@@ -75,7 +71,7 @@ export class SolidPane {
     this.turn(false);
     this.isMoved = true;
     const [from, target] = [this.camera.position.clone(), this.#controls.target.clone()];
-    const arm = from.clone().sub(target).setLength(Math.max(this.#distanceFor(radius), this.#controls.minDistance));
+    const arm = from.clone().sub(target).setLength(Math.max(radius / Math.sin(HALF_VIEW), this.#controls.minDistance));
     move((t) => this.#look(from.clone().lerp(center.clone().add(arm), t), target.clone().lerp(center, t)));
   }
 
@@ -132,8 +128,10 @@ export class SolidPane {
     return this.#controls.update() || this.#controls.autoRotate;
   }
 
+  /** Takes another size: what filled the narrower side still does. */
   resize(width: number, height: number): void {
     this.camera.aspect = width / Math.max(height, 1);
+    this.camera.fov = 2 * MathUtils.radToDeg(Math.atan(Math.tan(HALF_VIEW) / Math.min(this.camera.aspect, 1)));
     this.camera.updateProjectionMatrix();
   }
 
