@@ -5,10 +5,12 @@
                  waves, every triangle positive
     space        a block of tetrahedra whose surface is held on that of such a map, from its harmonic map
     thin         a sheet of height 1e-2 to 1e-6, stretched or bent by its ends, from rest
+    graded       a sheet whose cells shrink to 1e-2 to 1e-6 of its side toward a corner, from rest: the corner pulled to the
+                 middle, the opposite one pulled away, or an edge held and a corner pulled
     unreachable  a held triangle inverted, a border mirrored, two ends of an edge at one place, or a border on a line
 
 A reachable problem counts as solved if the exit status is 0, every held vertex is within 1e-9 of the target's size and
-every signed size is positive; a thin one if it also took at most 60 iterations; an unreachable one if it ends with 3 or 5
+every signed size is positive; a thin or graded one if it also took at most 60 iterations; an unreachable one if it ends with 3 or 5
 within 2 CPU seconds. Prints the failures and a line per kind. Needs NumPy and SciPy.
 """
 import argparse
@@ -24,12 +26,12 @@ import numpy as np
 import scipy.sparse as sparse
 from scipy.sparse.linalg import spsolve
 
-KINDS = ("plane", "space", "thin", "unreachable")
+KINDS = ("plane", "space", "thin", "unreachable", "graded")
 
 
-def grid(n, height=1.0):
-    """Vertices and triangles of n x n cells over a rectangle of length 1, diagonals alternating."""
-    x = np.linspace(0, 1, n + 1)
+def grid(n, height=1.0, x=None):
+    """Vertices and triangles of n x n cells over a rectangle of length 1, diagonals alternating; lines at x if given."""
+    x = np.linspace(0, 1, n + 1) if x is None else x
     vertices = np.stack(np.meshgrid(x, height * x, indexing="ij"), -1).reshape(-1, 2)
     triangles = []
     for i in range(n):
@@ -108,6 +110,19 @@ def thin(random):
     return vertices, triangles, held, targets, None
 
 
+def graded(random):
+    n, finest = 30, 10.0 ** -random.integers(2, 7)
+    widths = finest ** (np.arange(n)[::-1] / (n - 1))
+    vertices, triangles = grid(n, x=np.append(0, np.cumsum(widths)) / widths.sum())
+    way, last, away = random.integers(3), (n + 1) ** 2 - 1, random.uniform(0.8, 1.4, 2)
+    if way == 0:
+        return vertices, triangles, [0, last], [random.uniform(0.3, 0.6, 2), (1, 1)], None
+    if way == 1:
+        return vertices, triangles, [0, last], [(0, 0), away], None
+    edge = np.arange(n + 1)
+    return vertices, triangles, [*edge, last], [*vertices[edge], away], None
+
+
 def unreachable(random):
     n = random.integers(10, 40)
     vertices, triangles = grid(n)
@@ -159,7 +174,7 @@ def judged(binary, folder, kind, elements, held, targets):
     off = np.abs(x[held] - targets).max() / np.ptp(targets, axis=0).max()
     inverted = int((sizes(x, elements) <= 0).sum())
     wrong = [f"{inverted} inverted"] * bool(inverted) + [f"held off by {off:.1e}"] * bool(off > 1e-9)
-    wrong += [f"{iterations} iterations"] * (kind == "thin" and iterations > 60)
+    wrong += [f"{iterations} iterations"] * (kind in ("thin", "graded") and iterations > 60)
     return ", ".join(wrong), iterations, cpu
 
 
@@ -176,7 +191,7 @@ def main():
         solved, flips, steps, seconds = 0, [], [], []
         for k in range(args.each):
             random = np.random.default_rng([args.seed, KINDS.index(kind), k])
-            problem = {"thin": thin, "unreachable": unreachable}.get(kind, lambda random: reachable(kind, random))(random)
+            problem = {"thin": thin, "graded": graded, "unreachable": unreachable}.get(kind, lambda random: reachable(kind, random))(random)
             vertices, elements, held, targets, start = problem
             with tempfile.TemporaryDirectory() as folder:
                 folder = pathlib.Path(folder)
@@ -188,6 +203,7 @@ def main():
             seconds.append(cpu)
             if wrong:
                 height = f", height {np.ptp(vertices[:, 1]):.0e}" if kind == "thin" else ""
+                height += f", finest {vertices[1, 1]:.0e}" if kind == "graded" else ""
                 print(f"{kind} {k}: {wrong} ({len(elements)} elements, {flips[-1]} inverted at the start{height})", flush=True)
         print(
             f"{kind}: {solved} of {args.each} solved; inverted at the start {np.median(flips):.0f}, at most {max(flips)}; "

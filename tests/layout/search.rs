@@ -8,6 +8,7 @@ use unwrapd_layout::charts::{
 };
 use unwrapd_layout::search::{
     CutProblem, SearchEffort, Terms, charts_at_cones, from_charts, from_surface,
+    maps_at_cones_under_bound,
 };
 use unwrapd_maps::certificate::{Claims, certify};
 use unwrapd_maps::embed::Options;
@@ -361,6 +362,24 @@ fn a_cube_has_eight_cones() {
     }
     // The first slit passes a third corner.
     assert!(energy(&maps_at_cones(&cube, 5)) > 4.01);
+}
+
+/// Cones are as many as the bound needs: a tighter one takes longer seams, and the mean energy keeps it.
+#[test]
+fn cones_are_chosen_to_a_bound() {
+    for mesh in [zoo::sphere(24, 13), zoo::torus(20, 12), zoo::slab(2)] {
+        let surface = surface(&mesh);
+        let mut before = f64::INFINITY;
+        for mean in [4.02, 4.1, 4.5] {
+            let problem = CutProblem::new(&surface, &bound(mean), &Unobserved);
+            let maps = maps_at_cones_under_bound(&problem, &options(), &Unobserved);
+            let maps = maps.expect("components can be opened");
+            check(&surface, &maps);
+            assert!(energy(&maps) <= mean, "{} for {mean}", energy(&maps));
+            assert!(seam(&maps) <= before, "{} at {mean}", seam(&maps));
+            before = seam(&maps);
+        }
+    }
 }
 
 /// Charts that are cut more than they need to be are glued and closed.

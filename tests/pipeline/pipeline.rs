@@ -502,6 +502,49 @@ fn cones_need_one_chart() {
     }
 }
 
+/// A component with many cones is parted where its map would overlap itself, and nothing overlaps.
+#[test]
+fn maps_with_many_cones_do_not_overlap() {
+    for mesh in [zoo::sphere(24, 13), zoo::torus(20, 12), zoo::slab(2)] {
+        let settings = Settings {
+            cutting: Cutting {
+                cones: Some(60),
+                ..settings(Cut::Disk).cutting
+            },
+            ..settings(Cut::Disk)
+        };
+        let measures = measured(&settings, &mesh);
+        assert_eq!(measures.overlaps.overlap_pairs_exact, Some(0));
+    }
+}
+
+/// `cut` disk under a bound slits a component to as many cones as the bound needs.
+#[test]
+fn cones_keep_a_bound() {
+    let mesh = zoo::torus(20, 12);
+    let with = |cut, max_distortion| Settings {
+        cutting: Cutting {
+            max_distortion: Some(max_distortion),
+            ..settings(cut).cutting
+        },
+        ..settings(cut)
+    };
+    let mut before = f64::INFINITY;
+    for most in [4.02, 4.1, 4.5] {
+        let measures = measured(&with(Cut::Disk, most), &mesh);
+        let mean = measures.distortion.sym_dirichlet_mean.expect("faces");
+        assert!(mean <= most, "{mean} for {most}");
+        assert!(measures.seams.seam_length <= before);
+        before = measures.seams.seam_length;
+    }
+    let mut both = with(Cut::Disk, 4.1);
+    both.cutting.cones = Some(4);
+    for wrong in [both, with(Cut::Fast, 4.1)] {
+        let made = unwrap(&mesh.positions, &mesh.triangles, &wrong, &Unobserved);
+        assert!(matches!(made, Err(PipelineError::InvalidOptions(_))));
+    }
+}
+
 #[test]
 fn an_atlas_keeps_its_bound_with_few_charts() {
     let mesh = zoo::sphere(32, 24).with(&zoo::torus(32, 16).moved([4.0, 0.0, 0.0]));

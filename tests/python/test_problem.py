@@ -130,6 +130,65 @@ def test_elements():
     assert "energy_density" not in unwrapd.Problem(vertices, faces, energy="laplacian").elements()
 
 
+def image_of(vertices, faces, x, at):
+    """Where a point of the plane is under the map `x`."""
+    corners = vertices[faces]
+    edges = corners[:, 1:] - corners[:, :1]
+    weights = np.linalg.solve(edges.transpose(0, 2, 1), (at - corners[:, 0])[:, :, None])[:, :, 0]
+    weights = np.column_stack([1 - weights.sum(1), weights])
+    face = np.flatnonzero((weights >= -1e-12).all(1))[0]
+    return weights[face] @ x[faces[face]]
+
+
+def test_a_line_comes_to_the_line_drawn():
+    vertices, faces = grid(17)
+    line, to = [[0.13, 0.2], [0.87, 0.3]], [[0.1, 0.3], [0.5, 0.6], [0.9, 0.4]]
+    solution = unwrapd.Problem(vertices, faces).solve([{"line": line, "to": to}])
+    assert solution.status == "converged" and solution.report["inverted"] == 0
+    for at, end in zip(line, (to[0], to[-1])):
+        np.testing.assert_allclose(image_of(vertices, faces, solution.x, np.array(at)), end, atol=1e-6)
+
+
+def test_lists_outlines_and_boxes_move_as_rigid_bodies():
+    vertices, faces = grid(17)
+    x, y = vertices.T
+    corner = [[0, 0], [0.3, 0], [0.3, 0.15], [0.15, 0.15], [0.15, 0.3], [0, 0.3]]
+    in_corner = ((x < 0.3) & (y < 0.15)) | ((x < 0.15) & (y < 0.3))
+    in_box = (x >= 0.4) & (x <= 0.6) & (y >= 0.4) & (y <= 0.6)
+    in_list = np.flatnonzero((x > 0.8) & (y > 0.8))
+    handles = [
+        {"outline": corner, "to": [0.1, 0.1], "turn": 10},
+        {"low": [0.4, 0.4], "high": [0.6, 0.6], "to": [0.55, 0.5], "turn": 20},
+        {"vertices": in_list.tolist(), "by": [0.2, 0.1]},
+    ]
+    solution = unwrapd.Problem(vertices, faces).solve(handles)
+    assert solution.status == "converged" and solution.report["inverted"] == 0
+    np.testing.assert_allclose(solution.x[in_list], vertices[in_list] + (0.2, 0.1), atol=1e-12)
+    for members, degrees in ((in_corner, 10), (in_box, 20)):
+        turn = np.deg2rad(degrees)
+        rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+        before, after = vertices[members], solution.x[members]
+        assert len(before) > 8
+        np.testing.assert_allclose(after - after[0], (before - before[0]) @ rotation.T, atol=1e-12)
+
+
+def test_a_soft_handle_comes_nearer_with_more_weight():
+    vertices, faces = grid(9)
+    problem = unwrapd.Problem(vertices, faces, units="normalized")
+    held = [{"vertex": 0, "to": [0, 0]}, {"vertex": 8, "to": [1, 0]}]
+    distances = []
+    for weight in (0.1, 1, 10):
+        solution = problem.solve([*held, {"vertex": 80, "to": [1.6, 1.5], "weight": weight}])
+        distances.append(np.linalg.norm(solution.x[80] - (1.6, 1.5)))
+        np.testing.assert_array_equal(solution.x[[0, 8]], [[0, 0], [1, 0]])
+    assert 0.7 > distances[0] > distances[1] > distances[2] > 1e-4
+
+
+def test_arrays_have_nothing_to_select_by():
+    with pytest.raises(unwrapd.InvalidInput, match="needs a file to select from"):
+        unwrapd.Problem(*grid(4)).solve([{"select": "material=Glass", "by": [1, 0]}])
+
+
 def test_every_iterate_is_seen_and_valid():
     problem = unwrapd.Problem(*grid(8), energy="log(s1)^2 + log(s2)^2")
     seen = []

@@ -40,6 +40,21 @@ def test_it_ends_where_a_problem_does():
     np.testing.assert_allclose(session.x, problem.solve(handles, tolerance=1e-12).x, atol=1e-3)
 
 
+def test_lines_lists_and_soft_handles_are_pulled():
+    vertices, faces = grid(17)
+    session = unwrapd.Session(vertices, faces)
+    left = np.flatnonzero(vertices[:, 0] < 0.1)
+    session.add({"vertices": left.tolist()})
+    line = session.add({"line": [[0.5, 0.2], [0.5, 0.8]], "to": [[0.5, 0.2], [0.6, 0.5], [0.5, 0.8]]})
+    session.add({"vertex": 288, "to": (1.2, 1.2), "weight": 0.5})
+    assert session.settle() == "settled" and session.worth["inverted"] == 0
+    np.testing.assert_array_equal(session.x[left], vertices[left])
+    before = np.linalg.norm(session.x[288] - (1.2, 1.2))
+    assert 1e-3 < before < np.linalg.norm(vertices[288] - (1.2, 1.2))
+    session.move(line, (0.7, 0.5))
+    assert session.settle() == "settled" and session.worth["inverted"] == 0
+
+
 def test_undo_and_reset():
     session, corner = held()
     session.settle()

@@ -444,6 +444,40 @@ fn a_problem_file_is_solved_by_both_methods() {
     assert_status(&unknown, 2);
 }
 
+/// Handles of a problem file select by what the file of its mesh says; a mesh of another format has nothing to select by.
+#[test]
+fn handles_of_a_problem_file_select() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let obj = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\no left\nf 1 2 5\nf 1 5 4\no right\nf 2 3 6\nf 2 6 5\n";
+    std::fs::write(path("m.obj"), obj).expect("a mesh");
+    let off = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
+    std::fs::write(path("m.off"), off).expect("a mesh");
+    let solve = |mesh: &str, object: &str| {
+        let problem = format!(
+            r#"{{"mesh": "{mesh}", "energy": "arap", "barrier": "spline",
+                "handles": [{{"select": "object={object}", "by": [0.25, 0.5]}}, {{"vertex": 0, "to": [0, 0]}}]}}"#
+        );
+        std::fs::write(path("p.json"), problem).expect("a problem");
+        let arguments = ["solve", &path("p.json"), "-o", &path("x.txt"), "--force"];
+        unwrapd(&arguments)
+    };
+    assert_status(&solve("m.obj", "right"), 0);
+    let text = std::fs::read_to_string(path("x.txt")).expect("positions");
+    let x = text.split_ascii_whitespace().map(|word| word.parse());
+    let x: Vec<f64> = x.collect::<Result<_, _>>().expect("numbers");
+    assert_eq!([x[4], x[5], x[10], x[11]], [2.25, 0.5, 2.25, 1.5]);
+    assert_eq!([x[0], x[1]], [0.0, 0.0]);
+    for (mesh, object, code) in [
+        ("m.obj", "nowhere", "handle_outside"),
+        ("m.off", "right", "malformed_handles"),
+    ] {
+        let refused = solve(mesh, object);
+        assert_status(&refused, 3);
+        assert!(last_error(&refused).contains(code), "{refused:?}");
+    }
+}
+
 /// A square drawn out to twice its width returns to its shape from there.
 #[test]
 fn without_handles_a_body_is_minimized_from_its_start() {

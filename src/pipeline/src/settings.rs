@@ -187,8 +187,8 @@ options! {
         /// seams.
         ///
         /// A closed component of genus 0 has at least two. A hole that does not lie flat counts as
-        /// one. There are fewer where nothing is distorted. With many, the map often overlaps
-        /// itself.
+        /// one. There are fewer where nothing is distorted. A map that overlaps itself is parted.
+        /// `max_distortion` chooses their number instead.
         pub cones: Option<u32>, in 0..=10_000, value "N";
         /// Treatment of the map of each island with `cut` keep.
         pub kept_maps: KeptMaps = KeptMaps::Optimized;
@@ -198,7 +198,8 @@ options! {
         /// Bound on the mean symmetric Dirichlet energy, in place of the one that `quality` sets.
         /// An isometry has 4.
         ///
-        /// Requires `cut` auto. The report says whether the bound was kept.
+        /// With `cut` disk, components are slit to as many cone singularities as keep it. Requires
+        /// `cut` auto or disk. The report says whether the bound was kept.
         pub max_distortion: Option<f64>, in 4.0001..=1e6, value "E";
         /// Bound on the 99th percentile of the stretch max(σ₁, 1/σ₂), weighted by area. Charts are
         /// cut until they keep it.
@@ -232,13 +233,14 @@ impl Cutting {
         if self.cones.is_some() && self.cut != Cut::Disk {
             return Err("`cones` requires `cut` disk".to_owned());
         }
-        for (name, given) in [
-            ("max_distortion", self.max_distortion),
-            ("max_stretch", self.max_stretch),
-        ] {
-            if given.is_some() && self.cut != Cut::Auto {
-                return Err(format!("`{name}` requires `cut` auto"));
-            }
+        if self.cones.is_some() && self.max_distortion.is_some() {
+            return Err("`cones` and `max_distortion` exclude each other".to_owned());
+        }
+        if self.max_distortion.is_some() && !matches!(self.cut, Cut::Auto | Cut::Disk) {
+            return Err("`max_distortion` requires `cut` auto or disk".to_owned());
+        }
+        if self.max_stretch.is_some() && self.cut != Cut::Auto {
+            return Err("`max_stretch` requires `cut` auto".to_owned());
         }
         Ok(())
     }

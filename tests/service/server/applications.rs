@@ -455,7 +455,7 @@ async fn folded_meshes_are_untangled() {
 }
 
 /// An OBJ of two materials side by side, each a row of 4 cells; the vertices of the right end are red.
-fn two_materials() -> Vec<u8> {
+pub fn two_materials() -> Vec<u8> {
     let vertices = (0..27).map(|v| {
         let (i, j) = (v % 9, v / 9);
         let color = if i == 8 { "1 0 0" } else { "1 1 1" };

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use unwrapd::deform::{Body, Handle, HandleId, Model, Session};
 use unwrapd::mesh::PlanarMesh;
 
-use super::applications::{asset, form};
+use super::applications::{asset, form, two_materials};
 use super::{Server, assert_problem, json as read};
 use crate::cli::unwrapd;
 use crate::harness::live::{Frame, Heard, Live};
@@ -219,7 +219,7 @@ struct Case {
 
 const DRAWING: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="60"><rect width="100" height="60"/></svg>"#;
 
-fn cases() -> [Case; 4] {
+fn cases() -> [Case; 7] {
     [
         Case {
             kind: "deform",
@@ -260,6 +260,36 @@ fn cases() -> [Case; 4] {
                 json!({ "at": [90, 30], "to": [90, 30] }),
             ],
             target: json!([20, 80]),
+        },
+        Case {
+            kind: "deform",
+            options: "{}",
+            file: ("two.obj", two_materials()),
+            handles: [
+                json!({ "select": "material=Left" }),
+                json!({ "select": "color=ff0000", "to": [8, 1], "turn": 20 }),
+            ],
+            target: json!([8.5, 2.5]),
+        },
+        Case {
+            kind: "deform",
+            options: r#"{"triangles": 400}"#,
+            file: ("drawing.svg", DRAWING.into()),
+            handles: [
+                json!({ "outline": [[0, 0], [20, 0], [20, 20], [10, 20], [10, 60], [0, 60]], "to": [10, 30] }),
+                json!({ "line": [[50, 10], [50, 50]], "to": [[50, 10], [55, 30], [50, 50]] }),
+            ],
+            target: json!([60, 40]),
+        },
+        Case {
+            kind: "warp",
+            options: r#"{"fix_border": true, "grid": 20}"#,
+            file: ("spot.png", asset("pictures/spot.png")),
+            handles: [
+                json!({ "line": [[200, 500], [500, 500]], "to": [[200, 500], [500, 450]] }),
+                json!({ "at": [900, 400], "to": [900, 400], "weight": 5 }),
+            ],
+            target: json!([850, 350]),
         },
     ]
 }

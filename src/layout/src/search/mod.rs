@@ -212,6 +212,21 @@ pub fn from_surface(
     (charts, search.counts)
 }
 
+/// Opens each component to a disk, possibly with holes, by slits to as many cone singularities as the bound on the mean energy needs, and
+/// parts the maps that overlap themselves. Returns `None` if a component cannot be opened.
+///
+/// The bound is that of all components together: cones are where they relieve most for the length of their slits. It is exceeded where no
+/// further slit helps. Test: `search::cones_are_chosen_to_a_bound`.
+pub fn maps_at_cones_under_bound(
+    problem: &CutProblem,
+    options: &embed::Options,
+    observer: &dyn Observer,
+) -> Option<Vec<MappedChart>> {
+    let mut search = problem.search(&Terms::default(), options, observer);
+    search.start_from_components(f64::INFINITY)?;
+    Some(search.charts())
+}
+
 /// Glues charts and gives slits back as long as the charts keep a bound on the mean energy; slits charts that break it.
 ///
 /// The search starts from given charts, which hold every face of the surface once, or from its components slit open if these cost less.

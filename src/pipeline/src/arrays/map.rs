@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use std::cmp::Reverse;
 
-use super::plan::{Plan, Refinement, Start, StraightCharts};
+use super::plan::{Cones, Plan, Refinement, Start, StraightCharts};
 use super::seams::Seams;
 use crate::portion::Portion;
 use crate::tracker::Tracker;
@@ -13,6 +13,7 @@ use unwrapd_layout::charts::{
 };
 use unwrapd_layout::search::{
     CutProblem, SearchEffort, Terms, charts_at_cones, from_charts, from_surface,
+    maps_at_cones_under_bound,
 };
 use unwrapd_maps::measure::cost::GIVEN_PAGE;
 use unwrapd_maps::mesh::{CornerUvs, Resolution, Surface};
@@ -46,9 +47,10 @@ pub fn mapped_charts(
     let charts: Vec<Vec<Chart>> = surfaces
         .par_iter()
         .map(|surface| {
-            let at_cones = plan
-                .cones
-                .and_then(|n| charts_at_cones(surface, n as usize));
+            let at_cones = match plan.cones {
+                Some(Cones::Number(n)) => charts_at_cones(surface, n as usize),
+                Some(Cones::UnderBound) | None => None,
+            };
             at_cones.unwrap_or_else(|| charts(surface, plan.cut))
         })
         .collect();
@@ -108,7 +110,8 @@ fn straight(
 }
 
 /// Returns the charts of a surface under the bound, or under a looser one if they exceed the maximum number of
-/// charts; finally one chart per component, if that gives fewer.
+/// charts; finally one chart per component, if that gives fewer. Where the plan has cones, each component is one chart, unless it
+/// overlaps itself.
 ///
 /// The bound on the stretch yields first, then the one on the mean: if the number of charts decides, a bound on the
 /// stretch gives the same charts as none.
@@ -140,7 +143,18 @@ fn under_bound(
         }
         from_charts(problem, cut(), &terms, options, portion).0
     };
+    let whole_components = || -> Vec<MappedChart> {
+        charts(surface, Cut::Disk)
+            .into_iter()
+            .flat_map(|chart| map_chart(chart, options, Folds::Cut, portion))
+            .collect()
+    };
     let mut problem = CutProblem::new(surface, &plan.bound, portion);
+    if plan.cones == Some(Cones::UnderBound) {
+        let at_cones = maps_at_cones_under_bound(&problem, options, portion);
+        let maps = at_cones.unwrap_or_else(whole_components);
+        return straight(maps, &problem, seams, plan, portion);
+    }
     let mut fewest = under(&problem);
     while fewest.len() > most {
         let bound = *problem.bound();
@@ -157,10 +171,7 @@ fn under_bound(
                 });
                 under(&problem)
             }
-            None => charts(surface, Cut::Disk)
-                .into_iter()
-                .flat_map(|chart| map_chart(chart, options, Folds::Cut, portion))
-                .collect(),
+            None => whole_components(),
         };
         if others.len() < fewest.len() {
             fewest = others;

@@ -36,8 +36,8 @@ pub struct Plan {
     pub most_charts: Option<u32>,
     /// `true` if seams are moved off the diagonals of polygons: not where a caller says where to cut.
     pub keeps_polygons: bool,
-    /// Cone singularities to slit each component to.
-    pub cones: Option<u32>,
+    /// Cone singularities to slit each component to; `None` where a component is only opened.
+    pub cones: Option<Cones>,
     /// Treatment of charts that overlap themselves.
     pub folds: Folds,
     /// Price of seams that only make the atlas fuller; `None` if no chart is cut for that.
@@ -54,6 +54,15 @@ pub struct Plan {
     pub is_turned_up: bool,
     /// Bits per coordinate at which the map must stay bijective.
     pub safe_bits: Option<u32>,
+}
+
+/// Choice of the number of cone singularities.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cones {
+    /// This number in each component.
+    Number(u32),
+    /// As many as the bound on the distortion needs.
+    UnderBound,
 }
 
 /// Start of a chart's map.
@@ -117,8 +126,13 @@ impl Plan {
         };
         let has_barrier = mapping.barrier != BarrierKind::None;
         let is_promised = has_barrier && start != Start::Final;
-        // A request for one chart per component excludes further seams.
-        let may_cut_again = is_promised && cut != Cut::Disk;
+        // A request for one chart per component excludes further seams, unless cones make it overlap itself.
+        let cones = match (cutting.cones, cutting.max_distortion) {
+            (Some(n), _) => Some(Cones::Number(n)),
+            (None, Some(_)) if cut == Cut::Disk => Some(Cones::UnderBound),
+            (None, _) => None,
+        };
+        let may_cut_again = is_promised && (cut != Cut::Disk || cones.is_some());
         let seam_price = cutting.seam_weight * cutting.quality.seam_price();
         Ok(Self {
             cut,
@@ -126,10 +140,14 @@ impl Plan {
             embedding: embedding(mapping)?,
             is_promised,
             bound: cutting.bound(),
-            reported_bound: (cut == Cut::Auto).then(|| cutting.bound()),
+            reported_bound: (cut == Cut::Auto || cones == Some(Cones::UnderBound))
+                .then(|| cutting.bound()),
             symmetry: cutting.symmetry,
             refinement: match cut {
                 Cut::Auto if has_barrier => Refinement::UnderBound,
+                Cut::Disk if has_barrier && cones == Some(Cones::UnderBound) => {
+                    Refinement::UnderBound
+                }
                 Cut::Keep | Cut::Seams if may_cut_again => Refinement::GivenBack,
                 _ => Refinement::None,
             },
@@ -141,7 +159,7 @@ impl Plan {
                 Some(Straightening::Selected(_)) => StraightCharts::Selected,
             },
             most_charts: cutting.max_charts,
-            cones: cutting.cones,
+            cones,
             keeps_polygons: is_promised && !matches!(cut, Cut::Keep | Cut::Seams),
             folds: if may_cut_again {
                 Folds::Cut

@@ -2,7 +2,7 @@
 
 use super::caged;
 use super::solution::{DeformReport, Deformed, FrameObserver, solve};
-use super::source::Source;
+use super::source::{Source, selection};
 use crate::arrays::unwrap::in_pool;
 use crate::documents::corner_selection::VertexSelection;
 use crate::observer::Observer;
@@ -11,7 +11,7 @@ use crate::start::{numbers, start};
 use crate::tracker::Tracker;
 use crate::{PipelineError, limits};
 use unwrapd_api::{Limits, START, Stage};
-use unwrapd_deform::{Handle, Problem, ProblemError, ProblemFile, Solution};
+use unwrapd_deform::{Handle, Problem, ProblemError, ProblemFile, ProblemHandles, Solution};
 use unwrapd_files::document::{DocumentError, Upload};
 use unwrapd_files::io::{ElementFormat, Elements};
 use unwrapd_method::solver::Watch;
@@ -74,10 +74,21 @@ pub fn solve_problem(
 
 /// Reads the problem and the mesh that its file names.
 fn read(upload: &Upload, limits: &Limits) -> Result<(Problem, Elements), PipelineError> {
-    let file = ProblemFile::parse(&upload.bytes)?;
+    let mut file = ProblemFile::parse(&upload.bytes)?;
     let format = ElementFormat::of_name(&file.mesh).ok_or(DocumentError::UnknownFormat)?;
     let elements = format.read(member(upload, &file.mesh)?)?;
     limits::check_count(limits, elements.triangles.len() + elements.tets.len())?;
+    if let ProblemHandles::Handles(handles) = &mut file.handles {
+        let selected = || {
+            let mesh = Upload {
+                name: file.mesh.clone(),
+                bytes: member(upload, &file.mesh)?.to_vec(),
+                resources: upload.resources.clone(),
+            };
+            selection(&mesh, &elements)
+        };
+        fill(handles, selected)?;
+    }
     let start = file.initial.as_ref().map(|initial| {
         Ok::<_, PipelineError>(numbers(member(upload, initial)?).ok_or_else(|| {
             ProblemError::Malformed(format!("{initial} is not a list of numbers"))

@@ -18,6 +18,36 @@ use unwrapd_maps::mesh::Surface;
 use unwrapd_method::numerics::square::{Matrix, Square, apply, apply_transposed, times};
 use unwrapd_method::numerics::vec3;
 
+/// Returns the selection of the vertices of a mesh by materials, objects and colors of its file; `None` for formats other
+/// than OBJ.
+pub fn selection(
+    upload: &Upload,
+    elements: &Elements,
+) -> Result<Option<VertexSelection>, PipelineError> {
+    if Format::of_name(&upload.name) != Some(Format::Obj) {
+        return Ok(None);
+    }
+    let faces = (0..elements.triangles.len() as u32).collect();
+    selection_of(Document::read(upload)?, faces, elements).map(Some)
+}
+
+/// Returns the selection of the vertices of a mesh whose triangles are these faces of a document.
+fn selection_of(
+    document: Document,
+    faces: Vec<u32>,
+    elements: &Elements,
+) -> Result<VertexSelection, PipelineError> {
+    let groups = document.groups(GroupBy::Scene);
+    let group = groups.first().ok_or(PipelineError::NoTriangles)?;
+    let primitives = group.primitives.clone();
+    Ok(VertexSelection {
+        corners: CornerSelection::new(document, primitives),
+        faces,
+        triangles: elements.triangles.clone(),
+        carriers: None,
+    })
+}
+
 /// The mesh of a file.
 pub struct Source {
     elements: Elements,
@@ -64,25 +94,12 @@ impl Source {
 
     /// Returns the selection of its vertices by materials, objects and colors; `None` for formats that have none.
     pub fn selection(&self, upload: &Upload) -> Result<Option<VertexSelection>, PipelineError> {
-        let is_obj = Format::of_name(&upload.name) == Some(Format::Obj);
-        let (document, faces) = match &self.document {
-            Some((document, faces)) => (document.clone(), faces.clone()),
-            None if is_obj => {
-                let document = Document::read(upload)?;
-                let n_faces = self.elements.triangles.len() as u32;
-                (document, (0..n_faces).collect())
+        match &self.document {
+            Some((document, faces)) => {
+                selection_of(document.clone(), faces.clone(), &self.elements).map(Some)
             }
-            None => return Ok(None),
-        };
-        let groups = document.groups(GroupBy::Scene);
-        let group = groups.first().ok_or(PipelineError::NoTriangles)?;
-        let primitives = group.primitives.clone();
-        Ok(Some(VertexSelection {
-            corners: CornerSelection::new(document, primitives),
-            faces,
-            triangles: self.elements.triangles.clone(),
-            carriers: None,
-        }))
+            None => selection(upload, &self.elements),
+        }
     }
 
     /// Returns the default format of the result: the input's if possible, else OBJ.

@@ -113,7 +113,6 @@ fn check(options: &Options) -> Result<(), String> {
     )?;
     let of_auto = [
         ("max_charts", options.cutting.max_charts.is_some()),
-        ("max_distortion", options.cutting.max_distortion.is_some()),
         ("max_stretch", options.cutting.max_stretch.is_some()),
         (
             "seam_weight",
@@ -143,6 +142,13 @@ fn check(options: &Options) -> Result<(), String> {
             "cones",
             "`cut` disk",
             options.cutting.cones.is_some() && options.cutting.cut != Cut::Disk,
+        ),
+        (
+            "max_distortion",
+            "`cut` auto or disk, and a `barrier`",
+            options.cutting.max_distortion.is_some()
+                && !(matches!(options.cutting.cut, Cut::Auto | Cut::Disk)
+                    && options.mapping.barrier != BarrierKind::None),
         ),
         (
             "quality",
