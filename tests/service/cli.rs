@@ -464,7 +464,7 @@ fn handles_of_a_problem_file_select() {
     };
     assert_status(&solve("m.obj", "right"), 0);
     let text = std::fs::read_to_string(path("x.txt")).expect("positions");
-    let x = text.split_ascii_whitespace().map(|word| word.parse());
+    let x = text.split_ascii_whitespace().map(str::parse);
     let x: Vec<f64> = x.collect::<Result<_, _>>().expect("numbers");
     assert_eq!([x[4], x[5], x[10], x[11]], [2.25, 0.5, 2.25, 1.5]);
     assert_eq!([x[0], x[1]], [0.0, 0.0]);
