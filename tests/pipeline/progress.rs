@@ -3,10 +3,11 @@
 use std::sync::Mutex;
 use std::time::Duration;
 
-use unwrapd_layout::charts::Cut;
+use unwrapd_layout::charts::{Cut, MapUnderway, Symmetry};
 use unwrapd_method::solver::Control;
 use unwrapd_pipeline::{Cutting, Observer, Progress, Settings, Stage, Unobserved, Workers, unwrap};
 
+use crate::places;
 use crate::zoo::{self, Mesh};
 
 /// Writes down every report; its clock stands still.
@@ -14,6 +15,10 @@ use crate::zoo::{self, Mesh};
 struct Recorder(Mutex<Vec<Progress>>);
 
 impl Observer for Recorder {
+    fn map(&self, _: usize, map: &MapUnderway) {
+        // Where overlaps are pushed apart, a part of the chart is solved for, which is no map of the chart.
+        assert_eq!(map.x.len(), 2 * map.chart.disk.n_vertices);
+    }
     fn progress(&self, progress: &Progress) -> Control {
         let mut reports = self.0.lock().expect("no reporter panics");
         reports.push(progress.clone());
@@ -98,5 +103,23 @@ fn charts_are_counted_while_they_are_mapped() {
         let packing = reports.iter().find(|report| report.stage == Stage::Pack);
         let packing = packing.expect("charts are packed");
         assert!(0 < packing.chart && packing.chart == packing.charts);
+    }
+}
+
+/// Spot overlaps itself on the way, and is pushed apart.
+#[test]
+fn maps_that_are_shown_are_whole() {
+    let bytes = std::fs::read(places::asset("spot.ply")).expect("an asset");
+    let mesh = unwrapd_files::io::ply::read(&bytes).expect("a mesh");
+    for symmetry in [Symmetry::Auto, Symmetry::Off] {
+        let settings = Settings {
+            cutting: Cutting {
+                symmetry,
+                ..Cutting::default()
+            },
+            ..Settings::default()
+        };
+        let recorder = Recorder::default();
+        unwrap(&mesh.positions, &mesh.triangles, &settings, &recorder).expect("it unwraps");
     }
 }

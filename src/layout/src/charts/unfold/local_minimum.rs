@@ -5,7 +5,7 @@ use crate::charts::Chart;
 use unwrapd_maps::embed::{self, RestShapes, map_term};
 use unwrapd_maps::mesh::VertexFaces;
 use unwrapd_method::energy::{Positional, RestShape};
-use unwrapd_method::solver::{Objective, Settings, Watch, minimize};
+use unwrapd_method::solver::{Iterate, Objective, Settings, Watch, minimize};
 
 /// What a constraint pulls with, in the unit of the energy per area of a mean triangle.
 const STRENGTH: f64 = 10.0;
@@ -85,7 +85,9 @@ impl<'a> Local<'a> {
             ..self.options.solver
         };
         let mut x = start.into_flattened();
-        let summary = minimize(&mut objective, &mut x, &settings, self.watch);
+        // A watch of the chart is not shown what is a part of it.
+        let watch = |iterate: &Iterate| self.watch.iterate(iterate);
+        let summary = minimize(&mut objective, &mut x, &settings, &watch);
         let places: &[[f64; 2]] = x.as_chunks().0;
         if summary.iterations == 0 || !embed::is_positive(&around.triangles, places) {
             return Vec::new();
