@@ -8,10 +8,13 @@ export const hasErrors = true;
 /** A fact of the running job. */
 const fact = (page, name) => page.evaluate((name) => [...document.querySelectorAll(".progress-panel dt")].find(({ textContent }) => textContent === name).nextSibling.textContent, name);
 
-export async function run(page, url) {
+export async function run(page, url, before) {
   // A renderer in software that turns a large surface leaves no time for anything else.
   await page.emulateMedia({ reducedMotion: "reduce" });
   await page.goto(url);
+  await page.waitForSelector(".progress-panel");
+  // The job has waited behind another one for the page.
+  await page.request.delete(new URL(before, url).href);
   await page.waitForSelector("#relaxing:not(:empty)");
   // Stages that the page has seen end have full bars, and the one under way a part of one.
   const bars = await page.evaluate(() => [...document.querySelectorAll(".stages progress")].map(({ value }) => value));
