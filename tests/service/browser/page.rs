@@ -252,19 +252,6 @@ async fn a_chart_on_another_is_red_while_it_is_pulled() {
     });
 }
 
-#[tokio::test(flavor = "multi_thread")]
-async fn a_page_finds_a_service_again_that_was_killed() {
-    let mut server = Server::with(&[("UNWRAPD_WORKERS", "1")]);
-    // It keeps the worker busy until the page is there.
-    let before = server.submit(meshes::hills(800), "").await;
-    let before = before["links"]["self"].as_str().expect("a link").to_owned();
-    let job = server.submit(meshes::hills(300), "cut=disk").await;
-    let url = with_job(&server, &job);
-    tokio::task::block_in_place(|| {
-        scenario_of_a_lost_server("killed", &url, &[before], &mut server);
-    });
-}
-
 #[tokio::test]
 async fn fifty_jobs_take_no_more_memory_than_a_few() {
     let server = Server::start();
