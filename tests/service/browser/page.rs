@@ -253,7 +253,7 @@ async fn a_chart_on_another_is_red_while_it_is_pulled() {
 }
 
 #[tokio::test]
-async fn fifty_jobs_take_no_more_memory_than_a_few() {
+async fn many_jobs_take_no_more_memory_than_a_few() {
     let server = Server::start();
     let mut ids = Vec::new();
     // Spot has no materials, the fox has a texture and bones.
@@ -262,7 +262,7 @@ async fn fifty_jobs_take_no_more_memory_than_a_few() {
         let (_, id) = url.split_once("#job=").expect("a job");
         ids.push(id.to_owned());
     }
-    scenario("fifty", server.url("/"), &ids).await;
+    scenario("many", server.url("/"), &ids).await;
 }
 
 #[tokio::test]

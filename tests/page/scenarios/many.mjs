@@ -1,8 +1,9 @@
-// What fifty opened jobs leave on the GPU is no more than what the first ones do.
+// What many opened jobs leave on the GPU is no more than what the first ones do.
 import assert from "node:assert/strict";
 import { fill, settled, shown } from "../look.mjs";
 
-const OPENED = 50;
+// Three rounds of three jobs and four fills.
+const OPENED = 36;
 /** Fills one after the other, so that each meets each job. */
 const FILLS = ["charts", "material", "padding", "heat"];
 
