@@ -85,7 +85,7 @@ impl<'a> Local<'a> {
             ..self.options.solver
         };
         let mut x = start.into_flattened();
-        // A watch of the chart is not shown what is a part of it.
+        // The watch is of the whole chart: pass on iterates, but not the positions of this part.
         let watch = |iterate: &Iterate| self.watch.iterate(iterate);
         let summary = minimize(&mut objective, &mut x, &settings, &watch);
         let places: &[[f64; 2]] = x.as_chunks().0;
