@@ -7,13 +7,12 @@ mod constraints;
 mod disks;
 #[path = "../support/few_vertices.rs"]
 mod few_vertices;
-mod given_back;
+mod gluing;
 #[path = "../support/layouts.rs"]
 #[allow(dead_code)]
 mod layouts;
 mod live;
 mod needles;
-mod not_given_back;
 mod optima;
 mod own_axes;
 mod pages;

@@ -4,9 +4,7 @@ use std::sync::Arc;
 
 use crate::zoo::{self, Mesh};
 use std::collections::BTreeMap;
-use unwrapd_layout::charts::{
-    Bound, Bounded, MappedChart, Symmetry, Unobserved, charts_under_bound,
-};
+use unwrapd_layout::charts::{Bound, Bounded, MappedChart, Symmetry, Unobserved};
 use unwrapd_layout::search::{CutProblem, SearchEffort, Terms, from_surface};
 use unwrapd_maps::certificate::{Claims, certify};
 use unwrapd_maps::embed::{Options, rest_shapes};
@@ -66,11 +64,17 @@ fn unfolded_with(
     from_surface(&problem, &terms, &options(), Symmetry::Auto, &Unobserved).0
 }
 
-/// Charts of a surface that does not consist of panels, by the cutters.
+/// Charts of a surface that does not consist of panels. The fill of the page does not count.
 fn cut(mesh: &Mesh) -> Vec<MappedChart> {
     let surface = surface(mesh);
-    assert!(!CutProblem::new(&surface, &BOUND, &Unobserved).is_paneled());
-    charts_under_bound(&surface, &BOUND, &options(), Symmetry::Auto, &Unobserved)
+    let problem = CutProblem::new(&surface, &BOUND, &Unobserved);
+    assert!(!problem.is_paneled());
+    let n = surface.triangles.len();
+    let terms = Terms {
+        effort: SearchEffort::for_surface(n, n),
+        fill_weight: 0.0,
+    };
+    from_surface(&problem, &terms, &options(), Symmetry::Auto, &Unobserved).0
 }
 
 /// For each side of a triangle its length in the map over that on the surface.

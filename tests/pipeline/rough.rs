@@ -5,9 +5,8 @@ use std::sync::Arc;
 use crate::zoo::{self, Mesh};
 use std::fmt::Write as _;
 use unwrapd_files::document::Upload;
-use unwrapd_layout::charts::{
-    Bound, Bounded, Symmetry, Unobserved, charts_under_bound, smoothed_where_rough,
-};
+use unwrapd_layout::charts::{Bound, Bounded, Symmetry, Unobserved, smoothed_where_rough};
+use unwrapd_layout::search::{CutProblem, Terms, from_surface};
 use unwrapd_maps::embed::{self, Options};
 use unwrapd_maps::mesh::Surface;
 use unwrapd_method::energy::SymmetricDirichlet;
@@ -74,7 +73,9 @@ fn a_rough_sheet_stays_whole_unless_its_own_distortion_is_bounded() {
             density: Arc::new(SymmetricDirichlet),
             ..Options::default()
         };
-        charts_under_bound(&surface, &bound, &options, Symmetry::Auto, &Unobserved)
+        let problem = CutProblem::new(&surface, &bound, &Unobserved);
+        let terms = Terms::default();
+        from_surface(&problem, &terms, &options, Symmetry::Auto, &Unobserved).0
     };
     let [whole, cut] = [Bounded::Smoothed, Bounded::Surface].map(charts);
     assert_eq!(whole.len(), 1);

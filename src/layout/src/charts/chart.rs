@@ -86,7 +86,7 @@ impl Chart {
     }
 
     /// The surface's halfedge that is one of the chart's.
-    pub(super) fn surface_halfedge(&self, h: u32) -> u32 {
+    pub(crate) fn surface_halfedge(&self, h: u32) -> u32 {
         let corner = |h: u32| self.corners[h as usize / 3][h as usize % 3];
         let [from, to] = [h, next(h)].map(corner);
         if next(from) == to { from } else { to }

@@ -49,11 +49,22 @@ pub fn map_chart(
     folds: Folds,
     observer: &dyn Observer,
 ) -> Vec<MappedChart> {
-    let is_promised = options.barrier != BarrierKind::None;
+    map_chart_by(chart, &|_| options.clone(), folds, observer)
+}
+
+/// Like [`map_chart`], with the options of each part.
+pub(crate) fn map_chart_by(
+    chart: Chart,
+    options_of: &dyn Fn(&Chart) -> embed::Options,
+    folds: Folds,
+    observer: &dyn Observer,
+) -> Vec<MappedChart> {
     let mut mapped = Vec::new();
     let mut pending = vec![chart];
     while let Some(chart) = pending.pop() {
         let begin = observer.elapsed();
+        let options = &options_of(&chart);
+        let is_promised = options.barrier != BarrierKind::None;
         let faces = chart.disk.triangles.len();
         let watching = Watching {
             chart: &chart,
@@ -71,7 +82,7 @@ pub fn map_chart(
             seconds: 0.0,
         };
         let unfolded = match folds {
-            Folds::Cut => whole.free_of_overlaps(options, observer),
+            Folds::Cut => whole.free_of_overlaps(options_of, observer),
             Folds::Keep => vec![whole],
         };
         let seconds = observer.elapsed().saturating_sub(begin).as_secs_f64();
@@ -114,12 +125,14 @@ pub fn map_chart_from(
                 seconds: 0.0,
             };
             let seconds = observer.elapsed().saturating_sub(begin).as_secs_f64();
-            (whole.free_of_overlaps(options, observer).into_iter())
-                .map(|part| MappedChart {
-                    seconds,
-                    ..part.facing_front()
-                })
-                .collect()
+            (whole
+                .free_of_overlaps(&|_| options.clone(), observer)
+                .into_iter())
+            .map(|part| MappedChart {
+                seconds,
+                ..part.facing_front()
+            })
+            .collect()
         }
         _ => map_chart(chart, options, Folds::Cut, observer),
     }
@@ -148,7 +161,11 @@ impl MappedChart {
 
     /// The chart pushed apart where it overlaps itself, or else the parts into which the cheapest seams divide it, each optimized
     /// again from where it lies, which counts if it does not fold over itself anew.
-    fn free_of_overlaps(mut self, options: &embed::Options, observer: &dyn Observer) -> Vec<Self> {
+    pub(crate) fn free_of_overlaps(
+        mut self,
+        options_of: &dyn Fn(&Chart) -> embed::Options,
+        observer: &dyn Observer,
+    ) -> Vec<Self> {
         let pairs = overlaps(&self.chart.disk, &self.embedding.uv);
         if pairs.is_empty() {
             return vec![self];
@@ -156,7 +173,8 @@ impl MappedChart {
         let faces = self.chart.disk.triangles.len();
         // What is pushed is a part of the chart: it is counted, but it is no map of it.
         let watch = |iterate: &Iterate| observer.iterate(faces, iterate);
-        let (uv, pairs) = pushed_apart(&self.chart, &self.embedding.uv, pairs, options, &watch);
+        let options = options_of(&self.chart);
+        let (uv, pairs) = pushed_apart(&self.chart, &self.embedding.uv, pairs, &options, &watch);
         self.embedding.uv = uv;
         if pairs.is_empty() {
             return vec![self];
@@ -165,7 +183,8 @@ impl MappedChart {
             .into_iter()
             .map(|part| {
                 if part.chart.disk.triangles.len() < RELAXED {
-                    part.relaxed(options, observer)
+                    let options = options_of(&part.chart);
+                    part.relaxed(&options, observer)
                 } else {
                     part
                 }

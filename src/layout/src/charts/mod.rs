@@ -5,20 +5,13 @@
 //!
 //! [`Cut::Disk`] makes one chart of every component: each manifold piece is opened to a disk, and the pieces that
 //! non-manifold edges part are joined again at single edges. [`Cut::Fast`] divides the surface into regions whose normals lie
-//! within a cone, so that each chart is nearly flat and hardly ever overlaps itself. [`Cut::Auto`] opens every piece to a disk
-//! and goes on from there ([`charts_under_bound`]): one sparse solve predicts where a disk would be distorted most, a slit is
-//! cut to that place, and so on until a map may be expected to keep the bound; then it is mapped, which decides.
-//! A closed piece is tried so with openings between several pairs of vertices far apart, and gets the one whose seams promise to be
-//! shortest: where it is opened follows from its shape and, but for ties, not from the order of its vertices.
-//! With a large disk a chart of fewer faces goes that way first, and the disk is parted as that is.
-//!
-//! Surfaces that consist of panels, such as machine parts and sheet metal, are not cut here but by the [search](crate::search).
+//! within a cone, so that each chart is nearly flat and hardly ever overlaps itself. [`Cut::Auto`] is the task of the
+//! [search](crate::search).
 //!
 //! Rough surfaces, such as noisy scans, are cut as what they are samples of (`rough`): smoothed; then the true surface is mapped.
 //!
 //! With [`Symmetry::Auto`] it looks for the plane in which a surface is its own mirror image, exactly or nearly, and cuts both
-//! sides alike (`symmetry`): openings run in the plane, slits come in pairs, and what is parted or given back on one side is on
-//! the other.
+//! sides alike (`symmetry`): openings run in the plane, slits come in pairs, and both sides are parted alike.
 //!
 //! [`Cut::Keep`] and [`Cut::Seams`] take the pieces into which a caller has cut the surface.
 //!
@@ -31,28 +24,25 @@
 //! chart is cut along the cheapest seam that parts two of its sheets, a minimum cut of the dual graph, as often as it takes. Where
 //! floating point finds no valid map, a chart is cut into [`halves()`].
 //!
-//! A seam that is cut because of one overlap is often not needed along all of its length: at last small charts are laid back on
-//! their neighbors wherever they find room along a common border ([`given_back()`]).
-//!
 //! Where a caller asks for it, borders that are straight on the surface, or nearly so, become straight along the axes ([`straightened`]).
 //!
 //! Where a mesh has polygons, seams along their diagonals are moved to their sides at last ([`with_whole_polygons`]).
 
-mod bound;
 mod chart;
 mod compact;
 mod crease;
+mod distortion;
 mod facets;
-mod give_back;
 mod halves;
 mod mapped;
 mod min_cut;
-mod motion;
 mod needles;
 mod observer;
 mod opened;
 mod parts;
 mod polygons;
+mod quality;
+mod redrawn;
 mod regions;
 mod rough;
 mod straighten;
@@ -60,12 +50,8 @@ mod symmetry;
 mod unfold;
 mod up;
 
-pub use bound::few_charts::{Symmetry, charts_under_bound};
-pub use bound::quality::{Bound, Bounded, Quality};
-pub use bound::redrawn::parted_along;
 pub use chart::{Chart, Cut};
 pub use compact::split::{Split, parted_alike, seam_length};
-pub use give_back::given_back::given_back;
 pub use halves::halves;
 pub use mapped::{Folds, MappedChart, map_chart, map_chart_from};
 pub use min_cut::min_cut;
@@ -73,14 +59,21 @@ pub use needles::with_needles;
 pub use observer::{MapUnderway, Observer, Unobserved};
 pub use opened::charts;
 pub use polygons::{PolygonHome, with_whole_polygons};
+pub use quality::{Bound, Bounded, Quality};
+pub use redrawn::parted_along;
 pub use rough::smoothed_where_rough;
 pub use straighten::{Straighten, Straightened, straightened};
+pub use symmetry::Symmetry;
 pub use symmetry::plane::MirrorPlane;
 
-pub(crate) use observer::Watching;
+pub(crate) use mapped::map_chart_by;
+pub(crate) use observer::{Planning, Watching};
+pub(crate) use symmetry::opening::ways_to_open_alike;
 pub(crate) use symmetry::search::mirror_plane;
+pub(crate) use symmetry::sheet_mirror::SheetMirror;
+pub(crate) use symmetry::way::{Way, along, vertices_at};
 pub(crate) use unfold::overlaps::overlaps;
-pub(crate) use unfold::push_apart::{all_pushed_apart, pushed_apart};
+pub(crate) use unfold::push_apart::all_pushed_apart;
 
 #[cfg(doc)]
 use unwrapd_maps::mesh::Disk;

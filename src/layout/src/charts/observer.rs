@@ -88,7 +88,7 @@ impl Watch for Watching<'_> {
 }
 
 /// Says of the maps of a simplification that they are plans for the surface.
-pub(super) struct Planning<'a> {
+pub(crate) struct Planning<'a> {
     pub observer: &'a dyn Observer,
     /// A face of the surface for each of the simplification.
     pub faces: Vec<u32>,

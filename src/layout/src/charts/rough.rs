@@ -118,7 +118,7 @@ fn curvatures_of(surface: &Surface, is_on_border: &[bool]) -> Vec<Curvature> {
 
 impl MappedChart {
     /// A chart of the smoothed surface as one of the surface itself, mapped from where it lies.
-    pub(super) fn on(
+    pub(crate) fn on(
         mut self,
         surface: &Surface,
         options: &embed::Options,

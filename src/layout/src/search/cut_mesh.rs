@@ -1,6 +1,7 @@
 //! Faces of a surface, cut open along slits.
 
 use super::metric::Metric;
+use std::sync::Arc;
 use unwrapd_maps::cut::{Neighbors, Sheet, distances_until};
 use unwrapd_maps::mesh::{CUT, next};
 
@@ -8,7 +9,7 @@ use unwrapd_maps::mesh::{CUT, next};
 pub struct CutMesh<'a> {
     pub metric: &'a Metric<'a>,
     /// Faces in ascending order.
-    pub faces: &'a [u32],
+    pub faces: Arc<[u32]>,
     /// The faces with their gluing, numbered in that order.
     pub sheet: Sheet,
     /// For each vertex its vertex of the surface.
@@ -23,7 +24,8 @@ pub struct CutMesh<'a> {
 
 impl<'a> CutMesh<'a> {
     /// Glues faces, given in ascending order, except along `slits`, edges in ascending order.
-    pub fn new(metric: &'a Metric, faces: &'a [u32], slits: &[u32]) -> Self {
+    pub fn new(metric: &'a Metric, faces: impl Into<Arc<[u32]>>, slits: &[u32]) -> Self {
+        let faces = faces.into();
         let local = |h: u32| {
             let t = metric.twin[h as usize];
             if t == CUT || slits.binary_search(&metric.edge[h as usize]).is_ok() {

@@ -36,7 +36,7 @@ impl Laid {
     /// Lays the maps of two nets together where an opening of their union allows it.
     pub fn new(metric: &Metric, [a, b]: [&Net; 2], contact: &[u32], opening: &Opening) -> Self {
         let faces = union(&a.faces, &b.faces);
-        let mesh = CutMesh::new(metric, &faces, &opening.slits);
+        let mesh = CutMesh::new(metric, faces, &opening.slits);
         let laid = laid_together(&mesh, [a, b], contact, opening);
         let Some((places, chart)) = laid.zip(chart(&mesh)) else {
             return Self::Start(UnionStart::Own);

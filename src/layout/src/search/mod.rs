@@ -1,4 +1,4 @@
-//! One search for where to cut a surface, which improves what the cutters of [`charts`](crate::charts) make, or starts anew.
+//! One search for where to cut a surface.
 //!
 //! A *net* is a set of faces with its slits and its map. The search lowers
 //!
@@ -31,13 +31,17 @@
 //! Lengths and whatever else decides are rounded, so that parts that are alike tie, and the order of the faces decides between them,
 //! not the rounding of their vertices ([`tied`](unwrapd_method::numerics::ties::tied)): pose, scale and digits seldom change the cut.
 //!
-//! Surfaces that consist of panels are divided from scratch ([`from_surface`]): from facets, joined while they stay nearly developable
-//! (`pieces`) and glued at strict prices, or from components slit open (`slitting`), whichever cost less. Others start from the charts of
-//! the cutters, or from components slit open ([`from_charts`]).
+//! The search starts from components that are slit open until their maps keep the bound (`slitting`). Surfaces that consist of panels,
+//! and those on which slits do not lead below the bound, also start from facets, joined while they stay nearly developable (`pieces`)
+//! and glued at strict prices; the search goes on from whichever costs less.
+//!
+//! A surface that is its own mirror image is slit and parted alike on both sides (`alike`). Large components are slit as a simplification
+//! of them is (`simplified`).
 //!
 //! Every face is in exactly one net, and every net is a disk, possibly with holes, whose map has neither flips nor overlaps.
-//! Not done here: cuts for fill, symmetry.
+//! Not done here: cuts for fill. Moves do not see symmetry.
 
+mod alike;
 mod cut_mesh;
 mod effort;
 mod laid_together;
@@ -50,23 +54,26 @@ mod panels;
 mod pieces;
 mod prediction;
 mod sets;
+mod simplified;
 mod slitting;
 mod state;
 
 use crate::charts::{
-    Bound, Bounded, MappedChart, Observer, Symmetry, mirror_plane, smoothed_where_rough,
+    Bound, Bounded, Cut, Folds, MappedChart, Observer, Symmetry, charts, map_chart, mirror_plane,
+    smoothed_where_rough,
 };
 pub use effort::SearchEffort;
 use metric::Metric;
 use net::Net;
 use nets::Nets;
-use panels::{PANEL_FACTOR, panels};
+use rayon::prelude::*;
 pub use slitting::charts_at_cones;
 pub use state::Counts;
 use state::Search;
 use unwrapd_maps::embed;
 use unwrapd_maps::measure::cost::GIVEN_PAGE;
 use unwrapd_maps::mesh::Surface;
+use unwrapd_method::numerics::vec3::{area_vector, norm};
 use unwrapd_method::solver::Control;
 
 /// Prices of the excess, one pass each, from pieces: they make nets of what is flat. With two prices, 64 and 8, the sum of the costs of
@@ -75,13 +82,12 @@ const STRICT: [f64; 3] = [128.0, 32.0, 8.0];
 /// Prices of the excess from charts: they spend the bound. A third price of 0.5 leaves each less of the effort: seams and charts cost
 /// 5 % more on ten machine parts and game assets (`cargo bench -p unwrapd-layout --bench search`).
 const LOOSE: [f64; 2] = [8.0, 2.0];
-/// Share of the area from which on a surface consists of panels, and is searched without the cutters. Of 27 machine parts and game assets
+/// Share of the area from which on a surface consists of panels, and is divided from facets as well. Of 27 machine parts and game assets
 /// 18 have .65 or more, one .34 and eight at most .20.
 const PANELED: f64 = 0.3;
 
-/// Maps of each face that the start from components slit open may take: 1 to 6 on 27 surfaces (`cargo bench -p unwrapd-layout --bench
-/// search`).
-const OF_START: f64 = 7.0;
+/// Newton steps at most on a chart of needles, which go on for hundreds without gaining a shape.
+const STEPS_FOR_NEEDLES: usize = 10;
 
 /// Terms of a search.
 #[derive(Clone, Copy, Debug)]
@@ -103,13 +109,11 @@ impl Default for Terms {
 
 /// A surface to divide under a bound on the distortion, measured.
 pub struct CutProblem<'a> {
-    /// Lengths, angles and areas; the excess on panels counts [several times](PANEL_FACTOR).
+    /// Lengths, angles and areas; the excess on panels counts [several times](panels::PANEL_FACTOR).
     metric: Metric<'a>,
     bound: Bound,
     /// Share of the area that lies on panels.
     panels: f64,
-    /// `true` if the bound is on the surface itself, not on what a rough one is a sample of, whose distortion the search does not measure.
-    is_measured: bool,
 }
 
 impl<'a> CutProblem<'a> {
@@ -117,20 +121,10 @@ impl<'a> CutProblem<'a> {
     pub fn new(surface: &'a Surface, bound: &Bound, observer: &dyn Observer) -> Self {
         let mut metric = Metric::new(surface);
         metric.most_stretch = bound.stretch.unwrap_or(f64::INFINITY);
-        let mut panels = 0.0;
-        let is_panel = self::panels(&metric, observer);
-        let faces = metric.weight.iter_mut().zip(&metric.area).zip(is_panel);
-        for ((weight, area), _) in faces.filter(|(_, is_panel)| *is_panel) {
-            *weight *= PANEL_FACTOR;
-            panels += area;
-        }
-        let is_of_smoothed =
-            bound.of == Bounded::Smoothed && smoothed_where_rough(surface).is_some();
         Self {
+            panels: metric.weigh_panels(observer),
             metric,
             bound: *bound,
-            panels,
-            is_measured: !is_of_smoothed,
         }
     }
 
@@ -157,9 +151,9 @@ impl<'a> CutProblem<'a> {
         faces.map(factor).collect()
     }
 
-    /// Returns whether the surface consists of panels, which [`from_surface`] keeps straight and no cutter does.
+    /// Returns whether the surface consists of panels.
     pub fn is_paneled(&self) -> bool {
-        self.is_measured && self.panels >= PANELED
+        self.panels >= PANELED
     }
 
     fn search<'b>(
@@ -172,11 +166,13 @@ impl<'a> CutProblem<'a> {
     }
 }
 
-/// Divides a surface into charts that keep a bound on the mean energy, from pieces that are nearly developable or from components slit
-/// open.
+/// Divides a surface into charts that keep a bound on the mean energy, from components slit open or from pieces that are nearly
+/// developable.
 ///
 /// Returns the charts and the work that it took. The bound is exceeded only if both starts exceed it: then nothing is glued that adds to
-/// the excess. Symmetry does not decide where the search cuts; the charts carry the mirror plane, so that later cuts are made alike.
+/// the excess. Components are slit open alike on both sides of a mirror plane, and parted alike, unless they consist of panels; the moves
+/// do not see the plane. The charts carry it, so that later cuts are made alike. A surface of needles, of which no map keeps the shape, is opened
+/// to disks. Rough surfaces are cut as what they are samples of, and then mapped.
 pub fn from_surface(
     problem: &CutProblem,
     terms: &Terms,
@@ -184,29 +180,84 @@ pub fn from_surface(
     symmetry: Symmetry,
     observer: &dyn Observer,
 ) -> (Vec<MappedChart>, Counts) {
-    let metric = &problem.metric;
+    let CutProblem { metric, bound, .. } = problem;
+    let surface = metric.surface;
+    if bound.of == Bounded::Smoothed
+        && let Some(smooth) = smoothed_where_rough(surface)
+    {
+        let bound = Bound {
+            of: Bounded::Surface,
+            ..*bound
+        };
+        let problem = CutProblem::new(&smooth, &bound, observer);
+        let (charts, counts) = from_surface(&problem, terms, options, symmetry, observer);
+        let charts =
+            (charts.into_par_iter().with_max_len(1)).map(|map| map.on(surface, options, observer));
+        return (charts.collect(), counts);
+    }
     let mut search = problem.search(terms, options, observer);
-    let most = terms.effort.most;
-    search.start_from_pieces(STRICT[0]);
-    search.run(&STRICT, most / 2.0);
-    let cost = search.cost();
-    let pieces = std::mem::replace(&mut search.nets, Nets::new(metric, Vec::new()));
-    search.counts.effort.most = f64::midpoint(search.counts.effort.spent(), most);
-    if is_slit_open_below(&mut search, cost) {
-        search.run(&LOOSE, most);
-    } else {
-        search.nets = pieces;
-        search.run(&LOOSE[1..], most);
+    if is_mostly_needles(surface) {
+        let mut options = options.clone();
+        options.solver.max_iterations = STEPS_FOR_NEEDLES;
+        let charts = charts(surface, Cut::Disk).into_par_iter().with_max_len(1);
+        let maps = charts.flat_map_iter(|chart| map_chart(chart, &options, Folds::Cut, observer));
+        return (maps.collect(), search.counts);
     }
     let mirror = match symmetry {
-        Symmetry::Auto => mirror_plane(metric.surface),
+        Symmetry::Auto => mirror_plane(surface),
         Symmetry::Off => None,
     };
+    if problem.is_paneled() && observer.control() == Control::Continue {
+        let most = terms.effort.most;
+        search.start_from_pieces(STRICT[0]);
+        search.run(&STRICT, most / 2.0);
+        let cost = search.cost();
+        let pieces = std::mem::replace(&mut search.nets, Nets::new(metric, Vec::new()));
+        search.counts.effort.most = f64::midpoint(search.counts.effort.spent(), most);
+        if is_slit_open_below(&mut search, cost) {
+            search.run(&LOOSE, most);
+        } else {
+            search.nets = pieces;
+            search.run(&LOOSE[1..], most);
+        }
+    } else {
+        search.mirror = mirror;
+        search.counts.effort.most = f64::INFINITY;
+        let is_open = search.start_from_components(f64::INFINITY).is_some();
+        search.counts.effort.most = terms.effort.most;
+        if !is_open || search.is_broken() && observer.control() == Control::Continue {
+            let open = std::mem::replace(&mut search.nets, Nets::new(metric, Vec::new()));
+            search.start_from_pieces(STRICT[0]);
+            search.run(&STRICT, terms.effort.most);
+            let cost = search.cost_unweighted();
+            let pieces = std::mem::replace(&mut search.nets, open);
+            if !is_open || cost < search.cost_unweighted() {
+                search.nets = pieces;
+            }
+        }
+        search.spend_rest();
+    }
     let mut charts = search.charts();
     for map in &mut charts {
         map.chart.mirror = mirror;
     }
     (charts, search.counts)
+}
+
+/// Returns whether most of the area lies in triangles whose shape no map keeps: slits do not lessen that.
+fn is_mostly_needles(surface: &Surface) -> bool {
+    let (mut area, mut of_needles) = (0.0, 0.0);
+    for face in 0..surface.triangles.len() {
+        let [a, b, c] = surface.corners(face);
+        let doubled = norm(area_vector(a, b, c));
+        area += doubled;
+        of_needles += if embed::is_needle([a, b, c]) {
+            doubled
+        } else {
+            0.0
+        };
+    }
+    of_needles > 0.5 * area
 }
 
 /// Opens each component to a disk, possibly with holes, by slits to as many cone singularities as the bound on the mean energy needs, and
@@ -224,58 +275,26 @@ pub fn maps_at_cones_under_bound(
     Some(search.charts())
 }
 
-/// Glues charts and gives slits back as long as the charts keep a bound on the mean energy; slits charts that break it.
+/// Glues charts and gives slits back as long as that adds to the excess no more than the bound leaves.
 ///
-/// The search starts from given charts, which hold every face of the surface once, or from its components slit open if these cost less.
-/// Charts that are cut alike on both sides of a plane do not give way, and neither do those of a surface so large that the other start may
-/// take all of the effort. The search takes the share of the effort that panels have of the area, or the square of the share that the
-/// charts leave of the bound: 17 of 18 organic surfaces, which left less than half of it, gained nothing (`cargo bench -p unwrapd-layout
-/// --bench search`). It takes all of the effort if the charts break the bound.
-///
-/// Returns the charts, and the work that the search took. If the given charts kept the bound, so do those returned. Charts that no move
-/// changed stay as they are; so do all if the stretch is bounded.
+/// Returns the charts, and the work that the search took. Charts that no move changed stay as they are; so do all if the stretch is
+/// bounded. Edges along which the surface is cut stay cut.
 pub fn from_charts(
     problem: &CutProblem,
-    mut charts: Vec<MappedChart>,
+    charts: Vec<MappedChart>,
     terms: &Terms,
     options: &embed::Options,
     observer: &dyn Observer,
 ) -> (Vec<MappedChart>, Counts) {
-    if problem.bound.stretch.is_some() || observer.control() == Control::Finish {
-        return (charts, Counts::new(terms.effort.share(0.0)));
-    }
-    let CutProblem {
-        metric,
-        bound,
-        panels,
-        is_measured,
-    } = problem;
+    let CutProblem { metric, bound, .. } = problem;
     let mut search = problem.search(terms, options, observer);
-    search.nets = nets_of(metric, &charts);
-    let is_tried = *is_measured
-        && !is_symmetric(&charts)
-        && terms.effort.most >= OF_START * metric.corners.len() as f64;
-    if is_tried {
-        let others = search.cost_unweighted();
-        if is_slit_open_below(&mut search, others) {
-            charts = search.charts();
-        }
-        search.nets = nets_of(metric, &charts);
-    }
-    let unspent = 1.0 - search.nets.excess() / bound.budget().max(f64::MIN_POSITIVE);
-    let is_broken = *is_measured && search.cost_unweighted()[0] > 0.0;
-    let share = if is_broken {
-        1.0
-    } else {
-        panels.max(unspent.max(0.0).powi(2))
-    };
-    let effort = search.counts.effort.left().share(share);
-    let smallest = charts.iter().map(|map| map.chart.corners.len()).min();
-    if smallest.is_none_or(|faces| effort.most < faces as f64) {
+    if bound.stretch.is_some() || observer.control() == Control::Finish {
         return (charts, search.counts);
     }
-    let spent = search.counts.effort.spent();
-    search.run(&LOOSE, spent + effort.most);
+    let nets = charts.iter().map(|chart| Net::of_chart(metric, chart));
+    search.nets = Nets::new(metric, nets.collect());
+    search.budget = search.budget.max(search.nets.excess());
+    search.run(&LOOSE, terms.effort.most);
     // Nets are numbered in the order of the charts; changed ones have later numbers.
     let found = search.nets.list.iter();
     let found = found.filter_map(|(&number, net)| match charts.get(number as usize) {
@@ -291,23 +310,4 @@ fn is_slit_open_below(search: &mut Search, others: [f64; 2]) -> bool {
     let [beyond, cost] = others;
     let most = if beyond > 0.0 { f64::INFINITY } else { cost };
     search.start_from_components(most).is_some() && search.cost_unweighted() < others
-}
-
-/// Returns charts as nets.
-fn nets_of<'a>(metric: &'a Metric<'a>, charts: &[MappedChart]) -> Nets<'a> {
-    let nets = charts.iter().map(|chart| Net::of_chart(metric, chart));
-    Nets::new(metric, nets.collect())
-}
-
-/// Returns whether most of the area of some charts is cut alike on both sides of a plane.
-fn is_symmetric(charts: &[MappedChart]) -> bool {
-    let (mut symmetric, mut area) = (0.0, 0.0);
-    for map in charts {
-        let own = map.surface_area();
-        area += own;
-        if map.chart.mirror.is_some() {
-            symmetric += own;
-        }
-    }
-    symmetric > 0.5 * area
 }

@@ -148,7 +148,7 @@ impl Net {
 
     /// Returns the net as a chart with its map.
     pub fn mapped_chart(&self, metric: &Metric) -> Option<MappedChart> {
-        let mesh = CutMesh::new(metric, &self.faces, &self.slits);
+        let mesh = CutMesh::new(metric, &*self.faces, &self.slits);
         let chart = chart(&mesh)?;
         let mut uv = vec![[0.0; 2]; chart.disk.n_vertices];
         for (triangle, corners) in chart.disk.triangles.iter().zip(&self.uv) {

@@ -205,12 +205,13 @@ fn planned(
     effort: &mut SearchEffort,
 ) -> Option<SlitPlan> {
     let (faces, mut slits) = (&start.faces, start.slits.clone());
-    let mut mesh = CutMesh::new(metric, faces, &slits);
+    let mut mesh = CutMesh::new(metric, faces.clone(), &slits);
     if mesh.loops.is_empty() {
         let first = first_slit(&mesh)?;
         slits = union(&slits, &mesh.edges(&first));
-        mesh = CutMesh::new(metric, faces, &slits);
+        mesh = CutMesh::new(metric, faces.clone(), &slits);
     }
+    let mesh = Arc::new(mesh);
     effort.predicted_faces += faces.len();
     let mut prediction = Prediction::new(&mesh)?;
     let neighbors = Neighbors::new(&mesh.sheet);
@@ -309,7 +310,7 @@ pub fn paths(mesh: &CutMesh, neighbors: &Neighbors, prediction: &Prediction) -> 
     if let Some(hole) = prediction.charged_hole() {
         let mut add = |from: &[u32]| {
             let from = from.iter().copied();
-            found.extend(mesh.path(neighbors, from, |v| prediction.is_grounded(v)));
+            found.extend(mesh.path(neighbors, from, |v| prediction.is_outside(v)));
         };
         add(hole);
         if mesh.loops.len() == 2 {
@@ -317,8 +318,8 @@ pub fn paths(mesh: &CutMesh, neighbors: &Neighbors, prediction: &Prediction) -> 
         }
     }
     if let Some(peak) = prediction.peak() {
-        let grounded = (0..mesh.welded.len() as u32).filter(|&v| prediction.is_grounded(v));
-        found.extend(mesh.path(neighbors, grounded, |v| v == peak));
+        let outside = (0..mesh.welded.len() as u32).filter(|&v| prediction.is_outside(v));
+        found.extend(mesh.path(neighbors, outside, |v| v == peak));
     }
     found.retain(|path| !path.is_empty());
     found.sort_unstable();

@@ -16,6 +16,7 @@
 //! Schröder, Pinkall 2008, Conformal Equivalence of Triangle Meshes.
 
 use super::cut_mesh::CutMesh;
+use std::sync::Arc;
 use unwrapd_maps::mesh::CUT;
 use unwrapd_method::numerics::cholesky::{Cholesky, SymmetricPattern};
 use unwrapd_method::numerics::ties::tied;
@@ -37,7 +38,7 @@ const GROUND: f64 = 1e9;
 /// A slit from the outer boundary grounds the vertices along it: u = 0 there. All slits of a mesh share the analysis of its
 /// Laplacian; grounded vertices get a diagonal so large that they stay at 0.
 pub struct Prediction<'a> {
-    mesh: &'a CutMesh<'a>,
+    mesh: Arc<CutMesh<'a>>,
     /// For each vertex its node; 0 is the outer boundary, every other loop is one node, and [saddles](is_saddle) on the outer one have their own.
     node: Vec<u32>,
     /// For each boundary loop its node.
@@ -49,6 +50,8 @@ pub struct Prediction<'a> {
     /// Laplacian without node 0; `None` if nothing is charged.
     laplacian: Option<Laplacian>,
     is_grounded: Vec<bool>,
+    /// For each vertex whether it is on the outer boundary.
+    is_outer: Vec<bool>,
     /// Logarithm of the scale at each node.
     log_scale: Vec<f64>,
     excess: f64,
@@ -75,13 +78,15 @@ pub struct Grounded {
 
 impl<'a> Prediction<'a> {
     /// Predicts the distortion of a cut mesh; `None` if it is no disk.
-    pub fn new(mesh: &'a CutMesh<'a>) -> Option<Self> {
+    pub fn new(mesh: &Arc<CutMesh<'a>>) -> Option<Self> {
         if !mesh.is_disk() {
             return None;
         }
         let outer = outer_loop(mesh);
         let mut is_charged = mesh.is_inner.clone();
+        let mut is_outer = vec![false; mesh.welded.len()];
         for &v in &mesh.loops[outer] {
+            is_outer[v as usize] = true;
             is_charged[v as usize] = is_saddle(mesh, v as usize);
         }
         let mut node = vec![0; mesh.welded.len()];
@@ -108,12 +113,13 @@ impl<'a> Prediction<'a> {
         let mut is_grounded = vec![false; charge.len()];
         is_grounded[0] = true;
         let mut prediction = Self {
-            mesh,
+            mesh: mesh.clone(),
             node,
             node_of_loop,
             weight,
             laplacian: None,
             is_grounded,
+            is_outer,
             log_scale: vec![0.0; charge.len()],
             excess: 0.0,
             charge,
@@ -128,8 +134,8 @@ impl<'a> Prediction<'a> {
     }
 
     /// Returns whether a vertex is on the outer boundary, or a slit from it.
-    pub fn is_grounded(&self, vertex: u32) -> bool {
-        self.is_grounded[self.node[vertex as usize] as usize]
+    pub fn is_outside(&self, vertex: u32) -> bool {
+        self.is_outer[vertex as usize] || self.is_grounded[self.node[vertex as usize] as usize]
     }
 
     /// Returns the inner vertex whose scale differs most from that of the boundary; the first of equals.
@@ -141,7 +147,7 @@ impl<'a> Prediction<'a> {
     }
 
     /// Returns the hole that fails most to close.
-    pub fn charged_hole(&self) -> Option<&'a [u32]> {
+    pub fn charged_hole(&self) -> Option<&[u32]> {
         let scale = |k: usize| {
             let node = self.node_of_loop[k] as usize;
             let is_charged = !self.is_grounded[node] && self.charge[node].abs() > UNCHARGED;

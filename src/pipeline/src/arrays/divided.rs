@@ -31,7 +31,7 @@ struct Origin {
 fn prepared(surface: &Surface, plan: &Plan) -> (Surface, Origin) {
     let without = match plan.refinement {
         Refinement::UnderBound => surface.without_needles(),
-        Refinement::GivenBack | Refinement::None => None,
+        Refinement::Glued | Refinement::None => None,
     };
     let Some((surface, triangles, steps)) = without else {
         let halfedge = canonical_order(surface);

@@ -8,8 +8,8 @@ use super::seams::Seams;
 use crate::portion::Portion;
 use crate::tracker::Tracker;
 use unwrapd_layout::charts::{
-    Bound, Chart, Cut, Folds, MappedChart, Observer, Quality, Straighten, Straightened, charts,
-    charts_under_bound, given_back, map_chart, map_chart_from, straightened,
+    Bound, Chart, Cut, Folds, MappedChart, Quality, Straighten, Straightened, charts, map_chart,
+    map_chart_from, straightened,
 };
 use unwrapd_layout::search::{
     CutProblem, SearchEffort, Terms, charts_at_cones, from_charts, from_surface,
@@ -17,7 +17,6 @@ use unwrapd_layout::search::{
 };
 use unwrapd_maps::measure::cost::GIVEN_PAGE;
 use unwrapd_maps::mesh::{CornerUvs, Resolution, Surface};
-use unwrapd_method::solver::Control;
 
 /// Texture of UVs for which no texture is known.
 const SQUARE: Resolution = Resolution::square(1);
@@ -59,20 +58,25 @@ pub fn mapped_charts(
         let texture = seams[mesh].texture.unwrap_or(SQUARE);
         Some(uvs_of(chart, &surfaces[mesh], (uvs.flatten()?, texture)))
     };
+    let n_charts: Vec<usize> = charts.iter().map(Vec::len).collect();
     let maps = map_charts(charts, kept, plan, tracker);
+    let of_all = surfaces.iter().map(|s| s.triangles.len()).sum();
     (surfaces.par_iter().zip(maps).enumerate())
-        .map(|(index, (surface, maps))| {
-            let portion = Portion::of_chart(tracker, index, surface.triangles.len());
-            let maps = match plan.refinement {
-                Refinement::GivenBack => {
-                    given_back(surface, maps, &plan.bound, &plan.embedding, &portion)
-                }
-                Refinement::UnderBound | Refinement::None => maps,
-            };
-            if plan.straighten == StraightCharts::None {
+        .map(|(index, (surface, mut maps))| {
+            let faces = surface.triangles.len();
+            let portion = Portion::of_chart(tracker, index, faces);
+            let is_glued = plan.refinement == Refinement::Glued && maps.len() > n_charts[index];
+            if !is_glued && plan.straighten == StraightCharts::None {
                 return maps;
             }
             let problem = CutProblem::new(surface, &plan.bound, &portion);
+            if is_glued {
+                let terms = Terms {
+                    effort: SearchEffort::for_surface(faces, of_all),
+                    ..Terms::default()
+                };
+                maps = from_charts(&problem, maps, &terms, &plan.embedding, &portion).0;
+            }
             straight(maps, &problem, seams[index], plan, &portion)
         })
         .collect()
@@ -130,18 +134,7 @@ fn under_bound(
             effort,
             fill_weight: GIVEN_PAGE / seam_price,
         };
-        let cut = || charts_under_bound(surface, problem.bound(), options, plan.symmetry, portion);
-        if portion.control() == Control::Finish {
-            return cut();
-        }
-        if problem.is_paneled() {
-            return from_surface(problem, &terms, options, plan.symmetry, portion).0;
-        }
-        if seam_price < 1.0 {
-            // Cheap seams are there to fill the page, and the search would close them.
-            return cut();
-        }
-        from_charts(problem, cut(), &terms, options, portion).0
+        from_surface(problem, &terms, options, plan.symmetry, portion).0
     };
     let whole_components = || -> Vec<MappedChart> {
         charts(surface, Cut::Disk)
@@ -221,7 +214,7 @@ fn map_charts(
         .collect();
     let n_faces = |(_, chart): &(_, Chart)| chart.disk.triangles.len();
     let faces: usize = queue.iter().map(n_faces).sum();
-    let passes = 1 + usize::from(plan.refinement == Refinement::GivenBack);
+    let passes = 1 + usize::from(plan.refinement == Refinement::Glued);
     tracker.charts(queue.len(), passes * faces);
     queue.sort_by_key(|entry| (Reverse(n_faces(entry)), entry.0));
     let mut mapped: Vec<((usize, usize), Vec<MappedChart>)> = queue

@@ -1,4 +1,4 @@
-//! The plan of a run: what is cut, mapped, given back, compacted and packed.
+//! The plan of a run: what is cut, mapped, glued, compacted and packed.
 
 use super::compact::CutTerms;
 use super::settings::Settings;
@@ -79,10 +79,10 @@ pub enum Start {
 /// Treatment of charts after their first cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refinement {
-    /// They are cut until they keep the bound, and small ones are given back to their neighbors.
+    /// They are cut until they keep the bound, and glued where that pays.
     UnderBound,
-    /// Small ones are given back once all are mapped.
-    GivenBack,
+    /// The parts of those that overlapped are glued again where that pays.
+    Glued,
     /// Nothing.
     None,
 }
@@ -148,7 +148,7 @@ impl Plan {
                 Cut::Disk if has_barrier && cones == Some(Cones::UnderBound) => {
                     Refinement::UnderBound
                 }
-                Cut::Keep | Cut::Seams if may_cut_again => Refinement::GivenBack,
+                Cut::Keep | Cut::Seams if may_cut_again => Refinement::Glued,
                 _ => Refinement::None,
             },
             straighten: match &settings.straighten {

@@ -18,7 +18,7 @@
 mod sides;
 
 use super::Bound;
-use super::bound::distortion::{stretched_area, weighted_excess};
+use super::distortion::{stretched_area, weighted_excess};
 use super::mapped::MappedChart;
 use super::observer::{Observer, Watching};
 use super::unfold::overlaps::overlaps;

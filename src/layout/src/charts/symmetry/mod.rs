@@ -16,3 +16,17 @@ pub mod sheet_mirror;
 pub mod way;
 
 mod cloud;
+
+use serde::{Deserialize, Serialize};
+
+/// Whether surfaces that are their own mirror images are cut alike on both sides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]
+pub enum Symmetry {
+    /// Find a mirror plane, exact or near, and cut alike on both sides of it.
+    #[default]
+    Auto,
+    /// Cut without regard to mirror planes.
+    Off,
+}

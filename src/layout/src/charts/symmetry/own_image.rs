@@ -1,7 +1,6 @@
 //! Whether triangles are the mirror image of others, or of themselves.
 
 use super::plane::MirrorPlane;
-use std::array::from_fn;
 use unwrapd_method::numerics::vec3::{area_vector, distance, norm};
 
 /// What the areas on both sides of the plane, or of a chart and its image, may differ by as a share.
@@ -32,14 +31,6 @@ impl Moment {
         self.area += area;
         for k in 0..3 {
             self.weighted[k] += area * (a[k] + b[k] + c[k]) / 3.0;
-        }
-    }
-
-    /// Of both together.
-    pub fn and(&self, other: &Self) -> Self {
-        Self {
-            area: self.area + other.area,
-            weighted: from_fn(|k| self.weighted[k] + other.weighted[k]),
         }
     }
 

@@ -9,9 +9,6 @@ use unwrapd_maps::cut::Sheet;
 const VERTEX_IN_PLANE: f64 = 0.5;
 const WAY_IN_PLANE: f64 = 0.25;
 
-/// What an edge on the other side of the plane costs, as a multiple.
-const BEYOND: f64 = 8.0;
-
 /// The plane in which a sheet is its own mirror image.
 #[derive(Clone, Copy, Debug)]
 pub struct SheetMirror {
@@ -46,20 +43,5 @@ impl SheetMirror {
     pub fn within(&self, sheet: &Sheet, cost: impl Fn(u32) -> f64) -> impl Fn(u32) -> f64 {
         let unit = WAY_IN_PLANE * self.edge;
         move |h| cost(h) * (1.0 + (self.plane.height(sheet.middle(h)) / unit).powi(2))
-    }
-
-    /// Costs of edges for ways that stay on the side of the plane on which a vertex lies.
-    pub fn beside(
-        &self,
-        sheet: &Sheet,
-        vertex: u32,
-        cost: impl Fn(u32) -> f64,
-    ) -> impl Fn(u32) -> f64 {
-        let side = self.plane.height(sheet.positions[vertex as usize]).signum();
-        let least = -VERTEX_IN_PLANE * self.edge;
-        move |h| {
-            let is_beyond = side * self.plane.height(sheet.middle(h)) < least;
-            cost(h) * if is_beyond { BEYOND } else { 1.0 }
-        }
     }
 }

@@ -39,11 +39,6 @@ impl Way {
         })
     }
 
-    /// Where it begins.
-    pub fn start(&self) -> u32 {
-        self.vertices[self.vertices.len() - 1]
-    }
-
     /// Its goal.
     pub fn end(&self) -> u32 {
         self.vertices[0]
@@ -52,12 +47,6 @@ impl Way {
     /// Its length.
     pub fn length(&self, sheet: &Sheet) -> f64 {
         self.edges.iter().map(|&h| sheet.length(h)).sum()
-    }
-
-    /// Its positions, from the goal on.
-    pub fn positions(&self, sheet: &Sheet) -> Vec<[f64; 3]> {
-        let positions = self.vertices.iter();
-        positions.map(|&v| sheet.positions[v as usize]).collect()
     }
 }
 

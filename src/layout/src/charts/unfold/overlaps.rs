@@ -21,14 +21,6 @@ pub fn overlaps(disk: &Disk, uv: &[[f64; 2]]) -> Vec<[u32; 2]> {
     overlaps_among(disk, uv, &faces, |_| true)
 }
 
-/// The same where none of the faces but these overlaps another.
-pub fn overlaps_with(disk: &Disk, uv: &[[f64; 2]], these: &[u32]) -> Vec<[u32; 2]> {
-    if is_simple(disk, uv) {
-        return Vec::new();
-    }
-    overlaps_after(disk, uv, &[], these)
-}
-
 /// Whether the boundary loops are simple and apart and all but one of them turn clockwise.
 fn is_simple(disk: &Disk, uv: &[[f64; 2]]) -> bool {
     let loops = disk.boundary_in(uv);

@@ -10,12 +10,8 @@ use unwrapd_method::numerics::vec2::{doubled_area, sub};
 /// others, which a seam elsewhere does not change.
 const LARGEST: f64 = 1e6;
 
-/// By how much the symmetric Dirichlet energy of a map exceeds its minimum of 4 per area, summed over the area, and that area.
-pub fn excess_and_area(mapped: &MappedChart, rest: &RestShapes) -> [f64; 2] {
-    summed(mapped, rest, |_, sigma| excess(sigma))
-}
-
-/// Like [`excess_and_area`], with a factor by which the excess of each face counts.
+/// Returns by how much the symmetric Dirichlet energy of a map exceeds its minimum of 4, times a factor of each face, summed over the
+/// area; and that area.
 pub fn weighted_excess(mapped: &MappedChart, rest: &RestShapes, factors: &[f64]) -> [f64; 2] {
     summed(mapped, rest, |face, sigma| factors[face] * excess(sigma))
 }

@@ -1,19 +1,20 @@
-//! Charts laid back on their neighbors.
+//! Charts glued to their neighbors.
 
 use crate::zoo::{self, Mesh};
 use unwrapd_layout::charts::{
-    Bound, Bounded, Chart, Cut, Folds, MappedChart, Unobserved, charts, given_back, map_chart,
+    Bound, Bounded, Chart, Cut, Folds, MappedChart, Unobserved, charts, map_chart,
 };
+use unwrapd_layout::search::{CutProblem, Terms, from_charts};
 use unwrapd_maps::certificate::{Claims, certify};
 use unwrapd_maps::embed::Options;
 use unwrapd_maps::mesh::Surface;
 
-pub fn surface(mesh: &Mesh) -> Surface {
+fn surface(mesh: &Mesh) -> Surface {
     Surface::new(&mesh.positions, &mesh.triangles).expect("a usable mesh")
 }
 
 /// The charts of a surface cut where faces differ in what `region` says of the middle.
-pub fn regions(surface: &Surface, region: impl Fn([f64; 3]) -> usize) -> Vec<Chart> {
+fn regions(surface: &Surface, region: impl Fn([f64; 3]) -> usize) -> Vec<Chart> {
     let of_face: Vec<usize> = (0..surface.triangles.len())
         .map(|t| {
             let corners = surface.corners(t);
@@ -25,19 +26,19 @@ pub fn regions(surface: &Surface, region: impl Fn([f64; 3]) -> usize) -> Vec<Cha
     charts(&cut, Cut::Seams)
 }
 
-pub fn mapped(chart: Chart) -> MappedChart {
+fn mapped(chart: Chart) -> MappedChart {
     let parts = map_chart(chart, &options(), Folds::Cut, &Unobserved);
     <[MappedChart; 1]>::try_from(parts).expect("a chart that does not fold")[0].clone()
 }
 
-pub fn options() -> Options {
+fn options() -> Options {
     Options {
         density: std::sync::Arc::new(unwrapd_method::energy::SymmetricDirichlet),
         ..Options::default()
     }
 }
 
-pub fn balanced() -> Bound {
+fn balanced() -> Bound {
     Bound {
         mean: 4.1,
         stretch: None,
@@ -45,11 +46,13 @@ pub fn balanced() -> Bound {
     }
 }
 
-/// What is given back of some charts of a surface; each triangle must be there once and no chart overlap itself.
+/// Glues charts of a surface; each triangle must be there once and no chart overlap itself.
 fn checked(surface: &Surface, maps: Vec<MappedChart>, bound: &Bound) -> Vec<MappedChart> {
-    let given = given_back(surface, maps, bound, &options(), &Unobserved);
+    let problem = CutProblem::new(surface, bound, &Unobserved);
+    let terms = Terms::default();
+    let (glued, _) = from_charts(&problem, maps, &terms, &options(), &Unobserved);
     let mut uvs = vec![None; surface.triangles.len()];
-    for (number, map) in given.iter().enumerate() {
+    for (number, map) in glued.iter().enumerate() {
         for (triangle, corners) in map.chart.disk.triangles.iter().zip(&map.chart.corners) {
             let of_face = uvs[corners[0] as usize / 3].get_or_insert([[0.0; 2]; 3]);
             for (&v, &corner) in triangle.iter().zip(corners) {
@@ -67,8 +70,8 @@ fn checked(surface: &Surface, maps: Vec<MappedChart>, bound: &Bound) -> Vec<Mapp
         &Claims::default(),
     );
     assert!(certificate.is_bijective());
-    assert_eq!(certificate.charts, given.len());
-    given
+    assert_eq!(certificate.charts, glued.len());
+    glued
 }
 
 /// A flat square of 24 by 24 cells.
@@ -90,14 +93,14 @@ fn parts_of_a_plane_become_one_chart() {
         _ => 0,
     });
     assert_eq!(charts.len(), 3);
-    let given = checked(
+    let glued = checked(
         &surface,
         charts.into_iter().map(mapped).collect(),
         &balanced(),
     );
-    assert_eq!(given.len(), 1);
-    assert_eq!(given[0].chart.disk.loops.len(), 1, "nothing is left open");
-    assert!((given[0].area() - 576.0).abs() < 1e-3);
+    assert_eq!(glued.len(), 1);
+    assert_eq!(glued[0].chart.disk.loops.len(), 1, "nothing is left open");
+    assert!((glued[0].area() - 576.0).abs() < 1e-3);
 }
 
 #[test]
@@ -110,9 +113,9 @@ fn a_chart_seen_from_behind_is_turned_over() {
     for p in &mut maps[0].embedding.uv {
         p[0] = -p[0];
     }
-    let given = checked(&surface, maps, &balanced());
-    assert_eq!(given.len(), 1);
-    let chart = &given[0].chart;
+    let glued = checked(&surface, maps, &balanced());
+    assert_eq!(glued.len(), 1);
+    let chart = &glued[0].chart;
     assert!((0..chart.corners.len()).all(|t| chart.is_wound_as_surface(t)));
 }
 
@@ -188,34 +191,12 @@ fn what_would_cover_its_neighbor_stays_apart() {
     assert_eq!(checked(&surface, maps, &balanced()).len(), 2);
 }
 
-/// A square of 6 by 6 cells with a notch of 2 by 4, and a flap that stands on the bottom of the notch and is wider above, by such a
-/// share for each cell.
-pub fn flap_and_notch(widening: f32) -> Mesh {
-    let mut mesh = zoo::grid(6, 6);
-    let positions = mesh.positions.clone();
-    let is_of_flap = |t: &[u32; 3]| {
-        let of_mean = |k: usize| t.iter().map(|&v| positions[v as usize][k]).sum::<f32>() / 3.0;
-        (2.0..4.0).contains(&of_mean(0)) && of_mean(1) > 2.0
-    };
-    let (mut flap, mut plane) = (mesh.clone(), mesh.clone());
-    flap.triangles.retain(is_of_flap);
-    plane.triangles.retain(|t| !is_of_flap(t));
-    for p in &mut plane.positions {
-        p[2] = 0.0;
-    }
-    for p in &mut flap.positions {
-        let height = p[1] - 2.0;
-        *p = [3.0 + (p[0] - 3.0) * (1.0 + widening * height), 2.0, height];
-    }
-    mesh = plane.with(&flap);
-    mesh
-}
-
+/// Both halves of a hilly square become one chart where the bound leaves room for that.
 #[test]
-fn the_bound_decides_what_is_given_back() {
-    let surface = surface(&flap_and_notch(0.02));
-    let given = |bound: &Bound| {
-        let charts = regions(&surface, |[_, _, z]| usize::from(z > 0.0));
+fn the_bound_decides_what_is_glued() {
+    let surface = surface(&zoo::grid(24, 24));
+    let glued = |bound: &Bound| {
+        let charts = regions(&surface, |[x, ..]| usize::from(x < 12.0));
         checked(&surface, charts.into_iter().map(mapped).collect(), bound).len()
     };
     let bound = |mean, stretch| Bound {
@@ -223,7 +204,7 @@ fn the_bound_decides_what_is_given_back() {
         stretch,
         ..balanced()
     };
-    assert_eq!(given(&bound(4.1, None)), 1, "the flap is squeezed");
-    assert_eq!(given(&bound(4.000_01, None)), 2);
-    assert_eq!(given(&bound(4.1, Some(1.001))), 2);
+    assert_eq!(glued(&bound(4.1, None)), 1);
+    assert_eq!(glued(&bound(4.000_01, None)), 2);
+    assert_eq!(glued(&bound(4.1, Some(1.001))), 2);
 }

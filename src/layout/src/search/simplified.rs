@@ -1,9 +1,12 @@
 //! A chart with fewer faces, on which its seams are planned.
 
-use crate::charts::Chart;
+use crate::charts::{Chart, MappedChart, parted_along};
 use std::collections::HashSet;
 use unwrapd_maps::embed::Simplification;
 use unwrapd_maps::mesh::{CUT, Surface, VertexFaces, next};
+
+/// Distance that a seam of the simplification may move when it is drawn on the chart, in edges of the simplification. Not tuned.
+const EDGES_OFF: usize = 2;
 
 /// A chart with fewer faces.
 pub struct Simplified {
@@ -13,7 +16,11 @@ pub struct Simplified {
 }
 
 impl Simplified {
-    /// A chart of about so many vertices, if that is fewer and its shape allows it.
+    /// Faces of a component from which on its seams are planned on a simplification, with so many vertices. Not tuned.
+    pub const LARGE: usize = 50_000;
+    pub const VERTICES: usize = 10_000;
+
+    /// Creates a chart of about `n_vertices` vertices; `None` if that is not fewer, or its shape does not allow it.
     pub fn new(chart: &Chart, n_vertices: usize) -> Option<Self> {
         let simplification = Simplification::new(&chart.disk, &chart.positions, n_vertices)?;
         let disk = simplification.disk.clone();
@@ -31,7 +38,7 @@ impl Simplified {
         })
     }
 
-    /// For each of its triangles a face of the surface at one of its vertices, another one for each as far as there are.
+    /// Returns for each of its triangles a face of the surface at one of its vertices, another one for each as far as there are.
     pub fn faces(&self, chart: &Chart) -> Vec<u32> {
         let around = VertexFaces::new(chart.positions.len(), &chart.disk.triangles);
         let mut taken = HashSet::new();
@@ -48,7 +55,7 @@ impl Simplified {
             .collect()
     }
 
-    /// The chart as a surface, cut where the chart ends. None if a triangle has two corners in one place.
+    /// Returns the chart as a surface, cut where the chart ends; `None` if a triangle has two corners in one place.
     pub fn surface(&self) -> Option<Surface> {
         let disk = &self.chart.disk;
         let mut surface = Surface::new(&self.chart.positions, &disk.triangles).ok()?;
@@ -57,9 +64,17 @@ impl Simplified {
         (surface.triangles.len() == disk.triangles.len()).then_some(surface)
     }
 
-    /// The edges of the chart it is made of, each as its two vertices in ascending order, that part that as this is parted into some
-    /// charts.
-    pub fn carried_back<'a>(&self, parts: impl Iterator<Item = &'a Chart>) -> HashSet<[u32; 2]> {
+    /// Divides the chart that this is a simplification of like the simplification, along the cheapest paths near its seams.
+    pub fn parts_as(&self, chart: &Chart, charts: &[MappedChart]) -> Vec<Chart> {
+        let edges = self.carried_back(charts.iter().map(|map| &map.chart));
+        let share = chart.positions.len() as f64 / self.chart.positions.len() as f64;
+        let an_edge = share.sqrt().ceil() as usize;
+        parted_along(chart, |edge| edges.contains(&edge), EDGES_OFF * an_edge)
+    }
+
+    /// Returns the edges of the chart that this is a simplification of, each as its two vertices in ascending order, at which that is cut
+    /// like this.
+    fn carried_back<'a>(&self, parts: impl Iterator<Item = &'a Chart>) -> HashSet<[u32; 2]> {
         let twin = self.chart.disk.twins();
         let mut is_glued = vec![false; twin.len()];
         for part in parts {
