@@ -120,6 +120,14 @@ pub(super) struct UnwrapArgs {
         help = help_of::<Options>("seams")
     )]
     seams: Option<PathBuf>,
+    #[arg(
+        long,
+        value_name = "V,…",
+        value_delimiter = ',',
+        help_heading = "Where to cut",
+        help = help_of::<Options>("cone_vertices")
+    )]
+    cone_vertices: Option<Vec<u32>>,
     #[command(flatten)]
     options: Options,
 }
@@ -141,6 +149,7 @@ impl UnwrapArgs {
         let output = &self.target.output;
         Ok(Options {
             seams: self.seams.as_deref().map(given_seams).transpose()?,
+            cone_vertices: self.cone_vertices.clone(),
             format: output_format(output, self.files.format)?,
             caller: caller(output),
             ..self.options.clone()

@@ -38,6 +38,7 @@ export interface AtlasOptions extends Layout {
   cut?: 'auto' | 'fast' | 'disk' | 'keep' | 'seams';
   quality?: 'smooth' | 'balanced' | 'few';
   cones?: number;
+  coneVertices?: number[];
   keptMaps?: 'optimized' | 'as-given';
   maxCharts?: number;
   maxDistortion?: number;

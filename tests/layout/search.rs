@@ -7,7 +7,7 @@ use unwrapd_layout::charts::{
     Bound, Bounded, Cut, Folds, MappedChart, Symmetry, Unobserved, charts, map_chart, seam_length,
 };
 use unwrapd_layout::search::{
-    CutProblem, SearchEffort, Terms, charts_at_cones, from_charts, from_surface,
+    CutProblem, SearchEffort, Terms, charts_at_cones, charts_through, from_charts, from_surface,
     maps_at_cones_under_bound,
 };
 use unwrapd_maps::certificate::{Claims, certify};
@@ -312,6 +312,59 @@ fn a_cube_has_eight_cones() {
     }
     // The first slit passes a third corner.
     assert!(energy(&maps_at_cones(&cube, 5)) > 4.01);
+}
+
+/// Each component becomes one disk that has every given cone on its boundary, whatever the topology and wherever the cones are.
+#[test]
+fn slits_pass_through_given_cones() {
+    let two = zoo::sphere(12, 7).with(&zoo::torus(12, 8).moved([4.0, 0.0, 0.0]));
+    let meshes = [zoo::sphere(12, 7), zoo::torus(12, 8), zoo::grid(6, 5), two];
+    for (mesh, n_components) in meshes.iter().zip([1, 1, 1, 2]) {
+        let surface = surface(mesh);
+        let [a, b, _] = surface.triangles[0];
+        let last = surface.positions.len() as u32 - 1;
+        let some = (0..=last).step_by(7).collect();
+        for cones in [vec![], vec![b], vec![a, b], vec![b, last], some] {
+            let charts = charts_through(&surface, &cones).expect("components can be opened");
+            assert_eq!(charts.len(), n_components, "{cones:?}");
+            let on_boundary: Vec<[f64; 3]> = (charts.iter())
+                .flat_map(|chart| {
+                    let loops = chart.disk.loops.concat();
+                    loops.into_iter().map(|v| chart.positions[v as usize])
+                })
+                .collect();
+            for &cone in &cones {
+                let place = surface.positions[cone as usize];
+                assert!(on_boundary.contains(&place), "{cone} of {cones:?}");
+            }
+            let maps: Vec<MappedChart> = (charts.into_iter())
+                .flat_map(|chart| map_chart(chart, &options(), Folds::Cut, &Unobserved))
+                .collect();
+            check(&surface, &maps);
+        }
+    }
+}
+
+/// A cube that is slit through its eight corners unfolds along a tree of seven edges; one corner fewer leaves distortion.
+#[test]
+fn a_cube_unfolds_at_its_given_corners() {
+    let surface = surface(&zoo::voxels(&[[0; 3]]));
+    let maps = |cones: &[u32]| -> Vec<MappedChart> {
+        let charts = charts_through(&surface, cones).expect("it can be opened");
+        (charts.into_iter())
+            .flat_map(|chart| map_chart(chart, &options(), Folds::Keep, &Unobserved))
+            .collect()
+    };
+    let corners: Vec<u32> = (0..8).collect();
+    let unfolded = maps(&corners);
+    assert!((energy(&unfolded) - 4.0).abs() < 1e-6);
+    let edges = 7.0 / 6_f64.sqrt();
+    assert!(
+        (seam(&unfolded) - edges).abs() < 1e-6,
+        "{}",
+        seam(&unfolded)
+    );
+    assert!(energy(&maps(&corners[1..])) > 4.01);
 }
 
 /// Cones are as many as the bound needs: a tighter one takes longer seams, and the mean energy keeps it.

@@ -9,6 +9,7 @@ use unwrapd_pipeline::{
     repack_meshes, unwrap, unwrap_meshes, verify_meshes,
 };
 
+use crate::pipeline::is_on_seam;
 use crate::zoo::{self, Mesh};
 
 fn arrays(mesh: &Mesh) -> MeshArrays {
@@ -124,6 +125,53 @@ fn seams_may_be_those_of_any_mesh() {
     let none = options(vec![[a, first + b]]);
     let error = unwrap_meshes(&meshes, &none, &Unobserved).expect_err("no edge");
     assert_eq!(error.code(), "invalid_seams");
+}
+
+/// Cones count the vertices of all meshes; each of two equal meshes is slit through its own.
+#[test]
+fn cones_may_be_those_of_any_mesh() {
+    let sphere = zoo::sphere(12, 7);
+    let meshes = [
+        arrays(&sphere),
+        arrays(&sphere.clone().moved([4.0, 0.0, 0.0])),
+    ];
+    let n = sphere.positions.len() as u32;
+    let options = |cone_vertices| Options {
+        cone_vertices: Some(cone_vertices),
+        cutting: Cutting {
+            cut: Cut::Disk,
+            ..Cutting::default()
+        },
+        ..Options::default()
+    };
+    let is_slit = |made: &UnwrappedMeshes, mesh: usize, vertex: u32| {
+        let MeshArrays {
+            positions,
+            triangles,
+            ..
+        } = &meshes[mesh];
+        is_on_seam(positions, triangles, &made.uvs[mesh], vertex)
+    };
+    let (first, second) = (20, 40);
+    let named = options(vec![first, n + second]);
+    let made = unwrap_meshes(&meshes, &named, &Unobserved).expect("an atlas");
+    assert!(is_slit(&made, 0, first) && is_slit(&made, 1, second));
+    for wrong in [
+        options(vec![2 * n]),
+        Options {
+            cutting: Cutting::default(),
+            ..options(vec![first])
+        },
+        Options {
+            cutting: Cutting {
+                cones: Some(3),
+                ..named.cutting
+            },
+            ..options(vec![first])
+        },
+    ] {
+        assert!(unwrap_meshes(&meshes, &wrong, &Unobserved).is_err());
+    }
 }
 
 /// An island that is put somewhere is there, exactly.

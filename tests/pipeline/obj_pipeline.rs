@@ -119,6 +119,41 @@ fn seams_keep_the_numbers_of_the_file() {
     assert!(error.to_string().contains("names vertex 8"), "{error}");
 }
 
+/// The cube unfolds at its corners, as they are numbered in the file; its faces alternate between two materials.
+#[test]
+fn cones_keep_the_numbers_of_the_file() {
+    let distortion = |format, cones: std::ops::Range<u32>| {
+        let options = Options {
+            cone_vertices: Some(cones.collect()),
+            format,
+            group_by: Some(GroupBy::Scene),
+            cutting: Cutting {
+                cut: Cut::Disk,
+                ..Cutting::default()
+            },
+            ..Options::default()
+        };
+        let outcome = unwrap_document(&cube(), &options, &Unobserved).unwrap();
+        let measures = &outcome.report.groups[0].measures;
+        assert_eq!(measures.seams.charts, 1);
+        measures.distortion.sym_dirichlet_mean.unwrap()
+    };
+    for format in [OutputFormat::Obj, OutputFormat::Glb] {
+        assert!(distortion(format, 0..8) < 4.0 + 1e-6);
+        assert!(distortion(format, 0..7) > 4.01);
+    }
+    let beyond = Options {
+        cone_vertices: Some(vec![8]),
+        cutting: Cutting {
+            cut: Cut::Disk,
+            ..Cutting::default()
+        },
+        ..Options::default()
+    };
+    let error = unwrap_document(&cube(), &beyond, &Unobserved).unwrap_err();
+    assert!(error.to_string().contains("at vertex 8"), "{error}");
+}
+
 #[test]
 fn edited_uvs_are_judged_in_the_order_of_the_file() {
     // A flat grid whose squares take turns with two materials.

@@ -1,5 +1,6 @@
 //! The whole path on plain arrays: every mesh of the zoo, scale, threads, early ends.
 
+use std::collections::{HashMap, HashSet};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
@@ -10,8 +11,8 @@ use unwrapd_maps::mesh::VAxis;
 use unwrapd_method::energy::DensityKind;
 use unwrapd_method::solver::Control;
 use unwrapd_pipeline::{
-    Cutting, Mapping, Observer, PipelineError, Progress, Settings, Stage, Unobserved, Unwrapped,
-    Workers, unwrap,
+    Cutting, Mapping, Observer, PipelineError, Progress, Seams, Settings, Stage, Unobserved,
+    Unwrapped, Workers, unwrap, unwrap_along,
 };
 
 use crate::zoo::{self, Mesh};
@@ -515,6 +516,65 @@ fn maps_with_many_cones_do_not_overlap() {
         };
         let measures = measured(&settings, &mesh);
         assert_eq!(measures.overlaps.overlap_pairs_exact, Some(0));
+    }
+}
+
+/// Whether an edge at a vertex, found by its position, has different UVs on its two sides.
+pub fn is_on_seam(
+    positions: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+    uvs: &[[[f64; 2]; 3]],
+    vertex: u32,
+) -> bool {
+    let key = |v: u32| positions[v as usize].map(f64::to_bits);
+    let mut sides: HashMap<[u64; 3], HashSet<[[u64; 2]; 2]>> = HashMap::new();
+    for (triangle, uvs) in triangles.iter().zip(uvs) {
+        let at = |k: usize| uvs[k].map(f64::to_bits);
+        for k in (0..3).filter(|&k| key(triangle[k]) == key(vertex)) {
+            for other in [(k + 1) % 3, (k + 2) % 3] {
+                let ends = sides.entry(key(triangle[other])).or_default();
+                ends.insert([at(k), at(other)]);
+            }
+        }
+    }
+    sides.values().any(|ends| ends.len() > 1)
+}
+
+/// Charts of a mesh that is slit through given cones.
+fn through(mesh: &Mesh, cones: &[u32], cut: Cut) -> Result<usize, PipelineError> {
+    let seams = Seams {
+        cones: Some(cones.to_vec()),
+        ..Seams::default()
+    };
+    let (positions, triangles) = (&mesh.positions, &mesh.triangles);
+    let made = unwrap_along(positions, triangles, &seams, &settings(cut), &Unobserved)?;
+    let positions: Vec<[f64; 3]> = positions.iter().map(|p| p.map(f64::from)).collect();
+    let uvs = made.corner_uvs();
+    let certificate = certify(&positions, triangles, &uvs, &Overlap::Test.into());
+    assert!(certificate.is_bijective(), "{cones:?}: {certificate:?}");
+    for &cone in cones {
+        assert!(
+            is_on_seam(&positions, triangles, &uvs, cone),
+            "{cone} of {cones:?}"
+        );
+    }
+    Ok(made.charts.len())
+}
+
+/// Seams pass through given cones, and a map that overlaps itself is parted.
+#[test]
+fn cones_may_be_given() {
+    for mesh in [zoo::sphere(12, 7), zoo::torus(12, 8)] {
+        let all: Vec<u32> = (0..mesh.positions.len() as u32).collect();
+        assert_eq!(
+            through(&mesh, &all[3..5], Cut::Disk).expect("it unwraps"),
+            1
+        );
+        through(&mesh, &all, Cut::Disk).expect("it unwraps");
+        let error = through(&mesh, &[all.len() as u32], Cut::Disk).expect_err("no such vertex");
+        assert_eq!(error.code(), "invalid_seams");
+        let error = through(&mesh, &all[..1], Cut::Fast).expect_err("many charts");
+        assert_eq!(error.code(), "invalid_options");
     }
 }
 

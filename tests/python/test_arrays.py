@@ -133,6 +133,16 @@ def test_seams(cube):
     assert atlas.n_charts == 2
 
 
+def test_a_cube_unfolds_at_its_corners(cube):
+    for cones, is_flat in [(np.arange(8), True), ([0, 3], False)]:
+        atlas = unwrapd.unwrap(*cube, cut="disk", cone_vertices=cones)
+        assert atlas.n_charts == 1
+        energy = atlas.report["groups"][0]["measures"]["sym_dirichlet_mean"]
+        assert (energy < 4 + 1e-6) == is_flat
+    with pytest.raises(unwrapd.InvalidOptions):
+        unwrapd.unwrap(*cube, cone_vertices=[0])
+
+
 def test_measure_and_verify(pyramid):
     vertices, faces = pyramid
     flat = vertices[:, :2]

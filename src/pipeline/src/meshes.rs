@@ -98,6 +98,7 @@ pub(super) fn merged(
         Some(GivenSeams::Edges(edges)) => merged.seams.edges = Some(edges.clone()),
         None => {}
     }
+    merged.seams.cones.clone_from(&options.cone_vertices);
     Ok(merged)
 }
 

@@ -33,6 +33,7 @@ class UnwrapOptions(Layout, total=False):
     cut: Literal["auto", "fast", "disk", "keep", "seams"] | None
     quality: Literal["smooth", "balanced", "few"] | None
     cones: int | None
+    cone_vertices: Sequence[int] | Any | None
     kept_maps: Literal["optimized", "as-given"] | None
     max_charts: int | None
     max_distortion: float | None

@@ -42,6 +42,7 @@
 //! Not done here: cuts for fill. Moves do not see symmetry.
 
 mod alike;
+mod cones;
 mod cut_mesh;
 mod effort;
 mod laid_together;
@@ -62,12 +63,12 @@ use crate::charts::{
     Bound, Bounded, Cut, Folds, MappedChart, Observer, Symmetry, charts, map_chart, mirror_plane,
     smoothed_where_rough,
 };
+pub use cones::{charts_at_cones, charts_through};
 pub use effort::SearchEffort;
 use metric::Metric;
 use net::Net;
 use nets::Nets;
 use rayon::prelude::*;
-pub use slitting::charts_at_cones;
 pub use state::Counts;
 use state::Search;
 use unwrapd_maps::embed;

@@ -25,7 +25,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use unwrapd_maps::cut::{Branches, Neighbors};
 use unwrapd_maps::embed;
-use unwrapd_maps::mesh::{CUT, Surface, UnionFind};
+use unwrapd_maps::mesh::{CUT, UnionFind};
 use unwrapd_method::numerics::ties::tied;
 
 /// Pairs of vertices far apart between which a closed component may be opened. With one, ln(1/2 + S + n/10) of a cow is higher by .05, a
@@ -45,7 +45,7 @@ const PROMISE: f64 = 0.95;
 const TIGHTER: f64 = 0.7;
 
 /// A part of the surface, with slits that are planned one by one.
-struct Slitting<'a> {
+pub struct Slitting<'a> {
     mesh: Arc<CutMesh<'a>>,
     mirror: Option<MirrorPlane>,
     /// Slits that open it to a disk.
@@ -53,7 +53,7 @@ struct Slitting<'a> {
     /// Further slits; `None` if none was asked for yet.
     planned: Option<PlannedSlits<'a>>,
     /// Number of planned slits that are made.
-    n_made: usize,
+    pub n_made: usize,
     /// Excess of the last map over its prediction.
     ratio: f64,
     /// The last map; `None` if the slits have changed since.
@@ -141,7 +141,7 @@ impl<'a> PlannedSlits<'a> {
 
 impl<'a> Slitting<'a> {
     /// Creates a part without slits; `None` if it is no disk.
-    fn new(
+    pub fn new(
         metric: &'a Metric<'a>,
         faces: &[u32],
         opening: Vec<u32>,
@@ -177,7 +177,7 @@ impl<'a> Slitting<'a> {
     /// where nothing is distorted.
     ///
     /// A slit may be predicted to relieve nothing: where most of a component shrinks alike, some of it has to be opened first.
-    fn plan_next(&mut self, effort: &mut SearchEffort) -> Option<f64> {
+    pub fn plan_next(&mut self, effort: &mut SearchEffort) -> Option<f64> {
         if self.planned.is_none() {
             let planned = PlannedSlits::new(&self.mesh, self.mirror.as_ref())?;
             effort.predicted_faces += self.mesh.faces.len();
@@ -194,13 +194,13 @@ impl<'a> Slitting<'a> {
     }
 
     /// Makes the slit that is planned next.
-    fn make_next(&mut self) {
+    pub fn make_next(&mut self) {
         self.n_made += 1;
         self.map = None;
     }
 
     /// Returns the slits that are made, with those that open the part.
-    fn slits(&self) -> Vec<u32> {
+    pub fn slits(&self) -> Vec<u32> {
         let planned = self.planned.iter();
         let made = planned.flat_map(|planned| &planned.slits[..self.n_made]);
         made.fold(self.opening.clone(), |slits, slit| {
@@ -209,7 +209,7 @@ impl<'a> Slitting<'a> {
     }
 
     /// Returns the excess that is predicted with the first `n` planned slits.
-    fn predicted(&self, n: usize) -> f64 {
+    pub fn predicted(&self, n: usize) -> f64 {
         let planned = self.planned.as_ref();
         planned.map_or(0.0, |planned| planned.excess(n))
     }
@@ -233,8 +233,7 @@ impl<'a> Search<'a> {
     pub fn start_from_components(&mut self, most: f64) -> Option<()> {
         let metric = self.nets.metric;
         let mut slittings = Vec::new();
-        let all: Vec<u32> = (0..metric.corners.len() as u32).collect();
-        let mut components = connected(metric, &all);
+        let mut components = components(metric);
         components.reverse();
         while let Some(faces) = components.pop() {
             let mut ways = ways_to_open(metric, &faces, self.mirror.as_ref());
@@ -508,41 +507,10 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Opens each component to a disk, possibly with holes, by slits to `n_cones` cone singularities: one after the other, the vertex at
-/// which the predicted scale of the map differs most, or a hole that does not lie flat, whichever relieves more for the length of its
-/// slit. The slit that opens a closed component of genus 0 has two cones at its ends.
-///
-/// There are fewer cones where nothing is left to relieve. Returns `None` if a component cannot be opened.
-///
-/// The choice by the metric is that of Ben-Chen et al. 2008, *Conformal flattening by curvature prescription and metric scaling*. Test:
-/// `search::more_cones_lower_the_distortion`.
-pub fn charts_at_cones(surface: &Surface, n_cones: usize) -> Option<Vec<Chart>> {
-    let metric = Metric::new(surface);
+/// Returns the faces of each component, in ascending order.
+pub fn components(metric: &Metric) -> Vec<Vec<u32>> {
     let all: Vec<u32> = (0..metric.corners.len() as u32).collect();
-    let charts = connected(&metric, &all)
-        .into_par_iter()
-        .map(|faces| chart_at_cones(&metric, &faces, n_cones));
-    charts.collect()
-}
-
-fn chart_at_cones(metric: &Metric, faces: &[u32], n_cones: usize) -> Option<Chart> {
-    let is_sphere = CutMesh::new(metric, faces, &[]).is_sphere();
-    let n_slits = n_cones.saturating_sub(if is_sphere { 2 } else { 0 });
-    let mut best: Option<(f64, Vec<u32>)> = None;
-    for opening in ways_to_open(metric, faces, None) {
-        let Some(mut slitting) = Slitting::new(metric, faces, opening, None) else {
-            continue;
-        };
-        let mut effort = SearchEffort::UNBOUNDED;
-        while slitting.n_made < n_slits && slitting.plan_next(&mut effort).is_some() {
-            slitting.make_next();
-        }
-        let excess = tied(slitting.predicted(slitting.n_made));
-        if best.as_ref().is_none_or(|(least, _)| excess < *least) {
-            best = Some((excess, slitting.slits()));
-        }
-    }
-    chart(&CutMesh::new(metric, faces, &best?.1))
+    connected(metric, &all)
 }
 
 /// Returns the faces of each part of some faces that is connected, both in ascending order.
@@ -590,7 +558,7 @@ fn faces_at_doubled_edges(metric: &Metric, faces: &[u32]) -> Vec<u32> {
 
 /// Returns ways to open a component to a disk, possibly with holes: several for a closed one of genus 0, along a mirror plane, or
 /// between vertices far apart and from its sharpest vertex. Where edges have more than two faces, there may be none.
-fn ways_to_open(metric: &Metric, faces: &[u32], mirror: Option<&MirrorPlane>) -> Vec<Vec<u32>> {
+pub fn ways_to_open(metric: &Metric, faces: &[u32], mirror: Option<&MirrorPlane>) -> Vec<Vec<u32>> {
     let mesh = CutMesh::new(metric, faces, &[]);
     let mut ways = ways_to_open_alike(&mesh.sheet, Branches::None, mirror, FAR_APART);
     if mesh.is_sphere() && mirror.is_none() {

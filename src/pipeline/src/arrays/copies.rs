@@ -180,7 +180,8 @@ fn edge_uses<'a>(mesh: Soup<'a>, faces: &'a [CopiedFace]) -> impl Iterator<Item 
     })
 }
 
-/// Returns the faces of each part of a mesh, in ascending order, except of parts with a vertex of a given seam.
+/// Returns the faces of each part of a mesh, in ascending order, except of parts with a vertex of a given seam or a given
+/// cone.
 ///
 /// Parts are connected by positions; closed surfaces that only touch each other, such as the steps of a stair, are parts
 /// of their own if they have vertices of their own.
@@ -203,7 +204,8 @@ fn parts(mesh: Soup) -> Vec<Vec<u32>> {
         }
     }
     let mut is_seam = vec![false; mesh.positions.len()];
-    for v in mesh.seams.edges.iter().flatten().flatten() {
+    let seams = mesh.seams.edges.iter().flatten().flatten();
+    for v in seams.chain(mesh.seams.cones.iter().flatten()) {
         is_seam[*v as usize] = true;
     }
     let has_seam = |faces: &Vec<u32>| {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::alike::{Alike, alike};
-use super::map::mapped_charts;
+use super::map::{GivenCuts, mapped_charts};
 use super::plan::{Plan, Refinement};
 use super::seams::Seams;
 use super::settings::Settings;
@@ -133,12 +133,14 @@ impl<'a> Divided<'a> {
         let (surfaces, origins): (Vec<Surface>, Vec<Origin>) = (firsts.par_iter())
             .map(|&piece| prepared(&self.surfaces[piece], plan))
             .unzip();
-        let seams: Vec<&Seams> = firsts
-            .iter()
-            .map(|&piece| &*self.pieces[piece].seams)
+        let cuts: Vec<GivenCuts> = (firsts.iter().zip(&surfaces))
+            .map(|(&piece, surface)| GivenCuts {
+                seams: &self.pieces[piece].seams,
+                cones: self.pieces[piece].cones(surface),
+            })
             .collect();
         let mut mapped = vec![Vec::new(); self.pieces.len()];
-        let charts = mapped_charts(&surfaces, &seams, plan, tracker);
+        let charts = mapped_charts(&surfaces, &cuts, plan, tracker);
         for ((piece, origin), mut charts) in firsts.into_iter().zip(origins).zip(charts) {
             for corner in charts
                 .iter_mut()

@@ -12,7 +12,7 @@ use unwrapd_layout::charts::{
     map_chart_from, straightened,
 };
 use unwrapd_layout::search::{
-    CutProblem, SearchEffort, Terms, charts_at_cones, from_charts, from_surface,
+    CutProblem, SearchEffort, Terms, charts_at_cones, charts_through, from_charts, from_surface,
     maps_at_cones_under_bound,
 };
 use unwrapd_maps::measure::cost::GIVEN_PAGE;
@@ -21,10 +21,18 @@ use unwrapd_maps::mesh::{CornerUvs, Resolution, Surface};
 /// Texture of UVs for which no texture is known.
 const SQUARE: Resolution = Resolution::square(1);
 
+/// Cuts of a surface that a caller asks for.
+pub struct GivenCuts<'a> {
+    /// Seams of its piece, along which it is cut already.
+    pub seams: &'a Seams,
+    /// Vertices of the surface at which there are cones.
+    pub cones: Vec<u32>,
+}
+
 /// Cuts every surface and maps its charts.
 pub fn mapped_charts(
     surfaces: &[Surface],
-    seams: &[&Seams],
+    cuts: &[GivenCuts],
     plan: &Plan,
     tracker: &Tracker,
 ) -> Vec<Vec<MappedChart>> {
@@ -36,7 +44,7 @@ pub fn mapped_charts(
                 let faces = surface.triangles.len();
                 let portion = Portion::of_surface(tracker, index, faces);
                 let effort = SearchEffort::for_surface(faces, of_all);
-                let charts = under_bound(surface, seams[index], plan, effort, &portion);
+                let charts = under_bound(surface, cuts[index].seams, plan, effort, &portion);
                 portion.all_mapped(charts.len());
                 charts
             })
@@ -45,17 +53,20 @@ pub fn mapped_charts(
     }
     let charts: Vec<Vec<Chart>> = surfaces
         .par_iter()
-        .map(|surface| {
+        .zip(cuts)
+        .map(|(surface, given)| {
             let at_cones = match plan.cones {
                 Some(Cones::Number(n)) => charts_at_cones(surface, n as usize),
+                Some(Cones::Given) => charts_through(surface, &given.cones),
                 Some(Cones::UnderBound) | None => None,
             };
             at_cones.unwrap_or_else(|| charts(surface, plan.cut))
         })
         .collect();
     let kept = |mesh: usize, chart: &Chart| {
-        let uvs = plan.reads_uvs().then_some(seams[mesh].uvs.as_ref());
-        let texture = seams[mesh].texture.unwrap_or(SQUARE);
+        let seams = cuts[mesh].seams;
+        let uvs = plan.reads_uvs().then_some(seams.uvs.as_ref());
+        let texture = seams.texture.unwrap_or(SQUARE);
         Some(uvs_of(chart, &surfaces[mesh], (uvs.flatten()?, texture)))
     };
     let n_charts: Vec<usize> = charts.iter().map(Vec::len).collect();
@@ -77,7 +88,7 @@ pub fn mapped_charts(
                 };
                 maps = from_charts(&problem, maps, &terms, &plan.embedding, &portion).0;
             }
-            straight(maps, &problem, seams[index], plan, &portion)
+            straight(maps, &problem, cuts[index].seams, plan, &portion)
         })
         .collect()
 }

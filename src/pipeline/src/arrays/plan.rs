@@ -56,13 +56,15 @@ pub struct Plan {
     pub safe_bits: Option<u32>,
 }
 
-/// Choice of the number of cone singularities.
+/// Choice of the cone singularities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cones {
     /// This number in each component.
     Number(u32),
     /// As many as the bound on the distortion needs.
     UnderBound,
+    /// Those that a caller [gives](super::seams::Seams::cones).
+    Given,
 }
 
 /// Start of a chart's map.
@@ -180,6 +182,28 @@ impl Plan {
                 Start::Final => false,
             },
             safe_bits: mapping.quantization_safe,
+        })
+    }
+
+    /// Returns the plan with cones at given vertices.
+    ///
+    /// # Errors
+    /// If the plan keeps no component whole, or chooses the cones.
+    pub fn with_given_cones(self) -> Result<Self, PipelineError> {
+        if self.cut != Cut::Disk || self.cones.is_some() {
+            return Err(PipelineError::InvalidOptions(
+                "cones at given vertices require `cut` disk without `cones` and `max_distortion`"
+                    .to_owned(),
+            ));
+        }
+        Ok(Self {
+            cones: Some(Cones::Given),
+            folds: if self.is_promised {
+                Folds::Cut
+            } else {
+                Folds::Keep
+            },
+            ..self
         })
     }
 

@@ -38,6 +38,9 @@ pub struct Seams {
     /// Pairs of positions, by the indices of the mesh: an edge between two such positions is a seam, unless it is alone inside the
     /// surface, where it would open nothing.
     pub edges: Option<Vec<[u32; 2]>>,
+    /// Positions, by the indices of the mesh, at which [`Cut::Disk`](unwrapd_layout::charts::Cut::Disk) puts cone singularities: it
+    /// slits each component through them. If a mesh has such a list, maps that overlap themselves are parted.
+    pub cones: Option<Vec<u32>>,
     /// Polygons that stay in one piece: for each corner the number of its corner of a polygon. Faces that share such
     /// numbers are of one polygon, and no seam of a new map runs between them.
     pub polygons: Option<Vec<[u32; 3]>>,
@@ -63,10 +66,11 @@ impl Seams {
         if lengths.into_iter().flatten().any(|n| n != n_faces) {
             return Err(PipelineError::Seams("not one entry per face".to_owned()));
         }
-        match &self.edges {
-            Some(edges) => Self::check_edges(edges, positions, triangles),
-            None => Ok(()),
+        if let Some(edges) = &self.edges {
+            Self::check_edges(edges, positions, triangles)?;
         }
+        let cones = self.cones.as_deref().unwrap_or_default();
+        Self::check_cones(cones, positions.len())
     }
 
     /// Restricts the seams to some faces, and to positions that are counted from the first of a range.
@@ -80,6 +84,10 @@ impl Seams {
             let edges = all.iter().filter(within);
             edges.map(|edge| edge.map(|v| v - vertices.start)).collect()
         };
+        let cones = |all: &Vec<u32>| {
+            let cones = all.iter().filter(|v| vertices.contains(v));
+            cones.map(|v| v - vertices.start).collect()
+        };
         Self {
             uvs: of(self.uvs.as_ref(), faces),
             texture: self.texture,
@@ -91,6 +99,7 @@ impl Seams {
             materials: of(self.materials.as_ref(), faces),
             weights: of(self.weights.as_ref(), faces),
             edges: self.edges.as_ref().map(edges),
+            cones: self.cones.as_ref().map(cones),
             // Charts of the whole mesh are united, not those of a piece.
             polygons: None,
         }
@@ -137,6 +146,27 @@ impl Seams {
         Err(PipelineError::Seams(format!(
             "{n_none} of {n_pairs} vertex pairs are not joined by an edge; the first is {first:?}"
         )))
+    }
+
+    /// Rejects cones at vertices that do not exist.
+    pub(crate) fn check_cones(cones: &[u32], n_positions: usize) -> Result<(), PipelineError> {
+        match cones.iter().find(|&&v| v as usize >= n_positions) {
+            None => Ok(()),
+            Some(v) => Err(PipelineError::Seams(format!(
+                "a cone is at vertex {v}, but there are only {n_positions} vertices"
+            ))),
+        }
+    }
+
+    /// Returns the vertices of a surface, made of these positions, at which there are cones.
+    pub(crate) fn cones_of(&self, surface: &Surface, positions: &[[f64; 3]]) -> Vec<u32> {
+        let cones = self.cones.iter().flatten();
+        let cones: HashSet<_> = cones
+            .map(|&v| position_key(positions[v as usize]))
+            .collect();
+        let vertices = (0..).zip(&surface.positions);
+        let vertices = vertices.filter(|(_, p)| cones.contains(&position_key(**p)));
+        vertices.map(|(v, _)| v).collect()
     }
 
     /// Cuts a surface that was made of these positions along its seams.

@@ -54,6 +54,11 @@ impl Piece<'_> {
         Ok(surface)
     }
 
+    /// Returns the vertices of its surface, which may be reordered, at which there are cones.
+    pub fn cones(&self, surface: &Surface) -> Vec<u32> {
+        self.seams.cones_of(surface, &self.positions)
+    }
+
     /// Returns the face of the mesh for a triangle.
     pub fn face(&self, triangle: u32) -> u32 {
         (self.faces.as_ref()).map_or(triangle, |faces| faces[triangle as usize])
@@ -139,8 +144,11 @@ impl<'a> Soup<'a> {
         let triangles: Vec<[u32; 3]> = triangles.map(|t| t.map(&mut renumbered)).collect();
         let edges = self.seams.edges.iter().flatten();
         let edges = edges.filter_map(|[a, b]| Some([*number.get(a)?, *number.get(b)?]));
+        let cones = self.seams.cones.iter().flatten();
+        let cones = cones.filter_map(|v| number.get(v).copied());
         let seams = Seams {
             edges: self.seams.edges.as_ref().map(|_| edges.collect()),
+            cones: self.seams.cones.as_ref().map(|_| cones.collect()),
             ..self.seams.restricted(&faces, 0..0)
         };
         Piece {

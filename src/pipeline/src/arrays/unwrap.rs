@@ -125,7 +125,10 @@ pub fn unwrap_all(
     settings: &Settings,
     tracker: &Tracker,
 ) -> Result<Vec<Unwrapped>, PipelineError> {
-    let plan = Plan::new(settings)?;
+    let mut plan = Plan::new(settings)?;
+    if meshes.iter().any(|mesh| mesh.seams.cones.is_some()) {
+        plan = plan.with_given_cones()?;
+    }
     if !plan.stacks_by_shape() {
         return unwrap_each(meshes, (settings, &plan), tracker);
     }

@@ -62,17 +62,22 @@ impl Prepared {
         } else {
             OldUvs::Sampled
         };
-        check_edges(document.primitives(), options)?;
+        check_given(document.primitives(), options)?;
         let texture = document.texture_of(options.sets.source());
         let conversion = document.for_output(options.format, old_uvs)?;
         // Renumber the given seams if vertices have changed their numbers.
         let mut seams = options.clone();
-        if let (Some(GivenSeams::Edges(edges)), Some(vertices)) =
-            (&options.seams, &conversion.vertices)
-        {
+        if let Some(vertices) = &conversion.vertices {
             let primitives = conversion.document.primitives();
-            let edges = renumbered(edges, vertices, primitives);
-            seams.seams = Some(GivenSeams::Edges(edges));
+            if let Some(GivenSeams::Edges(edges)) = &options.seams {
+                let edges = renumbered(edges, vertices, primitives);
+                seams.seams = Some(GivenSeams::Edges(edges));
+            }
+            if let Some(cones) = &options.cone_vertices {
+                let pairs: Vec<[u32; 2]> = cones.iter().map(|&v| [v; 2]).collect();
+                let cones = renumbered(&pairs, vertices, primitives).into_iter();
+                seams.cone_vertices = Some(cones.map(|[v, _]| v).collect());
+            }
         }
         let mut document = options.nodes().prepared(conversion.document)?;
         if plan.reads_uvs() && options.format == OutputFormat::Obj {
@@ -97,7 +102,7 @@ fn can_rebake(document: &Document, format: OutputFormat) -> bool {
     matches!(document, Document::Gltf(_)) || format != OutputFormat::Obj
 }
 
-/// Renumbers [checked](check_edges) edges of a file for each primitive that now contains them. `vertices` are the
+/// Renumbers [checked](check_given) edges of a file for each primitive that now contains them. `vertices` are the
 /// original numbers of the vertices of all primitives.
 fn renumbered(edges: &[[u32; 2]], vertices: &[u32], primitives: &[Primitive]) -> Vec<[u32; 2]> {
     // Copies of a vertex lie in one place, so the first in each primitive is enough.
@@ -236,7 +241,7 @@ impl Merged {
         merged
     }
 
-    /// Merges a group and adds the seams that the options request. Seam edges must have been [checked](check_edges);
+    /// Merges a group and adds the seams that the options request. Seam edges and cones must have been [checked](check_given);
     /// `primitives` are those of the document, in any space.
     pub fn with_seams(
         document: &Document,
@@ -284,13 +289,19 @@ impl Merged {
                 merged.seams.normals = Some(corner_normals(document, group)?);
             }
             Some(GivenSeams::Edges(edges)) => {
-                let edges = edges_of_group(primitives, group, edges);
+                let number = numbers_in_group(primitives, group);
+                let ends = |&[a, b]: &[u32; 2]| Some([number(a)?, number(b)?]);
+                let edges: Vec<[u32; 2]> = edges.iter().filter_map(ends).collect();
                 if let Some(corners) = &mut merged.seams.polygons {
                     release_diagonals(corners, &merged.triangles, &merged.positions, &edges);
                 }
                 merged.seams.edges = Some(edges);
             }
             None => {}
+        }
+        if let Some(cones) = &options.cone_vertices {
+            let number = numbers_in_group(primitives, group);
+            merged.seams.cones = Some(cones.iter().filter_map(|&v| number(v)).collect());
         }
         Ok(merged)
     }
@@ -412,8 +423,12 @@ fn corner_normals(document: &Document, group: &Group) -> Result<Vec<[[f64; 3]; 3
     Ok(all)
 }
 
-/// Checks the edges that options name, which count vertices over all primitives.
-pub fn check_edges(primitives: &[Primitive], options: &Options) -> Result<(), PipelineError> {
+/// Checks the edges and cones that options name, which count vertices over all primitives.
+pub fn check_given(primitives: &[Primitive], options: &Options) -> Result<(), PipelineError> {
+    if let Some(cones) = &options.cone_vertices {
+        let sizes = primitives.iter().map(|primitive| primitive.positions.len());
+        Seams::check_cones(cones, sizes.sum())?;
+    }
     let Some(GivenSeams::Edges(edges)) = &options.seams else {
         return Ok(());
     };
@@ -421,8 +436,8 @@ pub fn check_edges(primitives: &[Primitive], options: &Options) -> Result<(), Pi
     Seams::check_edges(edges, &whole.positions, &whole.triangles)
 }
 
-/// Selects the edges within a group from edges between vertices of the file, in the group's numbering.
-fn edges_of_group(primitives: &[Primitive], group: &Group, edges: &[[u32; 2]]) -> Vec<[u32; 2]> {
+/// Returns the numbers within a group of vertices of the file; `None` for those of other groups.
+fn numbers_in_group(primitives: &[Primitive], group: &Group) -> impl Fn(u32) -> Option<u32> {
     let mut local = Vec::new();
     let mut next = 0;
     for (index, primitive) in primitives.iter().enumerate() {
@@ -432,11 +447,7 @@ fn edges_of_group(primitives: &[Primitive], group: &Group, edges: &[[u32; 2]]) -
             next += u32::from(is_inside);
         }
     }
-    let number = |v: u32| local.get(v as usize).copied().flatten();
-    edges
-        .iter()
-        .filter_map(|&[a, b]: &[u32; 2]| Some([number(a)?, number(b)?]))
-        .collect()
+    move |v: u32| local.get(v as usize).copied().flatten()
 }
 
 /// Returns the weight of every face of a group. If a material is named twice, the last weight counts.

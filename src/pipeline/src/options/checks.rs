@@ -144,6 +144,14 @@ fn check(options: &Options) -> Result<(), String> {
             options.cutting.cones.is_some() && options.cutting.cut != Cut::Disk,
         ),
         (
+            "cone_vertices",
+            "`cut` disk without `cones` and `max_distortion`",
+            options.cone_vertices.is_some()
+                && (options.cutting.cut != Cut::Disk
+                    || options.cutting.cones.is_some()
+                    || options.cutting.max_distortion.is_some()),
+        ),
+        (
             "max_distortion",
             "`cut` auto or disk, and a `barrier`",
             options.cutting.max_distortion.is_some()

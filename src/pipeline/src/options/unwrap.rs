@@ -83,6 +83,11 @@ options! {
         /// Edges to cut in any mode: normals for hard edges, or a list [[v, w], …] of vertex pairs.
         /// Vertices are counted over the triangle primitives of the file in order.
         pub seams: Option<GivenSeams>;
+        /// Vertices at which `cut` disk puts cone singularities, instead of `cones` that it chooses. Each
+        /// component is slit through them, along short paths; one without any is only opened. A map that
+        /// overlaps itself is parted. Vertices are counted over the triangle primitives of the file in
+        /// order.
+        pub cone_vertices: Option<Vec<u32>>;
         /// Format of the result.
         pub format: OutputFormat = OutputFormat::Glb;
     }
