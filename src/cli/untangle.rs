@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::console::{CommandFailure, json, print_json, say};
+use super::console::{CommandFailure, json, print_json, say, warn};
 use super::files::{OutputFiles, Outputs, body_format, caller, read_upload};
+use super::progress::Display;
 use unwrapd_pipeline::{BodyFormat, CommandOptions, UntangleOptions, untangle_file};
 
 /// Untangles a folded mesh of triangles in the plane or of tetrahedra: moves as few vertices as
@@ -26,7 +27,7 @@ pub(super) struct UntangleArgs {
     options: UntangleOptions,
 }
 
-/// Runs `untangle`; exits with 3 if no map without inversions is found.
+/// Runs `untangle`; exits with 3 if no map without inversions is found, and with 6 if time runs out before.
 pub(super) fn run(args: &UntangleArgs) -> Result<(), CommandFailure> {
     // Check options and paths before the work.
     let options = UntangleOptions {
@@ -42,12 +43,16 @@ pub(super) fn run(args: &UntangleArgs) -> Result<(), CommandFailure> {
     // Read the meshes and untangle.
     let upload = read_upload(&args.input)?;
     let rest = args.rest_mesh.as_deref().map(read_upload).transpose()?;
-    let untangled = untangle_file(&upload, rest.as_ref(), &options)?;
+    let display = Display::new(&args.files.output.talk);
+    let untangled = untangle_file(&upload, rest.as_ref(), &options, &display);
+    display.finish()?;
+    let untangled = untangled?;
     // Write the result, and report.
     let written = outputs.write(&untangled.files, &[(report, &json(&untangled.report)?)])?;
     if args.files.output.talk.json {
         print_json(&untangled.report)?;
     }
+    warn(&untangled.report.warnings);
     say(format_args!(
         "{} of {} elements were inverted; {} vertices moved; the smallest element has {:.3e} of its size at rest",
         untangled.report.inverted_before,

@@ -1,9 +1,15 @@
 //! Untangling of folded meshes, from their bytes.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
 use unwrapd_api::Upload;
 use unwrapd_deform::{Boundary, RestOfFolded};
 use unwrapd_files::io::{ElementFormat, Elements, Format};
-use unwrapd_pipeline::{BodyFormat, PipelineError, UntangleOptions, Untangled, untangle_file};
+use unwrapd_method::solver::Control;
+use unwrapd_pipeline::{
+    BodyFormat, Observer, PipelineError, Progress, Stage, Unobserved, UntangleOptions, Untangled,
+    untangle_file,
+};
 
 /// A grid of n × n squares of size 1, each cut into two triangles.
 fn grid(n: u32) -> Elements {
@@ -94,7 +100,7 @@ fn upload(mesh: &Elements, format: Format) -> Upload {
 }
 
 fn untangled(mesh: &Elements, options: &UntangleOptions) -> Result<Untangled, PipelineError> {
-    untangle_file(&upload(mesh, Format::Msh), None, options)
+    untangle_file(&upload(mesh, Format::Msh), None, options, &Unobserved)
 }
 
 /// The mesh in the main file of a result.
@@ -146,6 +152,7 @@ fn a_given_mesh_has_the_rest_shapes() {
         &upload(&mesh, Format::Msh),
         Some(&rest),
         &UntangleOptions::default(),
+        &Unobserved,
     );
     let untangled = untangled.expect("a mesh without inversions");
     assert!(sizes(&written(&untangled)).iter().all(|&size| size > 0.0));
@@ -154,12 +161,14 @@ fn a_given_mesh_has_the_rest_shapes() {
         &upload(&mesh, Format::Msh),
         Some(&upload(&block(2), Format::Mesh)),
         &UntangleOptions::default(),
+        &Unobserved,
     );
     assert_eq!(other.expect_err("other vertices").code(), "wrong_start");
     let both = untangle_file(
         &upload(&straight, Format::Msh),
         Some(&upload(&mesh, Format::Mesh)),
         &UntangleOptions::default(),
+        &Unobserved,
     );
     assert_eq!(both.expect_err("a folded rest mesh").code(), "folded_mesh");
 }
@@ -228,4 +237,60 @@ fn what_cannot_be_untangled_is_named() {
     };
     let error = untangled(&grid(2), &picture).expect_err("no document");
     assert_eq!(error.code(), "invalid_options");
+}
+
+/// A clock that advances by a second with every iteration; asks for an end after some of them.
+struct Clock {
+    seconds: AtomicU64,
+    most: u64,
+}
+
+impl Clock {
+    fn new(most: u64) -> Self {
+        let seconds = AtomicU64::new(0);
+        Self { seconds, most }
+    }
+}
+
+impl Observer for Clock {
+    fn progress(&self, progress: &Progress) -> Control {
+        if progress.stage == Stage::Deform
+            && self.seconds.fetch_add(1, Ordering::Relaxed) >= self.most
+        {
+            return Control::Finish;
+        }
+        Control::Continue
+    }
+    fn elapsed(&self) -> Duration {
+        Duration::from_secs(self.seconds.load(Ordering::Relaxed))
+    }
+}
+
+/// Work that ends while elements are inverted fails; once none is, the mesh at hand is the result, with a warning.
+#[test]
+fn a_time_limit_ends_the_work() {
+    let mesh = upload(&folded(block(4)), Format::Msh);
+    let within = |time_budget: Option<f64>, most: u64| {
+        let options = UntangleOptions {
+            time_budget,
+            ..UntangleOptions::default()
+        };
+        let clock = Clock::new(most);
+        let untangled = untangle_file(&mesh, None, &options, &clock);
+        (untangled, clock.seconds.into_inner())
+    };
+    let (whole, n_iterations) = within(None, u64::MAX);
+    assert!(whole.expect("a mesh").report.warnings.is_empty());
+    let (all, _) = within(Some(n_iterations as f64 + 1.0), u64::MAX);
+    assert!(all.expect("a mesh").report.warnings.is_empty());
+    for (limit, most) in [(Some(2.0), u64::MAX), (Some(0.0), u64::MAX), (None, 2)] {
+        let (early, n_iterations) = within(limit, most);
+        let error = early.expect_err("inverted elements");
+        assert_eq!((error.code(), error.exit_code()), ("ended_early", 6));
+        assert!(n_iterations <= 4, "{n_iterations}");
+    }
+    let (last, _) = within(Some(n_iterations as f64 - 2.0), u64::MAX);
+    let last = last.expect("a mesh without inversions");
+    assert!(sizes(&written(&last)).iter().all(|&size| size > 0.0));
+    assert_eq!(last.report.warnings[0].code, "ended_early");
 }

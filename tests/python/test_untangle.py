@@ -65,6 +65,15 @@ def test_elements_are_wound_alike_and_what_is_positive_stays():
     assert (sizes(found.vertices, found.elements) > 0).all()
 
 
+def test_a_time_budget_ends_the_work():
+    vertices, elements = block(4)
+    x, _ = crumpled(vertices, elements, np.random.default_rng(7))
+    with pytest.raises(unwrapd.Error) as raised:
+        unwrapd.untangle(x, elements, time_budget=0)
+    assert (raised.value.code, raised.value.exit_code) == ("ended_early", 6)
+    assert unwrapd.untangle(x, elements, time_budget=1000.0).report["warnings"] == []
+
+
 def test_what_cannot_be_untangled_is_refused():
     vertices, elements = map(np.array, grid(4))
     flat = vertices * (1.0, 0.0)

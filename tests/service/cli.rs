@@ -529,6 +529,18 @@ fn a_folded_mesh_is_untangled() {
     let report: serde_json::Value = serde_json::from_slice(&text).expect("JSON");
     assert_eq!(report["inverted_before"], 1);
     assert_eq!(report["moved"], 1);
+    let late = [
+        "untangle",
+        &mesh,
+        "-o",
+        &output,
+        "--force",
+        "--time-budget",
+        "0",
+    ];
+    let late = unwrapd(&late);
+    assert_status(&late, 6);
+    assert!(last_error(&late).contains("ended_early"), "{late:?}");
     // The border crosses itself: no place of the middle helps.
     let crossed = square("0.5 0.5").replacen("v 1 1 0\nv 0 1 0", "v 0 1 0\nv 1.2 1 0", 1);
     std::fs::write(&mesh, crossed).expect("a mesh");

@@ -8,7 +8,7 @@
 use super::body::{Body, BodyElements, Boundary};
 use super::problem::{Model, Problem};
 use super::problem_error::ProblemError;
-use super::untangle::{bad_elements, untangled};
+use super::untangle::{StillFolded, bad_elements, untangled};
 use super::winding::wind_alike;
 use serde::{Deserialize, Serialize};
 use unwrapd_files::io::Elements;
@@ -17,7 +17,7 @@ use unwrapd_method::energy::RestShape;
 use unwrapd_method::numerics::square::Square;
 use unwrapd_method::numerics::vec2::{doubled_area, sub};
 use unwrapd_method::numerics::vec3;
-use unwrapd_method::solver::Handles;
+use unwrapd_method::solver::{Handles, Watch};
 
 /// Rest shapes of the elements of a folded mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -140,8 +140,12 @@ impl FoldedMesh {
     /// Moves vertices until every element is positive, exactly; as few and as little as possible.
     ///
     /// # Errors
-    /// If the fixed boundary contradicts every such map, or if none is found.
-    pub fn untangled(&self, boundary: Boundary) -> Result<Unfolded, ProblemError> {
+    /// If the fixed boundary contradicts every such map, if none is found, or if the watcher ends the work before.
+    pub fn untangled(
+        &self,
+        boundary: Boundary,
+        watch: &dyn Watch,
+    ) -> Result<Unfolded, ProblemError> {
         let x = &self.body.rest;
         let bad = bad_elements(&self.body, x, 0.0);
         let Some(&element) = bad.first() else {
@@ -149,9 +153,10 @@ impl FoldedMesh {
         };
         let held = self.held(boundary);
         self.check_boundary(&held)?;
-        match untangled(&self.body, x, &held, 0.0) {
-            Some(moved) => Ok(self.unfolded(moved, bad.len())),
-            None => Err(ProblemError::InfeasibleStart {
+        match untangled(&self.body, x, &held, 0.0, watch) {
+            Ok(moved) => Ok(self.unfolded(moved, bad.len())),
+            Err(StillFolded::Stopped) => Err(ProblemError::EndedEarly),
+            Err(StillFolded::Failed) => Err(ProblemError::InfeasibleStart {
                 element,
                 determinant: self.body.determinants_at(x)[element],
                 epsilon: 0.0,

@@ -9,7 +9,7 @@
 
 use super::body::{Body, BodyElements};
 use super::problem::{Problem, parts};
-use super::untangle::{bad_elements, untangled};
+use super::untangle::{bad_elements, untangled, unwatched};
 use unwrapd_method::energy::{RestShape, dirichlet};
 use unwrapd_method::solver::Objective;
 
@@ -58,7 +58,7 @@ impl Problem {
         if bad_elements(&self.body, &x, floor).is_empty() {
             return Some(x);
         }
-        untangled(&self.body, &x, held, floor)
+        untangled(&self.body, &x, held, floor, &unwatched).ok()
     }
 
     /// Returns the start with the held vertices at their last targets.

@@ -6,7 +6,7 @@ use super::handle::Handle;
 use super::handles::{Aim, Bound, Turned, bind};
 use super::problem_error::ProblemError;
 use super::soft::SoftPull;
-use super::untangle::{bad_elements, untangled};
+use super::untangle::{bad_elements, untangled, unwatched};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::fmt;
@@ -209,7 +209,8 @@ impl Problem {
         let Some(&element) = bad.first() else {
             return Ok(());
         };
-        let Some(start) = untangled(&self.body, &self.start, &self.arrived(), epsilon) else {
+        let held = self.arrived();
+        let Ok(start) = untangled(&self.body, &self.start, &held, epsilon, &unwatched) else {
             return Err(ProblemError::InfeasibleStart {
                 element,
                 determinant: self.body.determinants_at(&self.start)[element],

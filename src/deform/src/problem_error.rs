@@ -92,6 +92,9 @@ pub enum ProblemError {
         /// ε.
         epsilon: f64,
     },
+    /// The work was ended before all elements were positive.
+    #[error("the work ended early, before a mesh without inversions was found")]
+    EndedEarly,
     /// Neighboring elements cannot be wound alike.
     #[error(
         "elements {elements:?} cannot be wound alike: three meet there, or the mesh has one side only"
@@ -198,6 +201,7 @@ impl ProblemError {
                 "contradictory_handles"
             }
             Self::InfeasibleStart { .. } => "infeasible_start",
+            Self::EndedEarly => "ended_early",
             Self::NotOrientable { .. } => "not_orientable",
             Self::InvertedRest { .. } => "folded_mesh",
             Self::HeldElement { .. } => "held_element_inverted",

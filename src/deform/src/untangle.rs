@@ -14,7 +14,9 @@ use unwrapd_maps::mesh::UsedVertices;
 use unwrapd_method::barrier::NoBarrier;
 use unwrapd_method::energy::{FoldoverFree, Term, Tetrahedra, Triangles};
 use unwrapd_method::numerics::predicates::{orient2d_sign, orient3d_sign};
-use unwrapd_method::solver::{Control, Iterate, Objective, Settings, minimize};
+use unwrapd_method::solver::{
+    Control, Iterate, Objective, Settings, Status, Summary, Watch, minimize,
+};
 
 /// Rings of vertices around bad elements that may move at first, and the factor after each failure. Fewer move less of
 /// the map, more need fewer attempts.
@@ -70,13 +72,33 @@ fn place<const D: usize>(x: &[f64], vertex: u32) -> [f64; D] {
     std::array::from_fn(|k| x[D * vertex as usize + k])
 }
 
-/// Finds positions near `x` with every determinant above `floor` and the vertices `held` fixed; returns `None` if it
-/// fails.
+/// Reason why no positions without inversions were found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StillFolded {
+    /// All vertices that are not held were moved in vain.
+    Failed,
+    /// The watcher ended the work.
+    Stopped,
+}
+
+/// Watches nothing.
+pub(super) fn unwatched(_: &Iterate) -> Control {
+    Control::Continue
+}
+
+/// Finds positions near `x` with every determinant above `floor` and the vertices `held` fixed.
 ///
-/// Vertices outside the rings around bad elements that had to move stay bit for bit, and so do the held ones.
-pub(super) fn untangled(body: &Body, x: &[f64], held: &[u32], floor: f64) -> Option<Vec<f64>> {
+/// Vertices outside the rings around bad elements that had to move stay bit for bit, and so do the held ones. Ended by its watcher, it
+/// returns the positions only if no element is inverted by then.
+pub(super) fn untangled(
+    body: &Body,
+    x: &[f64],
+    held: &[u32],
+    floor: f64,
+    watch: &dyn Watch,
+) -> Result<Vec<f64>, StillFolded> {
     if !x.iter().all(|x| x.is_finite()) {
-        return None;
+        return Err(StillFolded::Failed);
     }
     let bad = bad_elements(body, x, floor);
     // Free wider and wider rings around the bad elements; all vertices once most would move.
@@ -96,12 +118,15 @@ pub(super) fn untangled(body: &Body, x: &[f64], held: &[u32], floor: f64) -> Opt
         } else {
             LEAST_GAIN
         };
-        Patch::new(body, x, &is_free).untangle(&mut moved, least_gain);
+        let status = Patch::new(body, x, &is_free).untangle(&mut moved, least_gain, watch);
         if bad_elements(body, &moved, floor).is_empty() {
-            return Some(moved);
+            return Ok(moved);
+        }
+        if status == Status::Stopped {
+            return Err(StillFolded::Stopped);
         }
         if is_all {
-            return None;
+            return Err(StillFolded::Failed);
         }
         rings *= WIDENING;
     }
@@ -181,33 +206,37 @@ impl Patch {
     }
 
     /// Moves the free vertices in `x` until all elements of the patch are positive, if it can. Gives up if the worst
-    /// element loses less than the share `least_gain` of its inversion in a round.
-    fn untangle(&self, x: &mut [f64], least_gain: f64) {
+    /// element loses less than the share `least_gain` of its inversion in a round. Returns the status of the last round.
+    fn untangle(&self, x: &mut [f64], least_gain: f64, watch: &dyn Watch) -> Status {
         let mut own: Vec<f64> = self.coordinates().map(|i| x[i]).collect();
         let mut objective = Objective::new(self.vertices.len(), self.term(0.0));
         objective.fix(&self.fixed);
-        let mut worst = FIRST;
+        let (mut worst, mut status) = (FIRST, Status::IterationLimit);
         for _ in 0..ROUNDS {
             let smallest = objective.smallest(&own);
             // Once all are positive, give them good shapes.
             if smallest > 0.0 {
                 objective.exchange(vec![self.term(0.0)]);
-                descend(&mut objective, &mut own, LAST_STEPS);
+                status = descend(&mut objective, &mut own, LAST_STEPS, watch).status;
                 break;
             }
             // With this ε the worst element's regularized determinant is `worst`.
             let epsilon = (2.0 * (worst * (worst - smallest)).sqrt()).min(self.largest);
             objective.exchange(vec![self.term(epsilon)]);
-            let gain = descend(&mut objective, &mut own, STEPS).clamp(GAINS[0], GAINS[1]);
+            let summary = descend(&mut objective, &mut own, STEPS, watch);
+            status = summary.status;
             let reached = objective.smallest(&own);
-            if reached < (1.0 - least_gain) * smallest {
+            if status == Status::Stopped || reached < (1.0 - least_gain) * smallest {
                 break;
             }
+            let gain = 1.0 - summary.energy_last / summary.energy_first;
+            let gain = gain.clamp(GAINS[0], GAINS[1]);
             worst = (1.0 - gain) * density(epsilon).regularized(reached);
         }
         for (i, own) in self.coordinates().zip(own) {
             x[i] = own;
         }
+        status
     }
 
     /// Iterates over the indices of the patch's coordinates among those of the body.
@@ -266,12 +295,11 @@ fn density(epsilon: f64) -> FoldoverFree {
     }
 }
 
-/// Takes at most `steps` steps of minimization; returns the decrease as a share of the energy.
-fn descend(objective: &mut Objective, x: &mut [f64], steps: usize) -> f64 {
+/// Takes at most `steps` steps of minimization.
+fn descend(objective: &mut Objective, x: &mut [f64], steps: usize, watch: &dyn Watch) -> Summary {
     let settings = Settings {
         max_iterations: steps,
         ..Settings::draft()
     };
-    let summary = minimize(objective, x, &settings, &|_: &Iterate| Control::Continue);
-    1.0 - summary.energy_last / summary.energy_first
+    minimize(objective, x, &settings, watch)
 }

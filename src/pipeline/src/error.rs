@@ -155,10 +155,12 @@ impl PipelineError {
         }
     }
 
-    /// Returns the exit status of the command line: 2 usage, 3 unusable input, 4 no valid result, 1 anything else.
+    /// Returns the exit status of the command line: 2 usage, 3 unusable input, 4 no valid result, 6 ended
+    /// early without a result, 1 anything else.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::InvalidOptions(_) => 2,
+            Self::Problem(ProblemError::EndedEarly) => 6,
             Self::Mesh(_)
             | Self::TooManyTriangles { .. }
             | Self::NoTriangles

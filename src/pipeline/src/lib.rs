@@ -49,7 +49,9 @@ pub use deform::caged::{CageOptions, CagedDocument, Surfaces};
 pub use deform::live::{SessionBody, Skin, open_body, open_picture};
 pub use deform::solution::{CageReport, Completion, DeformReport, Deformed, PullReport};
 pub use deform::solve::{deform_file, solve_file, solve_problem};
-pub use deform::untangle::{UntangleOptions, UntangleReport, Untangled, untangle_file};
+pub use deform::untangle::{
+    UntangleOptions, UntangleReport, Untangled, UntangledMesh, untangle_file, untangle_mesh,
+};
 pub use deform::warp::{WarpReport, WarpedPicture, warp_file};
 pub use documents::pictures::{AtlasPicture, Pictures, ReportOfAtlas};
 pub use documents::unwrap::{Outcome, repack_document, unwrap_document};

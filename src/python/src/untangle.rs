@@ -3,12 +3,11 @@
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
-use crate::call::{invalid_options, run};
-use crate::files::json;
+use crate::call::run;
+use crate::files::{json, parsed};
 use crate::meshes::rows;
-use unwrapd::deform::{Boundary, FoldedMesh, RestOfFolded};
 use unwrapd::io::Elements;
-use unwrapd::pipeline::{UntangleReport, Workers, in_pool};
+use unwrapd::pipeline::{UntangleOptions, UntangledMesh, untangle_mesh};
 
 /// Positions, elements wound alike, and the report as JSON.
 type PyUntangled<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<u32>>, String);
@@ -20,35 +19,27 @@ pub fn untangle<'py>(
     vertices: PyReadonlyArray2<'py, f64>,
     elements: PyReadonlyArray2<'py, u32>,
     rest_vertices: Option<PyReadonlyArray2<'py, f64>>,
-    rest: &str,
-    boundary: &str,
-    threads: Option<usize>,
+    options: &str,
 ) -> PyResult<PyUntangled<'py>> {
-    let rest: RestOfFolded = word(py, "rest", rest)?;
-    let boundary: Boundary = word(py, "boundary", boundary)?;
+    let options: UntangleOptions = parsed(py, options)?;
     let width = elements.shape()[1];
     let given = rest_vertices
         .map(|places| mesh(&places, &elements))
         .transpose()?;
     let mesh = mesh(&vertices, &elements)?;
     // Untangle.
-    let (x, dim, elements, report) = run(py, None, move |_| {
-        in_pool(Workers { threads }, || {
-            let folded = FoldedMesh::new(&mesh, rest, given.as_ref())?;
-            let unfolded = folded.untangled(boundary)?;
-            let elements = folded.elements_at(&unfolded.x);
-            let report = UntangleReport {
-                elements: elements.triangles.len() + elements.tets.len(),
-                inverted_before: unfolded.inverted,
-                turned: folded.turned(),
-                moved: unfolded.moved,
-                smallest: unfolded.smallest,
-            };
-            Ok((unfolded.x, folded.dim(), elements, report))
-        })?
+    let UntangledMesh {
+        elements,
+        dim,
+        report,
+    } = run(py, None, move |observer| {
+        untangle_mesh(&mesh, given.as_ref(), &options, observer)
     })?;
     // Convert to arrays.
-    let (n_vertices, n_elements) = (x.len() / dim, report.elements);
+    let (n_vertices, n_elements) = (elements.vertices.len(), report.elements);
+    let x: Vec<f64> = (elements.vertices.iter())
+        .flat_map(|p| p[..dim].to_vec())
+        .collect();
     let corners = if width == 3 {
         elements.triangles.into_flattened()
     } else {
@@ -79,10 +70,4 @@ fn mesh(
         mesh.tets = rows(corners);
     }
     Ok(mesh)
-}
-
-/// Returns the value of an option with this name.
-fn word<T: serde::de::DeserializeOwned>(py: Python<'_>, name: &str, word: &str) -> PyResult<T> {
-    serde_json::from_value(word.into())
-        .map_err(|error| invalid_options(py, format!("`{name}`: {error}")))
 }

@@ -136,9 +136,7 @@ def untangle(
     vertices: np.ndarray,
     elements: np.ndarray,
     rest_vertices: np.ndarray | None,
-    rest: str,
-    boundary: str,
-    threads: int | None,
+    options: str,
 ) -> tuple[np.ndarray, np.ndarray, str]: ...
 def references(file: File) -> list[tuple[str, bytes]]: ...
 def bake(

@@ -20,8 +20,8 @@ class Untangled(NamedTuple):
     elements : (E, D + 1) uint32
         The elements in their order, each with its corners in an order of positive size.
     report : dict
-        `elements`, `inverted_before`, `turned` (elements given in the opposite order of their neighbors), `moved` (vertices) and
-        `smallest` (the smallest size of an element over its rest size).
+        `elements`, `inverted_before`, `turned` (elements given in the opposite order of their neighbors), `moved` (vertices),
+        `smallest` (the smallest size of an element over its rest size) and `warnings`.
     """
 
     vertices: np.ndarray
@@ -36,6 +36,7 @@ def untangle(
     rest: str = "implied",
     rest_vertices: Any = None,
     boundary: str = "fixed",
+    time_budget: Optional[float] = None,
     threads: Optional[int] = None,
 ) -> Untangled:
     """Move vertices of a folded mesh, as few as possible, until every element is positive in exact arithmetic.
@@ -50,11 +51,15 @@ def untangle(
         Positions without inversions that have the rest shapes, instead of `rest`.
     boundary : "fixed" or "free"
         Whether vertices of the boundary may move.
+    time_budget : float
+        Time limit in seconds. A mesh without inversions that is found by then is returned.
 
     Raises
     ------
     InvalidInput
         If this is no such mesh, if its fixed boundary contradicts every map without inversions, or if none is found.
+    Error
+        With the code ``"ended_early"``, if none is found within `time_budget`.
     InvalidOptions, TypeError, ValueError
 
     The interpreter is released meanwhile, and Ctrl-C ends the call at once.
@@ -77,7 +82,9 @@ def untangle(
         given = _bodies.flat(rest_vertices, len(places), dim, "rest_vertices").reshape(-1, dim)
         if not np.isfinite(given).all():
             raise ValueError("rest_vertices must be finite")
-    found, wound, report = _native.untangle(places, corners, given, rest, boundary, threads)
+    options = {"rest": rest, "boundary": boundary, "time_budget": time_budget, "threads": threads}
+    chosen = json.dumps({name: value for name, value in options.items() if value is not None})
+    found, wound, report = _native.untangle(places, corners, given, chosen)
     return Untangled(found, wound, json.loads(report))
 
 

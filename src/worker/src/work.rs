@@ -162,16 +162,18 @@ fn warp(upload: &Upload, options: &WarpOptions, observer: &dyn Observer) -> Work
     ))
 }
 
-fn untangle(upload: &Upload, options: &UntangleOptions, _: &dyn Observer) -> WorkResult {
+fn untangle(upload: &Upload, options: &UntangleOptions, observer: &dyn Observer) -> WorkResult {
     let rest = options.rest_mesh.as_ref().map(|name| {
         let bytes = upload.resources.get(name).cloned();
         let bytes = bytes.ok_or_else(|| DocumentError::MissingResource(name.clone()))?;
         Ok::<_, PipelineError>(Upload::single(name, bytes))
     });
-    let untangled = pipeline::untangle_file(upload, rest.transpose()?.as_ref(), options)?;
+    let rest = rest.transpose()?;
+    let untangled = pipeline::untangle_file(upload, rest.as_ref(), options, observer)?;
     // A mesh that is still folded is an error.
     let quality = Quality::proven(true);
-    Ok(JobResult::new(untangled.files).reported(&untangled.report, quality, &[]))
+    let report = &untangled.report;
+    Ok(JobResult::new(untangled.files).reported(report, quality, &report.warnings))
 }
 
 fn edit_uv(upload: &Upload, options: &EditOptions, observer: &dyn Observer) -> WorkResult {

@@ -446,6 +446,9 @@ async fn folded_meshes_are_untangled() {
     let missing = form("untangle", r#"{"rest_mesh": "rest.off"}"#, mesh());
     let job = ended(&server, missing).await;
     assert_eq!(job["error"]["code"], "missing_resource", "{job}");
+    let late = form("untangle", r#"{"time_budget": 0}"#, mesh());
+    let job = ended(&server, late).await;
+    assert_eq!(job["error"]["code"], "ended_early", "{job}");
     let unknown = form("untangle", r#"{"rest": "none"}"#, mesh());
     assert_eq!(ended(&server, unknown).await["code"], "invalid_options");
     let surface = form("untangle", "{}", ("surface.glb", meshes::small()));

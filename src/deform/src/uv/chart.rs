@@ -2,7 +2,7 @@
 
 use super::map::{EditError, UvMap};
 use crate::body::{Body, BodyElements, Boundary};
-use crate::untangle::untangled;
+use crate::untangle::{untangled, unwatched};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use unwrapd_maps::embed::rest_shapes;
@@ -207,7 +207,7 @@ impl UvChart {
             .triangles
             .iter()
             .any(|[a, b, c]: &[u32; 3]| a == b || b == c || c == a))
-        .then(|| untangled(&body, start.as_flattened(), &held, 0.0));
+        .then(|| untangled(&body, start.as_flattened(), &held, 0.0, &unwatched).ok());
         let Some(moved) = moved.flatten() else {
             let face = self.faces.faces[first as usize].0 as usize;
             return Err(EditError::Flipped { face });

@@ -1,13 +1,15 @@
 //! Untangling of folded meshes.
 
 use crate::arrays::unwrap::in_pool;
-use crate::options::{BodyFormat, Caller, CommandOptions, Workers};
+use crate::observer::Observer;
+use crate::options::{BodyFormat, Budget, Caller, CommandOptions, Workers};
+use crate::tracker::Tracker;
 use crate::{PipelineError, limits};
 use serde::{Deserialize, Serialize};
-use unwrapd_api::Limits;
 use unwrapd_api::options::{OptionSet, options};
+use unwrapd_api::{Limits, Stage};
 use unwrapd_deform::{Boundary, FoldedMesh, RestOfFolded};
-use unwrapd_files::document::{DocumentError, Upload};
+use unwrapd_files::document::{DocumentError, Upload, Warning};
 use unwrapd_files::io::{Content, ElementFormat, Elements, Format, format_of_content};
 
 options! {
@@ -18,6 +20,9 @@ options! {
         pub rest: RestOfFolded = RestOfFolded::Implied;
         /// Boundary of the mesh: fixed, or free to move near inverted elements.
         pub boundary: Boundary = Boundary::Fixed;
+        /// Time limit in seconds. A mesh without inversions that is found by then becomes the result;
+        /// without one, the work fails (`ended_early`).
+        pub time_budget: Option<f64>, in 0..=1e6, value "SECONDS", arg(help_heading = "Time");
     }
     files {
         /// Format of the result. The default is the format of the input.
@@ -33,6 +38,14 @@ options! {
     untold {
         /// Settings of the caller.
         pub caller: Caller;
+    }
+}
+
+impl UntangleOptions {
+    /// Returns the time limit within the limits of the caller.
+    fn budget(&self) -> Budget {
+        let time_budget = self.time_budget;
+        self.caller.budget(Budget { time_budget })
     }
 }
 
@@ -61,9 +74,11 @@ pub struct UntangleReport {
     pub moved: usize,
     /// The smallest size of an element over its rest size.
     pub smallest: f64,
+    /// Warnings: that the work ended early, if it did.
+    pub warnings: Vec<Warning>,
 }
 
-/// An untangled mesh.
+/// An untangled mesh as a file.
 #[derive(Clone, Debug)]
 pub struct Untangled {
     /// The written file by name.
@@ -72,37 +87,89 @@ pub struct Untangled {
     pub report: UntangleReport,
 }
 
-/// Untangles a mesh of tetrahedra, or of triangles in the plane: moves vertices until no element is inverted or empty,
-/// which is checked exactly. `rest` is a mesh with the rest shapes, if they are given.
+/// Untangles the mesh of a file like [`untangle_mesh`]. `rest` is the file of a mesh with the rest shapes, if they are given.
 pub fn untangle_file(
     upload: &Upload,
     rest: Option<&Upload>,
     options: &UntangleOptions,
+    observer: &dyn Observer,
 ) -> Result<Untangled, PipelineError> {
     options.check()?;
+    let tracker = Tracker::new(observer, options.budget());
     in_pool(options.caller.workers(options.workers), || {
         // Read the meshes.
+        tracker.stage(Stage::Read);
         let limits = &options.caller.limits;
         let (mesh, found) = read(upload, limits)?;
         let rest = rest.map(|rest| read(rest, limits)).transpose()?;
-        let folded = FoldedMesh::new(&mesh, options.rest, rest.as_ref().map(|(mesh, _)| mesh))?;
+        let rest = rest.as_ref().map(|(mesh, _)| mesh);
         // Untangle, and write the result.
-        let unfolded = folded.untangled(options.boundary)?;
-        let elements = folded.elements_at(&unfolded.x);
+        let UntangledMesh {
+            elements,
+            dim,
+            report,
+        } = untangled(&mesh, rest, options, &tracker)?;
+        tracker.stage(Stage::Write);
         let format = options.format.unwrap_or(found);
-        let file = format.write_elements(&elements, folded.dim());
+        let file = format.write_elements(&elements, dim);
         let stem = options.caller.stem(upload);
         Ok(Untangled {
             files: vec![(format!("{stem}.{}", format.extension()), file)],
-            report: UntangleReport {
-                elements: elements.triangles.len() + elements.tets.len(),
-                inverted_before: unfolded.inverted,
-                turned: folded.turned(),
-                moved: unfolded.moved,
-                smallest: unfolded.smallest,
-            },
+            report,
         })
     })?
+}
+
+/// An untangled mesh as arrays.
+#[derive(Clone, Debug)]
+pub struct UntangledMesh {
+    /// The mesh, with its elements wound alike.
+    pub elements: Elements,
+    /// Coordinates of a position: 2 for triangles, 3 for tetrahedra.
+    pub dim: usize,
+    /// Report on the change.
+    pub report: UntangleReport,
+}
+
+/// Untangles a mesh of tetrahedra, or of triangles in the plane: moves vertices until no element is inverted or empty,
+/// which is checked exactly. `rest` is a mesh with the rest shapes, if they are given.
+///
+/// # Errors
+/// If this is no such mesh, if no map without inversions is found, or if the work ends before.
+pub fn untangle_mesh(
+    mesh: &Elements,
+    rest: Option<&Elements>,
+    options: &UntangleOptions,
+    observer: &dyn Observer,
+) -> Result<UntangledMesh, PipelineError> {
+    options.check()?;
+    let tracker = Tracker::new(observer, options.budget());
+    in_pool(options.caller.workers(options.workers), || {
+        untangled(mesh, rest, options, &tracker)
+    })?
+}
+
+fn untangled(
+    mesh: &Elements,
+    rest: Option<&Elements>,
+    options: &UntangleOptions,
+    tracker: &Tracker,
+) -> Result<UntangledMesh, PipelineError> {
+    let folded = FoldedMesh::new(mesh, options.rest, rest)?;
+    let unfolded = folded.untangled(options.boundary, tracker)?;
+    let elements = folded.elements_at(&unfolded.x);
+    Ok(UntangledMesh {
+        dim: folded.dim(),
+        report: UntangleReport {
+            elements: elements.triangles.len() + elements.tets.len(),
+            inverted_before: unfolded.inverted,
+            turned: folded.turned(),
+            moved: unfolded.moved,
+            smallest: unfolded.smallest,
+            warnings: tracker.warning().into_iter().collect(),
+        },
+        elements,
+    })
 }
 
 /// Reads a mesh; returns the format to write it in, too. The extension determines its format; without one, the first

@@ -255,7 +255,7 @@ codes! {
 // Codes of invalid inputs. They come from the pipeline, mean the same on the command line, and have status 422.
 
 /// Codes with their meanings.
-pub(super) const CAUSES: [(&str, &str); 74] = [
+pub(super) const CAUSES: [(&str, &str); 75] = [
     // Handles.
     ("malformed_handles", "The list of handles cannot be parsed"),
     ("no_handle", "There is no handle"),
@@ -453,6 +453,10 @@ pub(super) const CAUSES: [(&str, &str); 74] = [
     (
         "infeasible_start",
         "An element of the start is inverted or too small, and untangling failed",
+    ),
+    (
+        "ended_early",
+        "The work ended, at its time limit or on request, before a valid result was found",
     ),
     (
         "held_element_inverted",
