@@ -1,6 +1,6 @@
 //! Frames of a session: a handle has moved a little, then the map follows by one iteration.
 //!
-//! `cargo bench --bench frames --no-default-features --features files -- [CASE …]`; without arguments `plane-50` and `plane-158` (N×N
+//! `cargo bench --bench frames -- [CASE …]`; without arguments `plane-50` and `plane-158` (N×N
 //! squares, two triangles each) and `armadillo` (55,000 tetrahedra of a file). One end is held, a ball at the other is dragged along
 //! a circle, ARAP with the barrier. Prints milliseconds of the processor per frame, their median and 95th of a hundred, what the parts
 //! of an iteration cost at the end, and the energy after three frames beside that of [`Problem::solve`] ended after one iteration in
