@@ -11,6 +11,8 @@ pub struct PointTree {
     points: Vec<[f64; 3]>,
     /// Points in the order of the tree: the median of a range is in its middle, with the lower side on the left.
     order: Vec<u32>,
+    /// Positions in the order of the tree, so that those of a leaf are read together.
+    sorted: Vec<[f64; 3]>,
     /// Axis along which the range around each place is divided.
     axis: Vec<u8>,
 }
@@ -20,6 +22,7 @@ impl PointTree {
     pub fn new(points: Vec<[f64; 3]>) -> Self {
         let mut tree = Self {
             order: (0..points.len() as u32).collect(),
+            sorted: Vec::new(),
             axis: vec![0; points.len()],
             points,
         };
@@ -40,6 +43,8 @@ impl PointTree {
             open.push((start, middle));
             open.push((middle + 1, end));
         }
+        let sorted = tree.order.iter().map(|&v| tree.points[v as usize]);
+        tree.sorted = sorted.collect();
         tree
     }
 
@@ -66,17 +71,16 @@ impl PointTree {
             }
             // Compare the points of a leaf one by one.
             if end - start <= LEAF {
-                for &v in &self.order[start..end] {
-                    self.compare(v, to, &accepts, &mut best);
+                for place in start..end {
+                    self.compare(place, to, &accepts, &mut best);
                 }
                 continue;
             }
             // Compare the median, then search the near side before the far one.
             let middle = usize::midpoint(start, end);
             let axis = usize::from(self.axis[middle]);
-            let v = self.order[middle];
-            self.compare(v, to, &accepts, &mut best);
-            let beyond = to[axis] - self.points[v as usize][axis];
+            self.compare(middle, to, &accepts, &mut best);
+            let beyond = to[axis] - self.sorted[middle][axis];
             let (near, far) = if beyond < 0.0 {
                 ((start, middle), (middle + 1, end))
             } else {
@@ -88,8 +92,14 @@ impl PointTree {
         (best.1 != u32::MAX).then(|| (best.1, best.0.sqrt()))
     }
 
-    fn compare(&self, v: u32, to: [f64; 3], accepts: &impl Fn(u32) -> bool, best: &mut (f64, u32)) {
-        let p = self.points[v as usize];
+    fn compare(
+        &self,
+        place: usize,
+        to: [f64; 3],
+        accepts: &impl Fn(u32) -> bool,
+        best: &mut (f64, u32),
+    ) {
+        let (v, p) = (self.order[place], self.sorted[place]);
         let squared = (0..3).map(|k| (p[k] - to[k]).powi(2)).sum::<f64>();
         if (squared < best.0 || (squared == best.0 && v < best.1)) && accepts(v) {
             *best = (squared, v);

@@ -11,11 +11,13 @@ use unwrapd_method::numerics::vec3::{cross, distance, dot, norm, sub};
 /// Points of the cloud, and those of them that are mirrored to judge a candidate, to fit it and to accept it.
 const CLOUD: usize = 20_000;
 const JUDGING: usize = 150;
-pub(super) const FITTING: usize = 400;
+const FITTING: usize = 400;
 const ACCEPTING: usize = 1_000;
 
-/// Times that a plane is fitted to new pairs at most.
-pub(super) const ROUNDS: usize = 10;
+/// Times that a plane is fitted to new pairs at most, and the change of its normal, and of its place as a share of the diagonal, below
+/// which it is settled.
+const ROUNDS: usize = 10;
+const SETTLED: f64 = 1e-4;
 
 /// Vertices that are mirrored to fit a plane to the vertices.
 const VERTICES: usize = 1_000;
@@ -39,10 +41,10 @@ const ACCEPTED: f64 = 0.95;
 const NEAR: f64 = 0.01;
 
 /// A vertex has a mirror image if there is a vertex within this part of the diagonal.
-pub(super) const EXACT: f64 = 1e-4;
+const EXACT: f64 = 1e-4;
 
 /// A plane in which half of the surface lies mirrors nothing.
-pub(super) const IN_PLANE: f64 = 0.0025;
+const IN_PLANE: f64 = 0.0025;
 
 /// The plane in which a surface is its own mirror image, exactly or nearly; the best if there are several.
 ///
@@ -56,17 +58,16 @@ pub fn mirror_plane(surface: &Surface) -> Option<MirrorPlane> {
     let [low, high] = corners_of(&cloud)?;
     let diagonal = distance(low, high);
     let cloud = PointTree::new(cloud);
-    let candidates = promising(&cloud, diagonal);
-    let fitted = candidates.into_iter().take(FOLLOWED).map(|plane| {
-        let plane = fitted(plane, &every(cloud.points(), FITTING), &cloud, ROUNDS);
-        (mismatch(&plane, &cloud, ACCEPTING), plane)
+    let [fitting, accepting] = [FITTING, ACCEPTING].map(|n| every(cloud.points(), n));
+    let candidates = promising(&cloud, diagonal).into_iter();
+    let fitted = candidates.take(FOLLOWED).filter_map(|plane| {
+        let plane = fitted(plane, &fitting, &cloud, diagonal);
+        let distances = distances(&plane, &accepting, &cloud);
+        let is_accepted = is_accepted(&plane, &accepting, &distances, diagonal);
+        is_accepted.then(|| (mismatch(distances), plane))
     });
-    let mut fitted: Vec<(f64, MirrorPlane)> = fitted
-        .filter(|(_, plane)| is_accepted(plane, &cloud, diagonal))
-        .collect();
-    fitted.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let (_, plane) = fitted.first()?;
-    Some(sharpened(*plane, surface, diagonal))
+    let (_, plane) = fitted.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(sharpened(plane, surface, diagonal))
 }
 
 /// The plane fitted to the vertices if more of them have a mirror image then.
@@ -82,7 +83,7 @@ fn sharpened(plane: MirrorPlane, surface: &Surface, diagonal: f64) -> MirrorPlan
         };
         sample.iter().filter(is_mirrored).count()
     };
-    let sharper = fitted(plane, &sample, &vertices, ROUNDS);
+    let sharper = fitted(plane, &sample, &vertices, diagonal);
     if n_mirrored(&sharper) > n_mirrored(&plane) {
         sharper
     } else {
@@ -91,16 +92,17 @@ fn sharpened(plane: MirrorPlane, surface: &Surface, diagonal: f64) -> MirrorPlan
 }
 
 /// The vertices of faces.
-pub(super) fn vertices(surface: &Surface) -> PointTree {
+fn vertices(surface: &Surface) -> PointTree {
     let corners = surface.triangles.as_flattened().iter().copied();
     let used = UsedVertices::new(corners).into_vec().into_iter();
     PointTree::new(used.map(|v| surface.positions[v as usize]).collect())
 }
 
 /// Planes through the center of the points in which the cloud may be its own mirror image, the likeliest first.
-pub(super) fn promising(cloud: &PointTree, diagonal: f64) -> Vec<MirrorPlane> {
+fn promising(cloud: &PointTree, diagonal: f64) -> Vec<MirrorPlane> {
+    let judging = every(cloud.points(), JUDGING);
     let candidates = candidates(cloud.points()).into_iter();
-    let judged = candidates.map(|plane| (mismatch(&plane, cloud, JUDGING), plane));
+    let judged = candidates.map(|plane| (mismatch(distances(&plane, &judging, cloud)), plane));
     let mut judged: Vec<(f64, MirrorPlane)> = judged
         .filter(|(mismatch, _)| *mismatch < PROMISING * diagonal)
         .collect();
@@ -142,12 +144,14 @@ fn candidates(points: &[[f64; 3]]) -> Vec<MirrorPlane> {
         .collect()
 }
 
-/// The mean distance of mirror images from the cloud, without the farthest.
-fn mismatch(plane: &MirrorPlane, cloud: &PointTree, n_points: usize) -> f64 {
-    let mut distances: Vec<f64> = every(cloud.points(), n_points)
-        .into_iter()
-        .map(|p| image_in(plane, p, cloud).1)
-        .collect();
+/// The distances of the mirror images of points from a cloud.
+fn distances(plane: &MirrorPlane, points: &[[f64; 3]], cloud: &PointTree) -> Vec<f64> {
+    let points = points.iter();
+    points.map(|&p| image_in(plane, p, cloud).1).collect()
+}
+
+/// The mean distance of mirror images, without the farthest.
+fn mismatch(mut distances: Vec<f64>) -> f64 {
     distances.sort_by(f64::total_cmp);
     distances.truncate(((SHARE_JUDGED * distances.len() as f64) as usize).max(1));
     distances.iter().sum::<f64>() / distances.len() as f64
@@ -160,13 +164,12 @@ fn image_in(plane: &MirrorPlane, p: [f64; 3], cloud: &PointTree) -> ([f64; 3], f
     (cloud.points()[v as usize], distance)
 }
 
-fn is_accepted(plane: &MirrorPlane, cloud: &PointTree, diagonal: f64) -> bool {
-    let sample = every(cloud.points(), ACCEPTING);
-    let least = ACCEPTED * sample.len() as f64;
-    let is_near = |p: &&[f64; 3]| image_in(plane, **p, cloud).1 < NEAR * diagonal;
+/// Whether enough of some points, whose mirror images have these distances from the surface, are mirrored, and lie off the plane.
+fn is_accepted(plane: &MirrorPlane, points: &[[f64; 3]], distances: &[f64], diagonal: f64) -> bool {
+    let n_near = distances.iter().filter(|&&it| it < NEAR * diagonal).count();
     let is_off = |p: &&[f64; 3]| plane.height(**p).abs() > IN_PLANE * diagonal;
-    sample.iter().filter(is_near).count() as f64 >= least
-        && 2 * sample.iter().filter(is_off).count() > sample.len()
+    let n_off = points.iter().filter(is_off).count();
+    n_near as f64 >= ACCEPTED * points.len() as f64 && 2 * n_off > points.len()
 }
 
 /// The plane that fits the pairs of points and nearest mirror images best, found again and again.
@@ -175,13 +178,13 @@ fn is_accepted(plane: &MirrorPlane, cloud: &PointTree, diagonal: f64) -> bool {
 /// Σ |y − mirrored(x)|² is least for the plane through c = mean (x + y) / 2
 /// whose normal is the eigenvector of Σ (x − c)(y − c)ᵀ + (y − c)(x − c)ᵀ for the least eigenvalue
 /// ```
-pub(super) fn fitted(
+fn fitted(
     mut plane: MirrorPlane,
     points: &[[f64; 3]],
     cloud: &PointTree,
-    rounds: usize,
+    diagonal: f64,
 ) -> MirrorPlane {
-    for _ in 0..rounds {
+    for _ in 0..ROUNDS {
         let mut pairs: Vec<([f64; 3], [f64; 3], f64)> = (points.iter())
             .map(|&p| {
                 let (image, distance) = image_in(&plane, p, cloud);
@@ -194,9 +197,10 @@ pub(super) fn fitted(
         let Some(next) = best_plane(&pairs, plane.normal) else {
             break;
         };
-        let is_same = norm(sub(next.normal, plane.normal)) < 1e-9;
+        let is_settled = norm(sub(next.normal, plane.normal)) < SETTLED
+            && (next.offset - plane.offset).abs() < SETTLED * diagonal;
         plane = next;
-        if is_same {
+        if is_settled {
             break;
         }
     }
@@ -224,7 +228,7 @@ fn best_plane(pairs: &[([f64; 3], [f64; 3], f64)], normal: [f64; 3]) -> Option<M
 }
 
 /// About so many of the points, evenly.
-pub(super) fn every(points: &[[f64; 3]], n: usize) -> Vec<[f64; 3]> {
+fn every(points: &[[f64; 3]], n: usize) -> Vec<[f64; 3]> {
     points
         .iter()
         .copied()
@@ -232,6 +236,6 @@ pub(super) fn every(points: &[[f64; 3]], n: usize) -> Vec<[f64; 3]> {
         .collect()
 }
 
-pub(super) fn corners_of(points: &[[f64; 3]]) -> Option<[[f64; 3]; 2]> {
+fn corners_of(points: &[[f64; 3]]) -> Option<[[f64; 3]; 2]> {
     (!points.is_empty()).then(|| bounds_of(points))
 }
