@@ -113,7 +113,7 @@ impl CoverageTotals {
         let mut layers = 0;
         let (mut covered, mut covered_twice, mut most) = (0_u32, 0_u32, 0);
         for some in change.chunks(STEADY) {
-            if some == [0; STEADY] {
+            if some.iter().fold(0, |all, change| all | change) == 0 {
                 covered += STEADY as u32 * u32::from(layers > 0);
                 covered_twice += STEADY as u32 * u32::from(layers > 1);
                 continue;
