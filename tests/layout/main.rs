@@ -20,6 +20,7 @@ mod panels;
 #[path = "../places.rs"]
 #[allow(dead_code)]
 mod places;
+mod properties;
 mod redrawn;
 mod search;
 mod straighten;

@@ -1,6 +1,6 @@
 //! Exact orientation, convex hulls, random numbers.
 
-use unwrapd_method::numerics::hull::{convex_hull, smallest_page};
+use unwrapd_method::numerics::hull::{Enclosure, convex_hull, smallest_page, smallest_rectangle};
 use unwrapd_method::numerics::predicates::orient2d_sign;
 use unwrapd_method::numerics::random::Random;
 use unwrapd_method::numerics::support::{Directions, Support};
@@ -47,7 +47,8 @@ fn the_smallest_page_is_found_at_any_angle() {
     };
     let rectangle = |w: f64, h: f64| [[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]];
     for angle in [0.0, 0.1, 0.7, 1.4, 2.9] {
-        let page = |corners: &[[f64; 2]], aspect| smallest_page(&turned(corners, angle), aspect);
+        let page =
+            |corners: &[[f64; 2]], aspect| smallest_page(&turned(corners, angle), aspect).area;
         let cases = [
             // A square has itself around it, a page of its own shape too.
             (page(&rectangle(1.0, 1.0), 1.0), 1.0),
@@ -65,7 +66,46 @@ fn the_smallest_page_is_found_at_any_angle() {
             assert!((found - expected).abs() < 1e-12, "{found} for {expected}");
         }
     }
-    assert_eq!(smallest_page(&[], 1.0), 0.0);
+    assert_eq!(smallest_page(&[], 1.0).area, 0.0);
+}
+
+#[test]
+fn enclosures_have_the_angle_at_which_they_fit() {
+    let mut random = Random::new(3);
+    for _ in 0..50 {
+        let points: Vec<[f64; 2]> = (0..9)
+            .map(|_| [2.0 * random.unit(), random.unit()])
+            .collect();
+        let hull = convex_hull(points);
+        let extent = |angle: f64| {
+            let (sin, cos) = angle.sin_cos();
+            let span = |of: &dyn Fn(&[f64; 2]) -> f64| {
+                let all = || hull.iter().map(of);
+                all().fold(f64::MIN, f64::max) - all().fold(f64::MAX, f64::min)
+            };
+            [
+                span(&|p| cos * p[0] + sin * p[1]),
+                span(&|p| cos * p[1] - sin * p[0]),
+            ]
+        };
+        let Enclosure { area, angle } = smallest_rectangle(&hull);
+        let [length, width] = extent(angle);
+        assert!(width <= length && (length * width / area - 1.0).abs() < 1e-9);
+        for aspect in [1.0, 2.0, 4.0] {
+            let Enclosure { area, angle } = smallest_page(&hull, aspect);
+            let [length, width] = extent(angle);
+            let around = (length / aspect).max(width);
+            assert!((around * around * aspect / area - 1.0).abs() < 1e-9);
+            // No other angle does with less.
+            for step in 0..180 {
+                let [length, width] = extent(f64::from(step).to_radians());
+                let around = (length / aspect).max(width);
+                assert!(around * around * aspect > area * (1.0 - 1e-9));
+                assert!(length * width > smallest_rectangle(&hull).area * (1.0 - 1e-9));
+            }
+        }
+    }
+    assert_eq!(smallest_rectangle(&[]).area, 0.0);
 }
 
 #[test]

@@ -10,7 +10,7 @@ pub type OnRead<'a> = dyn Fn(u64) -> Control + Sync + 'a;
 /// Ignores reports and never ends a search.
 pub(crate) const UNHEARD: &OnRead<'static> = &|_| Control::Continue;
 
-/// Number of charts for which [`Schedule::words`] is given. Words grow with the 1.5th power of the number of charts: with more charts
+/// Number of charts for which the words of an effort are given. Words grow with the 1.5th power of the number of charts: with more charts
 /// a trial takes longer, and there are more layouts.
 const CHARTS: f64 = 10.0;
 /// Words between two reports, about a thousandth of a second.
@@ -27,44 +27,28 @@ pub enum Effort {
     High,
 }
 
-/// Division of an effort among the phases of a search.
-pub(super) struct Schedule {
-    /// Words of all phases, for [`CHARTS`].
-    words: f64,
-    /// Least number of charts for which words are counted. With two, a good layout would be missed.
-    fewest: usize,
-    /// Number of annealing runs with different seeds.
-    pub starts: u32,
-}
-
-impl Schedule {
-    /// Share of the words for annealing; the rest is for squeezing.
-    pub const ANNEALING: f64 = 0.6;
-    /// Maximum number of the best arrangements that are squeezed. A third one makes one layout of 25 fuller, for a tenth of the time.
-    pub const SQUEEZED: usize = 2;
-}
-
 impl Effort {
-    pub(super) fn schedule(self) -> Schedule {
-        let (words, fewest, starts) = match self {
-            Self::Low => (1.5e6, 4, 1),
-            Self::Medium => (3e6, 1, 2),
-            // With 30 million, 71 sets of charts are fuller by .001 at the mean, and packing takes a fifth longer.
-            Self::High => (20e6, 1, 4),
-        };
-        Schedule {
-            words,
-            fewest,
-            starts,
+    /// Returns the number of annealing runs with different seeds.
+    pub(super) fn starts(self) -> u32 {
+        match self {
+            Self::Low => 1,
+            Self::Medium => 2,
+            Self::High => 4,
         }
     }
 
     /// Returns the approximate number of words that this effort reads for `n_charts` charts.
     pub fn words(self, n_charts: usize) -> u64 {
-        let schedule = self.schedule();
-        let n = n_charts.max(schedule.fewest) as f64 / CHARTS;
+        // With the words of two charts, a low effort would miss a good layout.
+        let (words, fewest) = match self {
+            Self::Low => (1.5e6, 4),
+            Self::Medium => (3e6, 1),
+            // With 30 million, 71 sets of charts are fuller by .001 at the mean, and packing takes a fifth longer.
+            Self::High => (20e6, 1),
+        };
+        let n = n_charts.max(fewest) as f64 / CHARTS;
         // Rounded alike everywhere, unlike a power.
-        (schedule.words * n * n.sqrt()) as u64
+        (words * n * n.sqrt()) as u64
     }
 }
 

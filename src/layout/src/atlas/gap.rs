@@ -5,12 +5,11 @@
 use rayon::prelude::*;
 use std::sync::Arc;
 
-use super::effort::OnRead;
 use super::layout::{Layout, Place, Problem, stretch};
 use super::outline::Outline;
 use super::page::{FINE, Region};
-use super::problem::{AtlasOptions, Scale};
-use super::squeeze::{Body, End, FixedBody, Pose, Squeezed};
+use super::problem::Scale;
+use super::squeeze::{Body, FixedBody, Pose, Squeezed};
 use unwrapd_maps::plane::{BoxIndex, Segment, Visit, search_budget, segment_distance};
 use unwrapd_method::numerics::bounds::{Bounds, bounds_of};
 
@@ -23,50 +22,51 @@ const ROUNDED: f64 = 0.002;
 /// Smallest share by which charts are spread if no round keeps them far enough apart; it is doubled up to [`SPREADS`] times.
 const LEAST_SPREAD: f64 = 1e-4;
 const SPREADS: u32 = 8;
-/// Each of these rounds reads about one part in `SHARE` of the word budget at most.
-const SHARE: u64 = 16;
 /// Share of the scale for which charts that are too small for the grid are enlarged, since the final scale may be a little smaller.
 const SMALLER: f64 = 0.98;
 
-/// Charts on all pages that are to be squeezed, and what they keep clear of.
-pub(super) struct Squeezing<'a> {
-    /// Outlines of all charts, turned as at an angle of 0.
-    pub level: &'a [Outline],
-    /// Indices of the charts, in the order of the poses.
-    pub charts: &'a [usize],
+/// Charts whose distances are measured and corrected.
+struct Measuring<'a> {
+    problem: &'a Problem<'a>,
     /// Cells per mesh unit.
-    pub scale: f64,
-    pub border: Border,
-    /// Outlines of the islands that stay, in longer sides of a page from the lower left corner of the first one.
-    pub stays: &'a [Outline],
-    pub options: &'a AtlasOptions,
-    pub on_read: &'a OnRead<'a>,
+    scale: f64,
 }
 
-/// Relation of the pages to the charts on them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Border {
-    /// Pages end where their charts end.
-    Cropped,
-    /// Charts have frames, or keep clear of islands, which are given relative to the page.
-    Fixed,
+/// Squeezes charts from where they lie, and brings them exactly as near as permitted. Returns `None` if they could not be brought far
+/// enough apart, or if they do not fit at a prescribed scale.
+pub(super) fn squeezed(problem: &Problem, start: Squeezed) -> Option<Layout> {
+    let scale = start.scale;
+    Measuring { problem, scale }.layout(start)
 }
 
-impl Squeezing<'_> {
-    /// Returns a layout near squeezed charts in which they keep the padding. The bodies keep a distance of `kept` cells. Returns `None`
-    /// if charts could not be brought far enough apart, or if they do not fit at a prescribed scale.
-    pub(super) fn layout(
-        &self,
-        mut squeezed: Squeezed,
-        bodies: &[Arc<Body>],
-        kept: f64,
-    ) -> Option<Layout> {
+/// Squeezes a layout on the raster. Returns `None` if that fails, or if the layout has no room for the padding.
+pub(super) fn squeezed_layout(problem: &Problem, found: &Layout) -> Option<Layout> {
+    let Problem { plan, options, .. } = *problem;
+    if found.padding_texels < f64::from(options.padding_texels) {
+        return None;
+    }
+    let texture = options.texture;
+    let page = FINE * f64::from(texture.raster(texture.coarse_cells(plan.order.len())));
+    let padding = options.padding_share() * page;
+    let obstacles = problem.obstacles.iter();
+    let fixed = obstacles.map(|it| FixedBody::new(&it.outline, page, padding));
+    squeezed(problem, poses(problem, found, page, fixed.collect()))
+}
+
+impl Measuring<'_> {
+    /// Returns a layout near squeezed charts in which they keep the padding; `None` if there is none.
+    fn layout(&self, mut squeezed: Squeezed) -> Option<Layout> {
+        let kept = squeezed.padding;
+        let Problem { plan, options, .. } = *self.problem;
+        let charts = plan.order.par_iter();
+        let body = |&chart: &usize| Arc::new(Body::new(&plan.outlines[chart], self.scale, kept));
+        let bodies: Vec<Arc<Body>> = charts.map(body).collect();
         let padding = self.padding(squeezed.side);
         squeezed.padding = padding + 2.0 * ROUNDED;
         let (mut room, mut best) = (padding - kept, None);
         for _ in 0..ROUNDS {
-            let words = self.options.budget_words / SHARE;
-            if !squeezed.loosen(bodies, room, words, self.on_read) {
+            let words = options.budget_words / ROUNDS as u64;
+            if !squeezed.loosen(&bodies, room, words, self.problem.on_read) {
                 break;
             }
             let (places, missing) = self.measured(&squeezed);
@@ -89,14 +89,6 @@ impl Squeezing<'_> {
         self.on_grid(best.or_else(spread)?)
     }
 
-    /// Returns the charts as bodies that keep a distance of `kept` cells.
-    pub(super) fn bodies(&self, kept: f64) -> Vec<Arc<Body>> {
-        let charts = self.charts.par_iter();
-        charts
-            .map(|&chart| Arc::new(Body::new(&self.level[chart], self.scale, kept)))
-            .collect()
-    }
-
     /// Returns whether the page has room for the places, which matters at a prescribed scale, and each frame for its chart.
     fn fits(&self, places: &Places) -> bool {
         // Frames have a margin of [`ROUNDED`].
@@ -111,9 +103,11 @@ impl Squeezing<'_> {
             ..squeezed.clone()
         };
         let mut places = Places::new(self, &padded);
-        places.side = match self.border {
-            Border::Cropped => self.side(places.reach),
-            Border::Fixed => squeezed.side,
+        // Pages end where their charts end, unless charts have frames, or keep clear of islands, which are given relative to the page.
+        places.side = if self.problem.is_constrained() {
+            squeezed.side
+        } else {
+            self.side(places.reach)
         };
         let missing = self.padding(places.side) + 2.0 * ROUNDED - places.gap;
         (places, missing)
@@ -121,23 +115,23 @@ impl Squeezing<'_> {
 
     /// Returns the longer side, without borders, of the smallest page on which charts may extend to `reach`, to the right and up.
     fn side(&self, reach: [f64; 2]) -> f64 {
-        let frame = self.options.texture.frame(Region::page(0));
+        let frame = self.problem.options.texture.frame(Region::page(0));
         let least = self.padding(0.0);
         frame.side(reach, [least + 2.0 * ROUNDED, self.padding(1.0) - least])
     }
 
     /// Returns the cells per texel if the longer side of a page, without borders, is `side`.
     fn texel(&self, side: f64) -> f64 {
-        let longer = f64::from(self.options.texture.resolution.longer());
-        match self.options.scale {
-            Scale::Largest => side / (longer - f64::from(self.options.packed_texels())),
+        let longer = f64::from(self.problem.options.texture.resolution.longer());
+        match self.problem.options.scale {
+            Scale::Largest => side / (longer - f64::from(self.problem.options.packed_texels())),
             Scale::TexelsPerUnit(texels) => self.scale / texels,
         }
     }
 
     /// Returns the cells kept between charts.
     fn padding(&self, side: f64) -> f64 {
-        f64::from(self.options.packed_texels()) * self.texel(side)
+        f64::from(self.problem.options.packed_texels()) * self.texel(side)
     }
 
     /// Returns the cells along the longer side of the page that charts need, with borders.
@@ -147,17 +141,17 @@ impl Squeezing<'_> {
 
     /// Returns the cells along the longer side of a page, which a prescribed scale determines.
     fn page(&self, side: f64) -> f64 {
-        match self.options.scale {
+        match self.problem.options.scale {
             Scale::Largest => self.around(side),
             Scale::TexelsPerUnit(_) => {
-                f64::from(self.options.texture.resolution.longer()) * self.texel(side)
+                f64::from(self.problem.options.texture.resolution.longer()) * self.texel(side)
             }
         }
     }
 
     /// Converts places from cells to grid steps. Returns `None` if a chart would be too small for the grid.
     fn on_grid(&self, places: Places) -> Option<Layout> {
-        let cell = self.options.texture.grid_side() / self.page(places.side);
+        let cell = self.problem.options.texture.grid_side() / self.page(places.side);
         let scale = self.scale * cell;
         let border = self.padding(places.side) / 2.0 + ROUNDED;
         let is_small = |place: &Place| stretch(&place.outline, scale) > place.stretch;
@@ -171,8 +165,8 @@ impl Squeezing<'_> {
             stretch: 1.0,
             room: 0.0,
         };
-        let mut charts: Vec<Place> = self.level.iter().map(nowhere).collect();
-        for (&chart, place) in self.charts.iter().zip(places.charts) {
+        let mut charts: Vec<Place> = self.problem.plan.outlines.iter().map(nowhere).collect();
+        for (&chart, place) in self.problem.plan.order.iter().zip(places.charts) {
             charts[chart] = Place {
                 corner: place.corner.map(|x| (border + x) * cell),
                 room: ROUNDED * cell,
@@ -182,50 +176,9 @@ impl Squeezing<'_> {
         Some(Layout {
             scale,
             cell,
-            padding_texels: f64::from(self.options.padding_texels),
+            padding_texels: f64::from(self.problem.options.padding_texels),
             charts,
         })
-    }
-}
-
-/// Squeezes a layout on the raster, and brings charts exactly as near as permitted. Returns `None` if that fails, or if the layout has
-/// no room for the padding.
-pub(super) fn squeezed(problem: &Problem, found: &Layout) -> Option<Layout> {
-    let Problem {
-        plan,
-        options,
-        on_read,
-        ..
-    } = *problem;
-    let texture = options.texture;
-    if found.padding_texels < f64::from(options.padding_texels) {
-        return None;
-    }
-    let page = FINE * f64::from(texture.raster(texture.coarse_cells(plan.order.len())));
-    let padding = options.padding_share() * page;
-    let obstacles = problem.obstacles.iter();
-    let fixed = obstacles.map(|it| FixedBody::new(&it.outline, page, padding));
-    let stays: Vec<Outline> = (problem.obstacles.iter())
-        .map(|it| it.outline.clone())
-        .collect();
-    let squeezing = Squeezing {
-        level: &plan.outlines,
-        charts: &plan.order,
-        scale: found.scale * page / texture.grid_side(),
-        border: if problem.is_constrained() {
-            Border::Fixed
-        } else {
-            Border::Cropped
-        },
-        stays: &stays,
-        options,
-        on_read,
-    };
-    let mut squeezed = poses(problem, found, page, fixed.collect());
-    let bodies = squeezing.bodies(padding);
-    match squeezed.settle(&bodies, options.budget_words / 2, on_read) {
-        End::Overlapping => None,
-        End::OutOfWords | End::Stuck => squeezing.layout(squeezed, &bodies, padding),
     }
 }
 
@@ -247,7 +200,8 @@ pub(super) fn poses(
         let angle = problem.plan.outlines[chart].angle_to(&place.outline);
         (Pose::new([x + frame.left * page, y], angle), frame)
     });
-    Squeezed::new(posed, fixed, page, padding)
+    let scale = found.scale * cell;
+    Squeezed::new(posed, fixed, page, padding, scale)
 }
 
 /// Places of squeezed charts in cells, without borders.
@@ -264,13 +218,15 @@ struct Places {
 }
 
 impl Places {
-    /// Places charts as squeezed; in their frames if the border is fixed.
-    fn new(squeezing: &Squeezing, squeezed: &Squeezed) -> Self {
-        let Squeezing { level, border, .. } = *squeezing;
+    /// Places charts as squeezed; in their frames if they are constrained.
+    fn new(measuring: &Measuring, squeezed: &Squeezed) -> Self {
+        let problem = measuring.problem;
+        let is_fixed = problem.is_constrained();
+        let level = &problem.plan.outlines;
         let cells = squeezed.side + squeezed.padding;
-        let unit = SMALLER * squeezing.scale * squeezing.options.texture.grid_side() / cells;
+        let unit = SMALLER * measuring.scale * problem.options.texture.grid_side() / cells;
         let mut places = Self {
-            charts: Vec::with_capacity(squeezing.charts.len()),
+            charts: Vec::with_capacity(problem.plan.order.len()),
             reach: [0.0; 2],
             side: 0.0,
             gap: 0.0,
@@ -278,7 +234,7 @@ impl Places {
         };
         let mut edges: Vec<Segment> = Vec::new();
         let mut owners = Vec::new();
-        let posed = squeezing.charts.iter().zip(&squeezed.poses);
+        let posed = problem.plan.order.iter().zip(&squeezed.poses);
         for ((&chart, pose), frame) in posed.zip(squeezed.frames.iter()) {
             let outline = level[chart].rotated(pose.angle);
             let middle = outline.place(level[chart].middle());
@@ -286,17 +242,18 @@ impl Places {
             let bounds = frame.bounds(squeezed.side, squeezed.padding);
             let [low, high] = bounds.map(|end| [0, 1].map(|k| end[k] - left[k]));
             let stretch = stretch(&outline, unit);
-            let scale = stretch * squeezing.scale;
+            let scale = stretch * measuring.scale;
             let corner = [0, 1].map(|k| {
                 let extent = outline.extent[k] * scale;
                 let corner = (pose.middle[k] - middle[k] * scale - left[k]).max(0.0);
-                let corner = match border {
-                    Border::Cropped => corner,
-                    Border::Fixed => corner.min(high[k] - extent).max(low[k]),
+                let corner = if is_fixed {
+                    corner.min(high[k] - extent).max(low[k])
+                } else {
+                    corner
                 };
                 let far = corner + extent;
                 places.reach[k] = places.reach[k].max(far);
-                if border == Border::Fixed {
+                if is_fixed {
                     places.overhang = places.overhang.max(far - high[k]);
                 }
                 corner
@@ -312,12 +269,12 @@ impl Places {
                 room: 0.0,
             });
         }
-        for outline in squeezing.stays {
+        for obstacle in problem.obstacles {
             let place = |p: [f64; 2]| p.map(|x| x * cells - squeezed.padding / 2.0);
-            edges.extend(outline.edges().map(|edge| edge.map(place)));
+            edges.extend(obstacle.outline.edges().map(|edge| edge.map(place)));
         }
         // Islands keep no distance from each other.
-        owners.resize(edges.len(), squeezing.charts.len() as u32);
+        owners.resize(edges.len(), problem.plan.order.len() as u32);
         places.gap = smallest_gap(&edges, &owners);
         places
     }

@@ -2,7 +2,7 @@
 //!
 //! Charts that are packed again often come from a full page. No search is sure to find its order again, but squeezing keeps it.
 use super::effort::OnRead;
-use super::gap::{smallest_gap, squeezed};
+use super::gap::{smallest_gap, squeezed_layout};
 use super::layout::{Layout, Place, Problem};
 use super::outline::{Outline, outlines};
 use super::page::Region;
@@ -73,7 +73,7 @@ pub(super) fn given(
         padding_texels: f64::from(options.padding_texels),
         charts: outlines.iter().map(place).collect(),
     };
-    let layout = squeezed(&Problem::free(&plan, options, on_read), &found);
+    let layout = squeezed_layout(&Problem::free(&plan, options, on_read), &found);
     let lean = |outline: &Outline| match outline.straightness {
         Straightness::Upright(axis) => axis[0].abs().min(axis[1].abs()) > ACROSS,
         Straightness::Leaning(_) | Straightness::Round => false,

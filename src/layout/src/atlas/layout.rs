@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::effort::OnRead;
 use super::mask::{CellRun, Distances, Mask, Rounding, Turned};
-use super::occupancy::{Corner, Occupancy, Spot, Window};
+use super::occupancy::{Corner, Occupancy, Window};
 use super::outline::Outline;
 use super::page::{Form, Region, Texture};
 use super::plan::{HOPE, MOST_CHARTS, Plan, SLIVERS};
@@ -67,14 +67,11 @@ const ATTEMPTS: [usize; 2] = [12, 400];
 /// Ratio of a scale that failed to the best one, below which the search ends. With 1.003 instead, the scales of 46 sets of charts around
 /// islands or in regions are equal within .001 at the mean.
 const NEAR: f64 = 1.005;
-/// Maximum number of words of a search once the best scale is within a factor of `FAIR` of one that failed or of the next. The first
-/// scale may leave a fifth of the pages empty.
+/// Maximum number of words of a search once the best scale is within [`NEAR`] of one that failed or of the next. The first scale may
+/// leave a fifth of the pages empty.
 const MOST_WORDS: u64 = 150_000_000;
-const FAIR: f64 = 1.01;
-/// Share of the pages that charts are expected to fill with their padding. Within constraints, [`HOPE`] is expected instead: what fits at
-/// a large scale is found only by growing towards it. `HASTE` is the share of the room left by an attempt that the next scale aims at,
-/// since an attempt that does not fit is wasted.
-const HOPE_IF_FREE: f64 = 0.87;
+/// Share of the room left by an attempt that the next scale aims at, since an attempt that does not fit is wasted. With 1, 10,000 bricks
+/// fill .016 less.
 const HASTE: f64 = 0.995;
 /// Largest factor of the scale if the charts do not fit around what is taken.
 const SMALLER: f64 = 0.95;
@@ -220,11 +217,7 @@ fn alike(packing: &Packing, scale: f64) -> Option<ScaledPlaces> {
 fn best(packing: &Packing) -> Option<ScaledPlaces> {
     let most_words = packing.problem.options.budget_words.min(MOST_WORDS);
     let demand = Demand::of(packing);
-    let mut scale = demand.scale(if packing.problem.is_constrained() {
-        HOPE
-    } else {
-        HOPE_IF_FREE
-    });
+    let mut scale = demand.scale(HOPE);
     let mut best: Option<ScaledPlaces> = None;
     let mut failed = f64::INFINITY;
     let mut work = 0;
@@ -252,7 +245,7 @@ fn best(packing: &Packing) -> Option<ScaledPlaces> {
         let before = std::mem::replace(&mut scale, next);
         if let Some(good) = best.as_ref().map(|best| best.scale) {
             let is_ended = (packing.problem.on_read)(0) == Control::Finish;
-            let is_read = work > most_words && failed.min(scale) < good * FAIR;
+            let is_read = work > most_words && failed.min(scale) < good * NEAR;
             let enough = tried >= ATTEMPTS[0] || is_read || failed < good * NEAR;
             if enough || is_ended || packing.plan().order.is_empty() || scale == before {
                 break;
@@ -442,10 +435,36 @@ struct Packing<'a> {
 struct ScaledPlaces {
     /// In cells per mesh unit.
     scale: f64,
-    /// Place of each chart, and the factor by which it exceeds the common scale.
-    spots: Vec<(Spot, f64)>,
+    /// Place of each chart.
+    spots: Vec<Spot>,
     /// Rows used of all pages.
     rows: u32,
+}
+
+/// Place of a chart on the raster.
+#[derive(Clone, Copy)]
+struct Spot {
+    corner: Corner,
+    /// Quarter turns, counter-clockwise.
+    turns: u32,
+    /// Width and height of the turned body, in cells.
+    size: [u32; 2],
+    /// Factor by which it exceeds the common scale.
+    stretch: f64,
+}
+
+impl Spot {
+    /// Spot of a chart without triangles.
+    const NOWHERE: Self = Self {
+        corner: Corner {
+            page: 0,
+            x: 0,
+            y: 0,
+        },
+        turns: 0,
+        size: [0; 2],
+        stretch: 1.0,
+    };
 }
 
 impl<'a> Packing<'a> {
@@ -511,7 +530,7 @@ impl<'a> Packing<'a> {
     fn attempt(&self, scale: f64, work: &mut u64) -> Result<ScaledPlaces, f64> {
         let plan = self.plan();
         let mut occupancy = Occupancy::clone(&self.taken);
-        let mut spots = vec![(Spot::default(), 1.0); plan.outlines.len()];
+        let mut spots = vec![Spot::NOWHERE; plan.outlines.len()];
         let mut lowest: HashMap<[u32; 2], Corner> = HashMap::new();
         let mut placed = 0.0;
         let area = plan.area();
@@ -530,16 +549,22 @@ impl<'a> Packing<'a> {
                     Some(region) => self.window(region),
                     None => Window::from(Corner { x: 0, ..*row }),
                 };
-                let spot = occupancy.find(&turned, window);
+                let found = occupancy.find(&turned, window);
                 read += occupancy.work - before;
                 *work += read;
                 (self.problem.on_read)(read);
-                let (mask, spot) = spot.ok_or(placed / area)?;
+                let (index, corner) = found.ok_or(placed / area)?;
                 if region.is_none() {
-                    *row = spot.corner;
+                    *row = corner;
                 }
-                occupancy.take(&turned[mask], spot.corner);
-                spots[i] = (spot, stretch);
+                let mask = &turned[index];
+                occupancy.take(mask, corner);
+                spots[i] = Spot {
+                    corner,
+                    turns: mask.turns,
+                    size: mask.size,
+                    stretch,
+                };
                 placed += plan.outlines[i].size * plan.outlines[i].size;
             }
         }
@@ -563,13 +588,13 @@ impl<'a> Packing<'a> {
             cell,
             padding_texels: padding.min(most),
             charts: spots
-                .map(|(chart, (spot, stretch))| self.place(chart, spot, stretch, scale, cell))
+                .map(|(chart, spot)| self.place(chart, spot, scale, cell))
                 .collect(),
         }
     }
 
     /// Returns the place of a chart, at `scale` cells per mesh unit and `cell` grid steps per cell.
-    fn place(&self, chart: usize, spot: Spot, stretch: f64, scale: f64, cell: f64) -> Place {
+    fn place(&self, chart: usize, spot: Spot, scale: f64, cell: f64) -> Place {
         let outline = self.plan().outlines[chart].quarter_turned(spot.turns);
         let around = self.slack[chart] - SLACK;
         let Corner { x, y, page } = spot.corner;
@@ -578,7 +603,7 @@ impl<'a> Packing<'a> {
         let corner = [0, 1].map(|k| {
             let near = self.border + f64::from([x, y][k]);
             let corner = if is_at_far_side[k] {
-                let extent = outline.extent[k] * scale * stretch;
+                let extent = outline.extent[k] * scale * spot.stretch;
                 near + f64::from(spot.size[k]) - around - extent
             } else {
                 near + around
@@ -589,7 +614,7 @@ impl<'a> Packing<'a> {
             outline,
             page,
             corner,
-            stretch,
+            stretch: spot.stretch,
             room: self.slack[chart] * cell,
         }
     }
@@ -604,10 +629,7 @@ impl<'a> Packing<'a> {
         let page = frame.page;
         Window {
             far: [0, 1].map(|k| (high[k] - left[k]).max(0.0) as u32),
-            highest: Corner {
-                page,
-                ..Window::ALL.highest
-            },
+            end_page: page + 1,
             ..Window::from(Corner { page, x, y })
         }
     }

@@ -114,7 +114,7 @@ impl LiveLayout {
         let fixed = fixed.map(|outline| FixedBody::new(outline, page, padding + ROOM));
         let posed = plan.order.iter().map(chart);
         let posed = posed.map(|outline| (pose(outline), frame(outline)));
-        let squeezed = Squeezed::new(posed, fixed.collect(), page / scale, padding);
+        let squeezed = Squeezed::new(posed, fixed.collect(), page / scale, padding, page);
         Ok(Self {
             first: squeezed.clone(),
             squeezed,

@@ -235,20 +235,12 @@ impl Bitmap {
     }
 
     /// Returns the bitmap after a quarter turn counter-clockwise: (x, y) goes to (height − 1 − y, x).
-    ///
-    /// Works on blocks of 64 by 64 cells, whose rows are read from the top down and transposed.
-    pub(super) fn quarter_turn(&self) -> Self {
+    fn quarter_turn(&self) -> Self {
         let mut out = Self::new(self.height, self.width);
-        for column in 0..out.words {
-            for word in 0..self.words {
-                let mut block = [0; 64];
-                for (i, row) in (64 * column..self.height as usize).take(64).enumerate() {
-                    block[i] = self.bits[(self.height as usize - 1 - row) * self.words + word];
-                }
-                transpose(&mut block);
-                for (i, row) in (64 * word..self.width as usize).take(64).enumerate() {
-                    out.bits[row * out.words + column] = block[i];
-                }
+        for CellRun { row, start, end } in self.runs() {
+            let x = self.height - 1 - row;
+            for y in start..end {
+                out.bits[y as usize * out.words + x as usize / 64] |= 1 << (x % 64);
             }
         }
         out
@@ -300,29 +292,13 @@ pub(super) fn set_bits(words: &mut [u64], start: u32, end: u32) {
     }
 }
 
-/// Exchanges rows and columns: bit j of word i goes to bit i of word j.
-///
-/// Exchanges halves of the block, then halves of each quarter, and so on (Warren, Hacker's Delight, 7-3).
-fn transpose(block: &mut [u64; 64]) {
-    let (mut size, mut low) = (32, u64::MAX >> 32);
-    while size > 0 {
-        for i in (0..64).filter(|i| i & size == 0) {
-            let swapped = (block[i] >> size ^ block[i + size]) & low;
-            block[i] ^= swapped << size;
-            block[i + size] ^= swapped;
-        }
-        size /= 2;
-        low ^= low << size;
-    }
-}
-
-/// A mask after quarter turns, with the cells of its reach in the order in which they are tested.
+/// A mask after quarter turns.
 pub(super) struct Turned {
     pub turns: u32,
     pub body: Vec<CellRun>,
     /// Width and height, in cells.
     pub size: [u32; 2],
-    pub reach: Vec<CellRun>,
+    /// Tests of its reach, in the order in which they are made.
     pub probes: Vec<Probe>,
     pub margin: u32,
 }
@@ -340,7 +316,7 @@ impl Turned {
 
     /// Returns whether both occupy the same cells and keep the same cells free.
     pub(super) fn is_like(&self, other: &Self) -> bool {
-        self.size == other.size && self.body == other.body && self.reach == other.reach
+        self.size == other.size && self.body == other.body && self.probes == other.probes
     }
 
     /// Returns the quarter turns of a mask that differ: four, two for a mask with the symmetry of a rectangle, or one for that of a
@@ -359,11 +335,9 @@ impl Turned {
     }
 
     fn of(turned: &Mask, turns: u32) -> Self {
-        let reach = scattered(turned.reach.runs());
         Self {
             turns,
-            probes: Probe::of(&reach),
-            reach,
+            probes: Probe::of(&scattered(turned.reach.runs())),
             body: turned.body.runs(),
             size: [turned.body.width, turned.body.height],
             margin: turned.margin,
@@ -396,6 +370,7 @@ pub(super) const WIDTHS: usize = 7;
 ///
 /// A run whose length is between 2ᵏ and 2ᵏ⁺¹ is free if its first and its last window of 2ᵏ cells are free. A run longer than two
 /// of the widest windows takes several probes.
+#[derive(PartialEq, Eq)]
 pub(super) struct Probe {
     /// Row of the mask times [`WIDTHS`], plus k.
     pub lane: u32,

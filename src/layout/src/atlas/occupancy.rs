@@ -8,14 +8,8 @@ use std::array::from_fn;
 use super::mask::{CellRun, Turned, WIDTHS, set_bits};
 use super::page::Form;
 
-/// Number of words in a row from which on the length of its longest free run is stored, so that full rows are skipped. In shorter
-/// rows, the search itself costs no more than this test.
-const WIDE: usize = 14;
 /// Words after the last row: the most that a search reads beyond the end of a row, for columns that do not count.
 const BEYOND: usize = 4;
-/// Marks a row whose longest free run has to be counted again because cells in it were occupied.
-const UNKNOWN: u32 = u32::MAX;
-
 /// The occupied cells of all pages.
 #[derive(Clone)]
 pub(super) struct Occupancy {
@@ -30,8 +24,6 @@ pub(super) struct Occupancy {
     /// Bits of all pages, row by row. Each row has `words` words for each width 2ᵏ, in which bit x is set if one of the 2ᵏ cells
     /// from x on is occupied.
     rows: Vec<u64>,
-    /// Longest run of free cells of each row, or [`UNKNOWN`]; empty for narrow pages.
-    free: Vec<u32>,
     /// Longer side of the used part of the pages so far, in cells.
     pub side: u32,
     /// Number of rows of each page used so far.
@@ -53,7 +45,6 @@ impl Occupancy {
             words,
             height: height as usize,
             rows: vec![0; words * WIDTHS * n_rows + BEYOND],
-            free: vec![width; if words < WIDE { 0 } else { n_rows }],
             side,
             tops: vec![0; form.pages as usize],
             work: 0,
@@ -76,16 +67,15 @@ impl Occupancy {
             let used = used.min(page.len());
             page[..used].copy_from_slice(&of_other[..used]);
         }
-        self.free.copy_from_slice(&other.free);
         self.side = other.side;
         self.tops.copy_from_slice(&other.tops);
     }
 
     /// Returns the free place within the window at which the used part of the pages grows least, and the index of its mask. Of
     /// several such places, returns the lowest on the first page.
-    pub(super) fn find(&mut self, turned: &[Turned], window: Window) -> Option<(usize, Spot)> {
+    pub(super) fn find(&mut self, turned: &[Turned], window: Window) -> Option<(usize, Corner)> {
         let mut best = None;
-        for page in window.lowest.page..self.form.pages.min(window.highest.page.saturating_add(1)) {
+        for page in window.lowest.page..self.form.pages.min(window.end_page) {
             let mut on_page = window;
             if page > window.lowest.page {
                 on_page.lowest = Corner::default();
@@ -95,7 +85,7 @@ impl Occupancy {
                 break;
             }
         }
-        best.map(|(_, spot)| spot)
+        best.map(|(_, found)| found)
     }
 
     /// Searches one page, and updates `best` if it finds a better place.
@@ -103,35 +93,25 @@ impl Occupancy {
         &mut self,
         page: u32,
         turned: &[Turned],
-        Window {
-            lowest,
-            highest,
-            far,
-        }: Window,
-        best: &mut Option<(u32, (usize, Spot))>,
+        Window { lowest, far, .. }: Window,
+        best: &mut Option<(u32, (usize, Corner))>,
     ) {
         let lowest_height = turned.iter().map(|mask| mask.size[1]).min().unwrap_or(0);
         let within = |reach: [u32; 2]| [0, 1].map(|k| reach[k].min(far[k]));
         let limit = best.map_or(self.capacity, |(side, _)| side - 1);
         let [mut right, mut top] = within(self.form.reach(limit));
         let mut y = lowest.y;
-        while y <= highest.y && y + lowest_height <= top {
+        while y + lowest_height <= top {
             for (index, mask) in turned.iter().enumerate() {
                 let [width, height] = mask.size;
                 if width > right || y + height > top {
                     continue;
                 }
-                let columns = [lowest.x, highest.x.min(right - width)];
+                let columns = [lowest.x, right - width];
                 let corner = Corner { page, x: 0, y };
                 if let Some(x) = self.first_free(mask, corner, columns) {
                     let side = self.form.side([x + width, y + height]).max(self.side);
-                    let corner = Corner { x, ..corner };
-                    let spot = Spot {
-                        corner,
-                        turns: mask.turns,
-                        size: mask.size,
-                    };
-                    *best = Some((side, (index, spot)));
+                    *best = Some((side, (index, Corner { x, ..corner })));
                     if side == self.side {
                         return;
                     }
@@ -149,7 +129,7 @@ impl Occupancy {
         corner: Corner,
         columns @ [first, last]: [u32; 2],
     ) -> Option<u32> {
-        if first > last || !self.may_hold(mask, corner) {
+        if first > last {
             return None;
         }
         let mut words = first / 64..last / 64 + 1;
@@ -192,49 +172,13 @@ impl Occupancy {
         Some(64 * (word + free) + blocked[free as usize].trailing_ones())
     }
 
-    /// Returns `true` if no run of the mask's reach is longer than the longest free run in its row. Always returns `true` for
-    /// narrow pages.
-    fn may_hold(&mut self, mask: &Turned, corner: Corner) -> bool {
-        if self.free.is_empty() {
-            return true;
-        }
-        let base = self.row(corner) - mask.margin as usize;
-        (mask.reach.iter())
-            .all(|run| self.longest_free(base + run.row as usize) >= run.end - run.start)
-    }
-
-    /// Returns the length of the longest run of free cells in a row of a wide page, including the frame.
-    fn longest_free(&mut self, row: usize) -> u32 {
-        if self.free[row] == UNKNOWN {
-            let words = &self.rows[row * self.words * WIDTHS..][..self.words];
-            self.work += words.len() as u64;
-            self.free[row] = longest_zeros(words);
-        }
-        self.work += 1;
-        self.free[row]
-    }
-
     /// Occupies the cells of a mask's body whose lower left cell is at `corner`, and updates the used part.
     pub(super) fn take(&mut self, mask: &Turned, corner: Corner) {
-        let x = corner.x + self.frame;
-        let stride = self.words * WIDTHS;
-        let base = self.row(corner);
-        for runs in mask.body.chunk_by(|a, b| a.row == b.row) {
-            let row = base + runs[0].row as usize;
-            if let Some(free) = self.free.get_mut(row) {
-                *free = UNKNOWN;
-            }
-            let row = &mut self.rows[row * stride..][..stride];
-            for run in runs {
-                set_bits(&mut row[..self.words], x + run.start, x + run.end);
-            }
-            let taken = [x + runs[0].start, x + runs[runs.len() - 1].end];
-            widen(row, self.words, taken);
-        }
-        let top = corner.y + mask.size[1];
-        let side = self.form.side([corner.x + mask.size[0], top]);
-        self.side = self.side.max(side);
-        let highest = &mut self.tops[corner.page as usize];
+        let Corner { page, x, y } = corner;
+        self.cover(&mask.body, page, [i64::from(x), i64::from(y)]);
+        let [right, top] = [x + mask.size[0], y + mask.size[1]];
+        self.side = self.side.max(self.form.side([right, top]));
+        let highest = &mut self.tops[page as usize];
         *highest = top.max(*highest);
     }
 
@@ -244,19 +188,22 @@ impl Occupancy {
         let stride = self.words * WIDTHS;
         let frame = i64::from(self.frame);
         let width = i64::from(self.form.reach(self.capacity)[0]) + 2 * frame;
-        for run in body {
-            let row = i64::from(run.row) + corner[1] + frame;
-            let ends = [run.start, run.end].map(|x| i64::from(x) + corner[0] + frame);
-            let [start, end] = ends.map(|x| x.clamp(0, width) as u32);
-            if start < end && (0..self.height as i64).contains(&row) {
-                let row = page as usize * self.height + row as usize;
-                if let Some(free) = self.free.get_mut(row) {
-                    *free = UNKNOWN;
-                }
-                let row = &mut self.rows[row * stride..][..stride];
-                set_bits(&mut row[..self.words], start, end);
-                widen(row, self.words, [start, end]);
+        let column = |x: u32| (i64::from(x) + corner[0] + frame).clamp(0, width) as u32;
+        for runs in body.chunk_by(|a, b| a.row == b.row) {
+            let row = i64::from(runs[0].row) + corner[1] + frame;
+            let taken = [runs[0].start, runs[runs.len() - 1].end].map(column);
+            if !(0..self.height as i64).contains(&row) || taken[0] == taken[1] {
+                continue;
             }
+            let row = page as usize * self.height + row as usize;
+            let row = &mut self.rows[row * stride..][..stride];
+            for run in runs {
+                let [start, end] = [run.start, run.end].map(column);
+                if start < end {
+                    set_bits(&mut row[..self.words], start, end);
+                }
+            }
+            widen(row, self.words, taken);
         }
     }
 
@@ -308,26 +255,6 @@ pub(super) fn outside([first, last]: [u32; 2], word: u32) -> u64 {
     below(first) | !below(last + 1)
 }
 
-/// Returns the length of the longest run of zero bits.
-pub(super) fn longest_zeros(words: &[u64]) -> u32 {
-    let (mut longest, mut open) = (0, 0);
-    for &word in words {
-        if word == 0 {
-            open += u64::BITS;
-            continue;
-        }
-        longest = longest.max(open + word.trailing_zeros());
-        let (mut zeros, mut inside) = (!word, 0);
-        while zeros != 0 {
-            zeros &= zeros << 1;
-            inside += 1;
-        }
-        longest = longest.max(inside);
-        open = word.leading_zeros();
-    }
-    longest.max(open)
-}
-
 /// Position of a body's lower left cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Corner {
@@ -337,22 +264,12 @@ pub(super) struct Corner {
     pub y: u32,
 }
 
-/// Place of one mask.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Spot {
-    pub corner: Corner,
-    /// Quarter turns, counter-clockwise.
-    pub turns: u32,
-    /// Width and height of the turned body, in cells.
-    pub size: [u32; 2],
-}
-
-/// Region in which a place is searched: pages, columns and rows from `lowest` to `highest`, both included. On pages after the
-/// first, columns and rows start at 0.
+/// Region in which a place is searched. On pages after the first, columns and rows start at 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
     pub lowest: Corner,
-    pub highest: Corner,
+    /// First page that does not count.
+    pub end_page: u32,
     /// Columns and rows that masks must not reach.
     pub far: [u32; 2],
 }
@@ -369,11 +286,7 @@ impl Window {
     pub(super) const fn from(lowest: Corner) -> Self {
         Self {
             lowest,
-            highest: Corner {
-                page: u32::MAX,
-                x: u32::MAX - 1,
-                y: u32::MAX - 1,
-            },
+            end_page: u32::MAX,
             far: [u32::MAX; 2],
         }
     }

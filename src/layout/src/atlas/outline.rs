@@ -3,10 +3,11 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 use super::copies::Moments;
-use super::page::page_side;
+use super::page::{Texture, page_side};
 use super::problem::{AtlasError, ChartMap, Rotation};
 use unwrapd_maps::plane::Straightness;
-use unwrapd_method::numerics::hull::convex_hull;
+use unwrapd_method::numerics::hull::{convex_hull, smallest_page};
+use unwrapd_method::numerics::vec2::doubled_area;
 
 /// Outline of a chart, turned to the angle at which it is packed.
 #[derive(Clone, Debug)]
@@ -198,12 +199,16 @@ impl Outline {
         self.boundary.iter().map(|edge| edge.map(|p| self.place(p)))
     }
 
-    /// Returns the longer side of the smallest page around the outline in any of these rotations, without borders, in mesh units. The
-    /// sides of the page along u and v are the longer side halved this many times.
-    pub(super) fn least_page(&self, rotation: Rotation, halvings: [u32; 2]) -> f64 {
+    /// Returns the longer side of the smallest page around the outline in any of these rotations, without borders, in mesh units.
+    pub(super) fn least_page(&self, rotation: Rotation, texture: Texture) -> f64 {
         let [width, height] = self.extent;
+        let halvings = texture.resolution.halvings();
         match rotation {
-            Rotation::Any => smallest_page(&convex_hull(self.corners()), halvings).1,
+            Rotation::Any => {
+                let aspect = 1.0 / texture.share();
+                let page = smallest_page(&convex_hull(self.corners()), aspect);
+                (page.area * aspect).sqrt()
+            }
             Rotation::Quarter => {
                 page_side([width, height], halvings).min(page_side([height, width], halvings))
             }
@@ -256,16 +261,13 @@ fn check(map: &ChartMap) -> Result<f64, fn(usize) -> AtlasError> {
 
 /// Returns the sum of the signed areas of the triangles.
 fn area(map: &ChartMap) -> f64 {
-    map.triangles
-        .iter()
-        .map(|t| doubled_area(map, t))
-        .sum::<f64>()
-        / 2.0
+    let doubled = map.triangles.iter().map(|t| doubled_area_of(map, t));
+    doubled.sum::<f64>() / 2.0
 }
 
-fn doubled_area(map: &ChartMap, triangle: &[u32; 3]) -> f64 {
+fn doubled_area_of(map: &ChartMap, triangle: &[u32; 3]) -> f64 {
     let [a, b, c] = triangle.map(|v| map.uv[v as usize]);
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    doubled_area(a, b, c)
 }
 
 /// Returns the directed edges of all triangles, except those that cancel because they run in opposite directions. Their order
@@ -281,7 +283,7 @@ pub(super) fn boundary(map: &ChartMap) -> Vec<[u32; 2]> {
     // Edges as their smaller and larger end, and whether they run from the smaller to the larger.
     let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(3 * map.triangles.len());
     for &triangle @ [a, b, c] in map.triangles {
-        let doubled_area = doubled_area(map, &triangle);
+        let doubled_area = doubled_area_of(map, &triangle);
         if doubled_area == 0.0 {
             boundary.extend(edges_of(triangle));
             continue;
@@ -303,77 +305,4 @@ pub(super) fn boundary(map: &ChartMap) -> Vec<[u32; 2]> {
         boundary.extend((forward..back).map(|_| [high, low]));
     }
     boundary
-}
-
-/// Measure that a good angle minimizes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Enclosure {
-    /// Area of the bounding rectangle, for many charts that share a page.
-    Rectangle,
-    /// Longer side of the bounding page, for one chart that decides the size of its page. Its sides along u and v are the longer
-    /// side halved this many times.
-    Page([u32; 2]),
-}
-
-/// Maximum number of hull edges tried. The hull of a round chart is thinned to this many.
-const HULL_EDGES: usize = 512;
-/// Number of angles tried for the bounding page, over a quarter turn. Each is tried upright and on its side.
-const PAGE_ANGLES: u32 = 360;
-
-/// Returns the unit vector that becomes the horizontal axis.
-pub(super) fn direction(hull: &[[f64; 2]], enclosure: Enclosure) -> [f64; 2] {
-    match enclosure {
-        Enclosure::Rectangle => smallest_rectangle(hull),
-        Enclosure::Page(halvings) => smallest_page(hull, halvings).0,
-    }
-}
-
-/// Returns the direction of the longer side of the smallest enclosing rectangle. One of its sides lies on a hull edge.
-fn smallest_rectangle(hull: &[[f64; 2]]) -> [f64; 2] {
-    let mut best = ([1.0, 0.0], f64::INFINITY);
-    for i in (0..hull.len()).step_by(hull.len().div_ceil(HULL_EDGES).max(1)) {
-        let (p, q) = (hull[i], hull[(i + 1) % hull.len()]);
-        let d = [q[0] - p[0], q[1] - p[1]];
-        let length = d[0].hypot(d[1]);
-        if length.is_normal() {
-            let d = [d[0] / length, d[1] / length];
-            let [width, height] = extent(hull, d);
-            if width * height < best.1 {
-                let along = if width < height { [-d[1], d[0]] } else { d };
-                best = (along, width * height);
-            }
-        }
-    }
-    best.0
-}
-
-/// Returns the direction that becomes horizontal for the smallest page that encloses a hull, and the longer side of this page.
-fn smallest_page(hull: &[[f64; 2]], halvings: [u32; 2]) -> ([f64; 2], f64) {
-    let mut best = ([1.0, 0.0], f64::INFINITY);
-    for step in 0..PAGE_ANGLES {
-        let angle = std::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(PAGE_ANGLES);
-        let d = [angle.cos(), angle.sin()];
-        let [width, height] = extent(hull, d);
-        for (d, side) in [
-            (d, page_side([width, height], halvings)),
-            ([-d[1], d[0]], page_side([height, width], halvings)),
-        ] {
-            if side < best.1 {
-                best = (d, side);
-            }
-        }
-    }
-    best
-}
-
-fn extent(hull: &[[f64; 2]], [c, s]: [f64; 2]) -> [f64; 2] {
-    let mut low = [f64::INFINITY; 2];
-    let mut high = [f64::NEG_INFINITY; 2];
-    for &[x, y] in hull {
-        for (k, value) in [c * x + s * y, c * y - s * x].into_iter().enumerate() {
-            low[k] = low[k].min(value);
-            high[k] = high[k].max(value);
-        }
-    }
-    [high[0] - low[0], high[1] - low[1]]
 }

@@ -3,7 +3,7 @@ use rayon::prelude::*;
 
 use super::coarse::CoarseLayout;
 use super::effort::{Effort, OnRead, UNHEARD};
-use super::gap::squeezed;
+use super::gap::squeezed_layout;
 use super::given::{Given, Tidiness, given};
 use super::grid::{Repair, Snapped, aligned, doubled_area, snapped};
 use super::layout::{Layout, Problem, SLACK};
@@ -19,11 +19,6 @@ const ROUNDS: usize = 6;
 /// Maximum number of cells along the side of the raster for charts within constraints that are then squeezed. On a raster that is four times as fine,
 /// the search takes four times as long, and the squeezed layouts are no fuller.
 const SQUEEZED_CELLS: u32 = 256;
-/// Number of charts up to which a second search is made per unit of patience. Of 24 sets of up to this many charts, a third and a
-/// fourth search made none fuller by .001, and one search left two emptier by up to .036; with more charts, a second one gained .0006.
-const FEW: usize = 10;
-/// Words per triangle that both searches may read, so that they take about as long as mapping the charts.
-const WORDS_PER_TRIANGLE: u64 = 20_000;
 /// Share of the largest scale that a chart permits from which on it is said to set the scale.
 const LIMITING: f64 = 0.99;
 /// Fill that straight charts may lose by lying along the axes.
@@ -62,10 +57,8 @@ fn pack_plan(
     on_read: &OnRead,
 ) -> Result<Atlas, AtlasError> {
     let problem = Problem::free(plan, options, on_read);
-    let is_placed = options.scale != Scale::Largest
-        && (problem.layout(&vec![SLACK; charts.len()], options.most_cells)).is_some();
     let exact = match options.positions {
-        _ if is_placed => None,
+        _ if is_placed_once(&problem) => None,
         Positions::Unrelated => fullest(&problem, coarse),
         Positions::Layout => fuller(
             fullest(&problem, coarse),
@@ -118,7 +111,7 @@ pub(super) fn fullest(problem: &Problem, coarse: Option<&CoarseLayout>) -> Optio
         plan: &plan,
         ..*problem
     };
-    let squeezed = squeezed(&problem, &found);
+    let squeezed = squeezed_layout(&problem, &found);
     Some(
         squeezed
             .filter(|it| it.scale > found.scale)
@@ -187,8 +180,14 @@ fn give_room(snapped: &[Snapped], layout: &Layout, slack: &mut [f64]) {
 pub fn fits(charts: &[ChartMap], options: &AtlasOptions) -> Result<bool, AtlasError> {
     let plan = Plan::of(charts, options)?;
     let problem = Problem::free(&plan, options, UNHEARD);
-    let slack = vec![SLACK; charts.len()];
-    Ok(options.scale != Scale::Largest && problem.layout(&slack, options.most_cells).is_some())
+    Ok(is_placed_once(&problem))
+}
+
+/// Returns whether charts fit at the prescribed scale, if there is one, without a search.
+fn is_placed_once(problem: &Problem) -> bool {
+    let Problem { plan, options, .. } = *problem;
+    let slack = vec![SLACK; plan.outlines.len()];
+    options.scale != Scale::Largest && problem.layout(&slack, options.most_cells).is_some()
 }
 
 /// Searches for the fullest layout. Straight charts lie along the axes unless other angles fill more than [`STRAIGHT`] more of the
@@ -218,20 +217,9 @@ fn searched_once(
     coarse
 }
 
-/// Returns the number of searches per unit of patience.
-fn searches(n_charts: usize, n_triangles: usize) -> u64 {
-    let paid = WORDS_PER_TRIANGLE * n_triangles as u64;
-    if n_charts <= FEW && paid >= 2 * Effort::High.words(n_charts) {
-        2
-    } else {
-        1
-    }
-}
-
 /// Returns the approximate number of words that [`pack`] reads.
-pub fn expected_words(n_charts: usize, n_triangles: usize, options: &AtlasOptions) -> u64 {
-    let words = searches(n_charts, n_triangles) * Effort::High.words(n_charts);
-    (options.patience * words).min(options.budget_words)
+pub fn expected_words(n_charts: usize, options: &AtlasOptions) -> u64 {
+    (options.patience * Effort::High.words(n_charts)).min(options.budget_words)
 }
 
 /// Searches from more seeds, and brings charts exactly as near as permitted. As more patience only adds seeds and
@@ -242,13 +230,12 @@ fn searched_further(
     on_read: &OnRead,
 ) -> Option<Layout> {
     let words = Effort::High.words(coarse.n_charts());
-    let searches = searches(coarse.n_charts(), coarse.n_triangles());
-    // The search that was made before is one of the first round.
+    // The first search was made before.
     let mut left = options.budget_words.saturating_sub(words);
     let mut fullest: Option<Layout> = None;
     for round in 1..=options.patience {
         let before = coarse.fill();
-        for _ in u64::from(round == 1)..searches {
+        if round > 1 {
             coarse.improve(Effort::High, words.min(left), on_read);
             left = left.saturating_sub(words);
         }
@@ -325,17 +312,9 @@ fn atlas(
 
 /// Returns the chart that alone sets the scale of an atlas, if there is one.
 fn limit(atlas: &Atlas, outlines: &[Outline], options: &AtlasOptions) -> Option<Limit> {
-    let halvings = options.texture.resolution.halvings();
-    // The diagonal of a chart is an upper bound of the page that it needs.
-    let is_long = |outline: &Outline| {
-        let [width, height] = outline.extent;
-        let stretch = f64::from(1_u32 << halvings[0].max(halvings[1]));
-        width.hypot(height) * stretch * atlas.scale >= LIMITING
-    };
-    let long = (outlines.iter().enumerate()).filter(|(_, outline)| is_long(outline));
     // A straight chart that lies along the axes could lie at another angle.
-    let sides =
-        long.map(|(chart, outline)| (chart, outline.least_page(options.rotation, halvings)));
+    let side = |outline: &Outline| outline.least_page(options.rotation, options.texture);
+    let sides = outlines.iter().map(side).enumerate();
     let (chart, longest) = sides.max_by(|a, b| a.1.total_cmp(&b.1))?;
     let most = (1.0 - options.padding_share()) / longest;
     (options.scale == Scale::Largest && atlas.scale >= LIMITING * most).then(|| Limit {

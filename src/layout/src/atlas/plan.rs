@@ -1,12 +1,12 @@
 //! Plan of a layout: the order in which charts are placed, and the angle of each.
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use super::copies::{Moments, copies};
-use super::outline::{Enclosure, Outline, direction, outlines};
+use super::outline::{Outline, outlines};
 use super::page::Texture;
 use super::problem::{AtlasError, AtlasOptions, ChartMap, Rotation};
-use unwrapd_method::numerics::hull::convex_hull;
+use unwrapd_method::numerics::hull::{convex_hull, smallest_page, smallest_rectangle};
 
 /// Share of a page that charts are expected to fill.
 pub(super) const HOPE: f64 = 0.75;
@@ -153,19 +153,16 @@ fn level(outline: &Outline, total: f64, texture: Texture) -> Outline {
     if outline.rotation() != Rotation::Any {
         return outline;
     }
-    turned(
-        &outline,
-        if is_most {
-            Enclosure::Page(texture.resolution.halvings())
-        } else {
-            Enclosure::Rectangle
-        },
-    )
-}
-
-fn turned(outline: &Outline, enclosure: Enclosure) -> Outline {
     let hull = convex_hull(outline.corners());
-    outline.turned(direction(&hull, enclosure))
+    let [u, v] = texture.resolution.halvings();
+    let around = if is_most {
+        smallest_page(&hull, 1.0 / texture.share())
+    } else {
+        smallest_rectangle(&hull)
+    };
+    // The longer side lies along u, except on an upright page.
+    let angle = around.angle + if is_most && u > v { FRAC_PI_2 } else { 0.0 };
+    outline.turned([angle.cos(), angle.sin()])
 }
 
 /// Returns the indices of the charts that have triangles, in descending order of the half perimeters of their rectangles.

@@ -274,7 +274,7 @@ fn slits<T: Copy + PartialEq>(metric: &Metric, faces: &[u32], corners: &[[T; 3]]
 
 /// Returns the area of the smallest square around a map.
 fn page(uv: &[[[f64; 2]; 3]]) -> f64 {
-    smallest_page(&convex_hull(uv.as_flattened().iter().copied()), 1.0)
+    smallest_page(&convex_hull(uv.as_flattened().iter().copied()), 1.0).area
 }
 
 fn doubled_area(&[a, b, c]: &[[f64; 2]; 3]) -> f64 {

@@ -27,14 +27,62 @@ pub fn convex_hull(points: impl IntoIterator<Item = [f64; 2]>) -> Vec<[f64; 2]> 
     hull
 }
 
-/// Returns the area of the smallest page around a convex hull, at any angle: a rectangle whose sides are as 1 to `aspect`. 0 for a point.
+/// Rectangle around a convex hull.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Enclosure {
+    /// Its area.
+    pub area: f64,
+    /// Angle of its longer side, in radians, counter-clockwise.
+    pub angle: f64,
+}
+
+/// Returns the smallest rectangle around a convex hull; of area 0 for a point.
+///
+/// One of its sides lies on an edge of the hull. O(n log n). From: Freeman, Shapira 1975.
+pub fn smallest_rectangle(hull: &[[f64; 2]]) -> Enclosure {
+    let mut smallest = Enclosure {
+        area: 0.0,
+        angle: 0.0,
+    };
+    if hull.len() < 2 {
+        return smallest;
+    }
+    smallest.area = f64::INFINITY;
+    let corners = Corners::of(hull);
+    for &angle in &corners.edge_angles {
+        let [width, height] = [angle, angle + FRAC_PI_2].map(|angle| {
+            let (sin, cos) = angle.sin_cos();
+            let [x, y] = corners.across(angle);
+            x * cos + y * sin
+        });
+        if width * height < smallest.area {
+            smallest = Enclosure {
+                area: width * height,
+                angle: if width < height {
+                    angle + FRAC_PI_2
+                } else {
+                    angle
+                },
+            };
+        }
+    }
+    smallest
+}
+
+/// Returns the smallest page around a convex hull, at any angle: a rectangle whose sides are as 1 to `aspect`, which is at least 1. Its
+/// area is 0 for a point.
 ///
 /// Between the angles at which an edge of the hull lies along a side, width and height turn about fixed corners, so the smallest
 /// page has an edge along a side, or the hull fills it both ways. O(n log n).
-pub fn smallest_page(hull: &[[f64; 2]], aspect: f64) -> f64 {
+pub fn smallest_page(hull: &[[f64; 2]], aspect: f64) -> Enclosure {
+    let mut smallest = Enclosure {
+        area: 0.0,
+        angle: 0.0,
+    };
     if hull.len() < 2 {
-        return 0.0;
+        return smallest;
     }
+    smallest.area = f64::INFINITY;
     let corners = Corners::of(hull);
     let root = aspect.sqrt();
     // Side of the square that is left when the page is squeezed to one of the same area.
@@ -54,7 +102,6 @@ pub fn smallest_page(hull: &[[f64; 2]], aspect: f64) -> f64 {
         .skip(1)
         .copied()
         .chain([angles[0] + FRAC_PI_2]);
-    let mut smallest = f64::INFINITY;
     for (&from, to) in angles.iter().zip(ends) {
         for quarter in [0.0, FRAC_PI_2] {
             let [from, to] = [from + quarter, to + quarter];
@@ -64,11 +111,16 @@ pub fn smallest_page(hull: &[[f64; 2]], aspect: f64) -> f64 {
             let even = (d / root - a * root).atan2(b * root + c / root);
             let turned = from + (even - from).rem_euclid(PI);
             for angle in [from, turned.min(to)] {
-                smallest = smallest.min(side(angle, across));
+                let area = side(angle, across).powi(2);
+                if area < smallest.area {
+                    // The shorter side lies along the angle.
+                    let angle = angle + FRAC_PI_2;
+                    smallest = Enclosure { area, angle };
+                }
             }
         }
     }
-    smallest * smallest
+    smallest
 }
 
 /// Corners of a convex hull by direction.

@@ -37,7 +37,7 @@ impl Extent {
         Self {
             area: chart.area(),
             hull: support.area(),
-            pages: [1.0, 2.0, 4.0, 8.0].map(|aspect| smallest_page(&hull, aspect)),
+            pages: [1.0, 2.0, 4.0, 8.0].map(|aspect| smallest_page(&hull, aspect).area),
         }
     }
 }

@@ -75,11 +75,7 @@ pub fn likely_words(of: (&Settings, &Plan), n_meshes: usize, n_faces: usize) -> 
 /// Returns the approximate number of words that packing the charts reads.
 pub fn expected_words(plan: &Plan, options: &AtlasOptions, charts: &[MappedChart]) -> u64 {
     let n_charts = charts.len();
-    let n_triangles = charts
-        .iter()
-        .map(|mapped| mapped.chart.disk.triangles.len())
-        .sum();
-    let mut of_page = atlas::expected_words(n_charts, n_triangles, options);
+    let mut of_page = atlas::expected_words(n_charts, options);
     if plan.compaction.is_some() && n_charts <= MOST_CHARTS {
         of_page += compact::expected_words(n_charts, options);
     }

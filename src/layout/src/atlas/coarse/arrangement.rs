@@ -53,10 +53,10 @@ impl Arrangement {
         for (place, &chart) in self.order[..places.end].iter().enumerate() {
             let mask = poses[chart].mask(self.pose[chart]);
             if place >= places.start {
-                let (_, spot) = occupancy.find(std::slice::from_ref(mask), Window::ALL)?;
-                self.corners[chart] = spot.corner;
+                let (_, corner) = occupancy.find(std::slice::from_ref(mask), Window::ALL)?;
+                self.corners[chart] = corner;
                 if place + 1 < places.end {
-                    occupancy.take(mask, spot.corner);
+                    occupancy.take(mask, corner);
                 }
             }
             let corner = self.corners[chart];
@@ -89,11 +89,11 @@ impl Arrangement {
         for _ in 0..FITTED {
             let pose = distinct[random.below(distinct.len())];
             let mask = poses[chart].mask(pose);
-            let Some((_, spot)) = occupancy.find(std::slice::from_ref(mask), Window::ALL) else {
+            let Some((_, corner)) = occupancy.find(std::slice::from_ref(mask), Window::ALL) else {
                 continue;
             };
             let [width, height] = mask.size;
-            let far = [spot.corner.x + width, spot.corner.y + height];
+            let far = [corner.x + width, corner.y + height];
             let side = occupancy.form.side(far).max(occupancy.side());
             let reach = u64::from(side) << 32 | u64::from(far[0] + far[1]);
             if reach < least {
@@ -208,8 +208,6 @@ impl Prefixes {
 
 /// Number of angles within a quarter turn.
 const ANGLES: usize = 16;
-/// Distance kept beside the padding, in cells, because distances are looked up approximately.
-const ROOM: f64 = 0.1;
 
 /// Poses of an outline, each rasterized when it is first needed: 64 for any angle, 4 for quarter turns, or 1.
 ///
@@ -224,7 +222,6 @@ pub(super) struct Poses {
     /// Poses that differ on the raster.
     distinct: OnceLock<Vec<usize>>,
     body: OnceLock<Arc<Body>>,
-    least_page: OnceLock<f64>,
     scale: f64,
     distances: Distances,
 }
@@ -243,7 +240,6 @@ impl Poses {
             turned: (0..quarters * angles).map(|_| OnceLock::new()).collect(),
             distinct: OnceLock::new(),
             body: OnceLock::new(),
-            least_page: OnceLock::new(),
             scale,
             distances,
         }
@@ -277,14 +273,22 @@ impl Poses {
         4 * (place % angles) + place / angles
     }
 
-    /// Returns the outline of a pose, without its quarter turns.
-    pub(super) fn outline(&self, pose: usize) -> &Outline {
-        &self.outlines[pose / 4]
+    /// Returns the outline of the first pose.
+    pub(super) fn level(&self) -> &Outline {
+        &self.outlines[0]
     }
 
-    /// Returns the quarter turns of a pose.
-    pub(super) fn turns(pose: usize) -> u32 {
-        pose as u32 % 4
+    /// Returns the position of the center of the first pose in a pose, from its lower left corner, in cells.
+    pub(super) fn middle(&self, pose: usize) -> [f64; 2] {
+        let middle = self.outlines[pose / 4].place(self.level().middle());
+        let [i, j] = middle.map(|x| x * self.scale);
+        let [width, height] = self.mask(pose).size.map(f64::from);
+        match pose % 4 {
+            0 => [i, j],
+            1 => [width - j, i],
+            2 => [width - i, height - j],
+            _ => [j, height - i],
+        }
     }
 
     /// Returns the angle of a pose, in radians.
@@ -294,20 +298,14 @@ impl Poses {
 
     /// Returns the chart at the first angle, as a body that can be moved.
     pub(super) fn body(&self) -> Arc<Body> {
-        let new = || Body::new(self.outline(0), self.scale, self.distances.padding + ROOM);
+        let new = || Body::new(self.level(), self.scale, self.distances.padding);
         self.body.get_or_init(|| Arc::new(new())).clone()
     }
 
-    /// Returns the longer side of the smallest page around the outline in any pose, without borders, in mesh units. The sides of the
-    /// page along u and v are the longer side halved this many times.
-    pub(super) fn least_page(&self, halvings: [u32; 2]) -> f64 {
-        let outline = self.outline(0);
-        *(self.least_page).get_or_init(|| outline.least_page(outline.rotation(), halvings))
-    }
-
     pub(super) fn mask(&self, pose: usize) -> &Turned {
-        let new = || Mask::new(self.outline(pose), self.scale, self.distances);
+        let outline = &self.outlines[pose / 4];
+        let new = || Mask::new(outline, self.scale, self.distances);
         let mask = || self.masks[pose / 4].get_or_init(new);
-        self.turned[pose].get_or_init(|| Turned::new(mask(), Self::turns(pose)))
+        self.turned[pose].get_or_init(|| Turned::new(mask(), pose as u32 % 4))
     }
 }

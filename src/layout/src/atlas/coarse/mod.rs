@@ -5,8 +5,8 @@ mod search;
 use std::sync::Arc;
 
 use super::effort::OnRead;
-use super::gap::{Border, Squeezing};
-use super::layout::{Layout, padding};
+use super::gap::squeezed;
+use super::layout::{Layout, Problem, padding};
 use super::mask::{Distances, Rounding};
 use super::occupancy::{Corner, Occupancy};
 use super::outline::{Outline, outlines};
@@ -56,9 +56,6 @@ pub struct CoarseLayout {
     n_searches: u64,
     /// `true` once a search has nothing left to try.
     is_exhausted: bool,
-    /// Least cost of an arrangement so far, and the number of starts that reached it.
-    least_cost: f64,
-    n_agreed: usize,
     /// Arrangements that were squeezed as far as possible.
     squeezed_to_the_end: Vec<Arrangement>,
     /// Number of large charts, the first ones by size.
@@ -135,7 +132,7 @@ impl CoarseLayout {
     fn at_first(plan: Plan, known: &[Arc<Poses>], raster: CoarseRaster) -> Self {
         let mut poses: Vec<Arc<Poses>> = Vec::with_capacity(plan.outlines.len());
         for (chart, (outline, &first)) in plan.outlines.iter().zip(&*plan.kind).enumerate() {
-            let holds = |known: &&Arc<Poses>| known.outline(0).has_copies == outline.has_copies;
+            let holds = |known: &&Arc<Poses>| known.level().has_copies == outline.has_copies;
             poses.push(match known.get(chart).filter(holds) {
                 _ if first < chart => poses[first].clone(),
                 Some(known) => known.clone(),
@@ -164,8 +161,6 @@ impl CoarseLayout {
             squeezed: None,
             n_searches: 0,
             is_exhausted: false,
-            least_cost: f64::INFINITY,
-            n_agreed: 0,
             squeezed_to_the_end: Vec::new(),
         }
     }
@@ -214,13 +209,13 @@ impl CoarseLayout {
 
     /// Returns the longer side of the smallest page that every chart fits on by itself, without borders, in mesh units.
     fn longest(&self) -> f64 {
-        let halvings = self.raster.texture.resolution.halvings();
+        let texture = self.raster.texture;
         let mut longest = f64::MIN_POSITIVE;
         for &chart in &self.first.order {
-            let poses = &self.poses[chart];
+            let outline = self.poses[chart].level();
             // A chart fits on its page at the first angle, if not on a smaller one.
-            if page_side(poses.outline(0).extent, halvings) > longest {
-                longest = longest.max(poses.least_page(halvings));
+            if page_side(outline.extent, texture.resolution.halvings()) > longest {
+                longest = longest.max(outline.least_page(outline.rotation(), texture));
             }
         }
         longest
@@ -229,15 +224,6 @@ impl CoarseLayout {
     /// Returns whether the squeezed pages are as small as one chart alone requires, so that no search makes them smaller.
     pub(super) fn is_least(&self) -> bool {
         self.is_searched() && self.side() <= REACHED * self.least_side()
-    }
-
-    /// Returns the number of triangles of all charts.
-    pub(super) fn n_triangles(&self) -> usize {
-        self.plan
-            .outlines
-            .iter()
-            .map(|outline| outline.n_triangles)
-            .sum()
     }
 
     /// Returns `true` if a search has squeezed the layout.
@@ -296,21 +282,14 @@ impl CoarseLayout {
         let page = f64::from(state.side) + self.raster.padding;
         let posed = self.first.order.iter().map(|&chart| {
             let (poses, pose) = (&self.poses[chart], state.pose[chart]);
-            let middle = poses.outline(pose).place(poses.outline(0).middle());
-            let [i, j] = middle.map(|x| x * self.raster.scale);
-            let [width, height] = poses.mask(pose).size.map(f64::from);
-            let [i, j] = match Poses::turns(pose) {
-                0 => [i, j],
-                1 => [width - j, i],
-                2 => [width - i, height - j],
-                _ => [j, height - i],
-            };
+            let [i, j] = poses.middle(pose);
             let Corner { page: number, x, y } = state.corners[chart];
             let frame = texture.frame(Region::page(number));
             let middle = [f64::from(x) + i + frame.left * page, f64::from(y) + j];
             (Pose::new(middle, Poses::angle(pose)), frame)
         });
-        Squeezed::new(posed, Arc::default(), page, self.raster.padding)
+        let CoarseRaster { padding, scale, .. } = self.raster;
+        Squeezed::new(posed, Arc::default(), page, padding, scale)
     }
 
     /// Returns a layout that keeps exactly the padding. Returns `None` if none is found, or if the charts leave no room for the padding.
@@ -324,17 +303,7 @@ impl CoarseLayout {
         if self.raster.padding < asked {
             return None;
         }
-        let squeezing = Squeezing {
-            level: &self.plan.outlines,
-            charts: &self.first.order,
-            scale: FINE * self.raster.scale,
-            border: Border::Cropped,
-            stays: &[],
-            options,
-            on_read,
-        };
-        let squeezed = self.squeezed.as_ref()?.refined(FINE);
-        let kept = squeezed.padding;
-        squeezing.layout(squeezed, &squeezing.bodies(kept), kept)
+        let start = self.squeezed.as_ref()?.refined(FINE);
+        squeezed(&Problem::free(&self.plan, options, on_read), start)
     }
 }

@@ -6,10 +6,15 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::CoarseLayout;
 use super::arrangement::{Arrangement, Prefixes};
-use crate::atlas::effort::{Effort, OnRead, ReadLimit, Schedule};
+use crate::atlas::effort::{Effort, OnRead, ReadLimit};
 use crate::atlas::squeeze::{Body, End, Squeezed};
 use unwrapd_method::numerics::random::Random;
 
+/// Share of the words for annealing; the rest is for squeezing.
+const ANNEALING: f64 = 0.6;
+/// Maximum number of the best arrangements that are squeezed. With one, three charts lose .03 of fill at some of their angles
+/// (`optima::charts_that_lie_rotated_fill_as_much`); a third one makes one layout of 25 fuller, for a tenth of the time.
+const SQUEEZED: usize = 2;
 /// Temperatures at the start and the end of annealing: the mean increase in cost, in cells, up to which a trial is accepted.
 const TEMPERATURES: [f64; 2] = [0.25, 0.05];
 /// Cost of a trial for each large chart besides the words it reads, in words.
@@ -19,14 +24,9 @@ const WORDS_PER_CHART: u64 = 375;
 /// and none is fuller by more than .002.
 const STUCK: usize = 4;
 /// Number of such steps in a row without a new arrangement after which a search ends: almost surely nothing is left to try.
-const IN_VAIN: usize = 20;
+const IN_VAIN: usize = 5;
 /// Distance between the seeds of two searches, at least the number of starts of one.
 const SEEDS_PER_SEARCH: u64 = 100;
-/// Number of starts that run together, after which a search may end.
-const STARTS_AT_A_TIME: usize = 2;
-/// Number of starts that must end with the best arrangement for a search to end: a better one is then unlikely. The fill of 90 sets of
-/// charts falls by less than .008 each (`tests/bench/stable.rs`).
-const AGREED: usize = 3;
 /// Number of small charts that cost as much as a large one.
 const SMALL_PER_LARGE: usize = 4;
 
@@ -60,8 +60,9 @@ impl CoarseLayout {
         {
             return;
         }
-        let annealing = Schedule::ANNEALING * words as f64;
-        let found = self.arrangements(&effort.schedule(), annealing, on_read);
+        let annealing = ANNEALING * words as f64;
+        let found = self.arrangements(effort, annealing, on_read);
+        self.n_searches += 1;
         let each = ((words as f64 - annealing) / found.len() as f64) as u64;
         let squeezed: Vec<(Option<Squeezed>, End)> = (found.par_iter().with_max_len(1))
             .map(|state| self.squeezed(state, each, on_read))
@@ -76,7 +77,6 @@ impl CoarseLayout {
                 (self.state, self.squeezed) = (state, Some(squeezed));
             }
         }
-        self.n_searches += 1;
     }
 
     /// Returns the least side of an arrangement, in cells: a mask covers each cell that its rectangle reaches.
@@ -86,49 +86,24 @@ impl CoarseLayout {
 
     /// Anneals from several seeds, and reads about `words` words in all. Returns the best arrangements that have not been squeezed
     /// before, the best first.
-    fn arrangements(
-        &mut self,
-        schedule: &Schedule,
-        words: f64,
-        on_read: &OnRead,
-    ) -> Vec<Arrangement> {
-        let each = (words / f64::from(schedule.starts)) as u64;
+    fn arrangements(&mut self, effort: Effort, words: f64, on_read: &OnRead) -> Vec<Arrangement> {
+        let each = (words / f64::from(effort.starts())) as u64;
         let first_seed = SEEDS_PER_SEARCH * self.n_searches;
-        let seeds: Vec<u64> = (first_seed..).take(schedule.starts as usize).collect();
-        let mut found: Vec<Arrangement> = Vec::new();
-        let mut are_exhausted = true;
-        for seeds in seeds.chunks(STARTS_AT_A_TIME) {
-            let starts = seeds.par_iter().with_max_len(1);
-            let of_starts: Vec<(Arrangement, bool)> = starts
-                .map(|&seed| self.annealed(each, &mut Random::new(seed), on_read))
-                .collect();
-            for (state, is_exhausted) in of_starts {
-                are_exhausted &= is_exhausted;
-                if state.cost < self.least_cost {
-                    (self.least_cost, self.n_agreed) = (state.cost, 0);
-                }
-                self.n_agreed += usize::from(state.cost <= self.least_cost);
-                found.push(state);
-            }
-            if self.n_agreed >= AGREED {
-                break;
-            }
-        }
-        self.is_exhausted = are_exhausted || self.n_agreed >= AGREED;
+        let starts = (0..effort.starts()).into_par_iter().with_max_len(1);
+        let found: Vec<(Arrangement, bool)> = starts
+            .map(|start| {
+                let mut random = Random::new(first_seed + u64::from(start));
+                self.annealed(each, &mut random, on_read)
+            })
+            .collect();
+        self.is_exhausted = found.iter().all(|(_, is_exhausted)| *is_exhausted);
+        let mut found: Vec<Arrangement> = found.into_iter().map(|(state, _)| state).collect();
         found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        let mut best: Vec<Arrangement> = Vec::new();
-        for state in found {
-            if best.iter().all(|better| !better.lies_like(&state)) {
-                best.push(state);
-            }
-        }
-        best.truncate(Schedule::SQUEEZED);
-        best.retain(|state| {
-            self.squeezed_to_the_end
-                .iter()
-                .all(|it| !it.lies_like(state))
-        });
-        best
+        found.dedup_by(|other, better| better.lies_like(other));
+        found.truncate(SQUEEZED);
+        let known = &self.squeezed_to_the_end;
+        found.retain(|state| known.iter().all(|it| !it.lies_like(state)));
+        found
     }
 
     /// Returns the charts of an arrangement, squeezed, and how squeezing ended; `None` if they could not be separated.

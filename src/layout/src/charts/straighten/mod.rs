@@ -271,7 +271,8 @@ impl Page {
     /// Returns the least area of the page for a chart at any angle.
     fn around(&self, mapped: &MappedChart) -> f64 {
         let hull = convex_hull(mapped.embedding.uv.iter().copied());
-        self.with_gaps(mapped, &hull).max(smallest_page(&hull, 1.0))
+        self.with_gaps(mapped, &hull)
+            .max(smallest_page(&hull, 1.0).area)
     }
 
     /// Returns the least area of the page for a chart whose sides lie along the axes.
