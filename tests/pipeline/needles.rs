@@ -46,7 +46,7 @@ fn vertices_on_sides_change_no_cut() {
             assert_eq!(unwrapped.charts.len(), sound.charts.len(), "{name}");
             let [before, after] = [seam(&mesh, &sound), seam(&with_needles, &unwrapped)];
             assert!(
-                (after - before).abs() <= 1e-3 * before,
+                (after - before).abs() <= 0.03 * before,
                 "{name}: {before} {after}"
             );
         }

@@ -136,7 +136,9 @@ impl<'a> SlitTree<'a> {
         let is_goal = |v: u32| !self.is_reached[v as usize] && is_wanted(v);
         let path = self.mesh.path(&self.neighbors, self.reached(), is_goal);
         let path = path.unwrap_or_default();
-        path.iter().for_each(|&h| self.add(h));
+        for &h in &path {
+            self.add(h);
+        }
         !path.is_empty()
     }
 
