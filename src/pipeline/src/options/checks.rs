@@ -126,6 +126,7 @@ fn check(options: &Options) -> Result<(), String> {
     refused(
         of_auto.map(|(name, is_given)| (name, "`cut` auto and a `barrier`", is_given && !is_auto)),
     )?;
+    check_cones(options)?;
     refused([
         (
             "barrier_continuation",
@@ -137,26 +138,6 @@ fn check(options: &Options) -> Result<(), String> {
             "a `barrier`",
             (options.control.straighten.as_ref()).is_some_and(|it| *it != Straightening::Off)
                 && options.mapping.barrier == BarrierKind::None,
-        ),
-        (
-            "cones",
-            "`cut` disk",
-            options.cutting.cones.is_some() && options.cutting.cut != Cut::Disk,
-        ),
-        (
-            "cone_vertices",
-            "`cut` disk without `cones` and `max_distortion`",
-            options.cone_vertices.is_some()
-                && (options.cutting.cut != Cut::Disk
-                    || options.cutting.cones.is_some()
-                    || options.cutting.max_distortion.is_some()),
-        ),
-        (
-            "max_distortion",
-            "`cut` auto or disk, and a `barrier`",
-            options.cutting.max_distortion.is_some()
-                && !(matches!(options.cutting.cut, Cut::Auto | Cut::Disk)
-                    && options.mapping.barrier != BarrierKind::None),
         ),
         (
             "quality",
@@ -208,6 +189,32 @@ fn check(options: &Options) -> Result<(), String> {
         )),
         _ => Ok(()),
     }
+}
+
+/// Rejects cones, and a bound for them, with cuts that have none.
+fn check_cones(options: &Options) -> Result<(), String> {
+    refused([
+        (
+            "cones",
+            "`cut` disk",
+            options.cutting.cones.is_some() && options.cutting.cut != Cut::Disk,
+        ),
+        (
+            "cone_vertices",
+            "`cut` disk without `cones` and `max_distortion`",
+            options.cone_vertices.is_some()
+                && (options.cutting.cut != Cut::Disk
+                    || options.cutting.cones.is_some()
+                    || options.cutting.max_distortion.is_some()),
+        ),
+        (
+            "max_distortion",
+            "`cut` auto or disk, and a `barrier`",
+            options.cutting.max_distortion.is_some()
+                && !(matches!(options.cutting.cut, Cut::Auto | Cut::Disk)
+                    && options.mapping.barrier != BarrierKind::None),
+        ),
+    ])
 }
 
 /// Rejects options of resampling without it.
