@@ -1,7 +1,5 @@
 //! Lengths, angles and areas of a surface, in units of the root of its area.
 
-use super::panels::{PANEL_FACTOR, panels};
-use crate::charts::Observer;
 use unwrapd_maps::mesh::{CUT, NEEDLE, Surface, next};
 use unwrapd_method::numerics::ties::tied;
 use unwrapd_method::numerics::vec3::{area_vector, cross, distance, dot, norm, sub, unit};
@@ -108,20 +106,6 @@ impl<'a> Metric<'a> {
         metric.weight = metric.area.clone();
         metric.measure_edges();
         metric
-    }
-
-    /// Lets the excess on panels count [several times](PANEL_FACTOR); returns the share of the area that lies on panels.
-    ///
-    /// If the observer ends that early, some of the panels are not known.
-    pub fn weigh_panels(&mut self, observer: &dyn Observer) -> f64 {
-        let is_panel = panels(self, observer);
-        let faces = self.weight.iter_mut().zip(&self.area).zip(is_panel);
-        let mut share = 0.0;
-        for ((weight, area), _) in faces.filter(|(_, is_panel)| *is_panel) {
-            *weight *= PANEL_FACTOR;
-            share += area;
-        }
-        share
     }
 
     /// Returns the position of a vertex of the surface.

@@ -42,11 +42,27 @@ impl SurfacePart {
     }
 }
 
+impl Metric<'_> {
+    /// Lets the excess on panels count [several times](PANEL_FACTOR); returns the share of the area that lies on panels.
+    ///
+    /// If the observer ends that early, some of the panels are not known.
+    pub fn weigh_panels(&mut self, observer: &dyn Observer) -> f64 {
+        let is_panel = panels(self, observer);
+        let faces = self.weight.iter_mut().zip(&self.area).zip(is_panel);
+        let mut share = 0.0;
+        for ((weight, area), _) in faces.filter(|(_, is_panel)| *is_panel) {
+            *weight *= PANEL_FACTOR;
+            share += area;
+        }
+        share
+    }
+}
+
 /// Returns for each face whether it lies on a panel.
 ///
 /// A panel is a facet of some size that sharp folds or much smaller neighbors set apart, or a large wall, such as that of a tube: other
 /// facets, gently folded, that are developable together, with sharp folds around.
-pub fn panels(metric: &Metric, observer: &dyn Observer) -> Vec<bool> {
+fn panels(metric: &Metric, observer: &dyn Observer) -> Vec<bool> {
     let mut pieces = Pieces::of_facets(metric);
     let facet = pieces.labels();
     let facets = parts(metric, &facet);
