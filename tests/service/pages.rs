@@ -32,7 +32,7 @@ fn pages_are_written_and_verify() {
         let numbers: Vec<_> = pages.iter().map(|page| &page["udim"]).collect();
         assert_eq!(numbers, [1001, 1002, 1003]);
         assert!(
-            pages.iter().all(|page| page["fill"].as_f64() > Some(0.4)),
+            pages.iter().all(|page| page["fill"].as_f64() > Some(0.25)),
             "{pages:?}"
         );
     }
@@ -46,6 +46,7 @@ fn density(report: &str) -> f64 {
     density.expect("a number")
 }
 
+/// Charts never become smaller with more pages.
 #[test]
 fn more_pages_are_denser() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -57,7 +58,8 @@ fn more_pages_are_denser() {
         assert_status(&unwrapd(&[&unwrap[..], &["--pages", pages]].concat()), 0);
         density(&report)
     });
-    assert!(densities.is_sorted_by(|a, b| a < b), "{densities:?}");
+    assert!(densities.is_sorted(), "{densities:?}");
+    assert!(densities[2] > 1.5 * densities[0], "{densities:?}");
 }
 
 #[test]
