@@ -105,6 +105,9 @@ async function arranged(page, press) {
   assert.notEqual(await island(), first);
   await press("Shift+N");
   assert.equal(await island(), first);
+  // The last island is the smallest: in place, it can shrink into no other.
+  await press("Shift+N");
+  assert.notEqual(await island(), first);
   for (const key of ["s", ".", "9", "Enter"]) await press(key);
   await page.waitForFunction(() => !document.querySelector("#arrange-bake").disabled);
   const job = await place(page, "job");
