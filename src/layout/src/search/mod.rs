@@ -245,7 +245,7 @@ pub fn from_surface(
     (charts, search.counts)
 }
 
-/// Returns whether most of the area lies in triangles whose shape no map keeps: slits do not lessen that.
+/// Returns whether most of the area lies in triangles whose shape no map keeps, or there is none: slits do not lessen that.
 fn is_mostly_needles(surface: &Surface) -> bool {
     let (mut area, mut of_needles) = (0.0, 0.0);
     for face in 0..surface.triangles.len() {
@@ -258,7 +258,7 @@ fn is_mostly_needles(surface: &Surface) -> bool {
             0.0
         };
     }
-    of_needles > 0.5 * area
+    of_needles >= 0.5 * area
 }
 
 /// Opens each component to a disk, possibly with holes, by slits to as many cone singularities as the bound on the mean energy needs, and
