@@ -176,6 +176,22 @@ fn any_charts_are_improved_without_overlaps() {
     }
 }
 
+/// A surface without area has no metric to search in, but its map has places.
+#[test]
+fn a_surface_without_area_is_mapped() {
+    let mut mesh = zoo::grid(2, 2);
+    for p in &mut mesh.positions {
+        *p = [p[0] + 3.0 * p[1], 0.0, 0.0];
+    }
+    let surface = surface(&mesh);
+    let problem = CutProblem::new(&surface, &bound(4.1), &Unobserved);
+    let terms = Terms::default();
+    let (found, _) = from_surface(&problem, &terms, &options(), Symmetry::Auto, &Unobserved);
+    assert!(!found.is_empty());
+    let places = found.iter().flat_map(|map| &map.embedding.uv).flatten();
+    assert!(places.copied().all(f64::is_finite));
+}
+
 /// Panels are laid out in a few charts even where the effort is far too small to glue them one by one.
 #[test]
 fn panels_are_slit_open_where_that_is_cheaper() {
