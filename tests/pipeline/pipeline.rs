@@ -519,7 +519,7 @@ fn maps_with_many_cones_do_not_overlap() {
     }
 }
 
-/// Whether an edge at a vertex, found by its position, has different UVs on its two sides.
+/// Returns whether an edge at a vertex, found by its position, has different UVs on its two sides.
 pub fn is_on_seam(
     positions: &[[f64; 3]],
     triangles: &[[u32; 3]],

@@ -2,7 +2,7 @@
 //!
 //! The angles around a vertex on a slit need not sum to 2π in the plane, so the map can have a cone there: distortion leaves through it.
 //! The vertices are chosen where the predicted scale of the map differs most ([`charts_at_cones`]), or given ([`charts_through`]). The
-//! maps may overlap themselves; whoever maps the charts decides whether that parts them.
+//! maps may overlap themselves: charts are parted there when they are mapped, not here.
 
 use super::cut_mesh::CutMesh;
 use super::effort::SearchEffort;

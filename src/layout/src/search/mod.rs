@@ -171,9 +171,9 @@ impl<'a> CutProblem<'a> {
 /// developable.
 ///
 /// Returns the charts and the work that it took. The bound is exceeded only if both starts exceed it: then nothing is glued that adds to
-/// the excess. Components are slit open alike on both sides of a mirror plane, and parted alike, unless they consist of panels; the moves
-/// do not see the plane. The charts carry it, so that later cuts are made alike. A surface of needles, of which no map keeps the shape, is opened
-/// to disks. Rough surfaces are cut as what they are samples of, and then mapped.
+/// the excess. Components are slit and parted alike on both sides of a mirror plane, unless the surface consists of panels; the moves
+/// ignore the plane. The charts carry it for later cuts. No map keeps the shape of needles, so a surface of needles is only opened to
+/// disks. Rough surfaces are cut as their smoothed versions, and then mapped.
 pub fn from_surface(
     problem: &CutProblem,
     terms: &Terms,

@@ -16,8 +16,9 @@ pub struct Simplified {
 }
 
 impl Simplified {
-    /// Faces of a component from which on its seams are planned on a simplification, with so many vertices. Not tuned.
+    /// Least number of faces of a component whose seams are planned on a simplification. Not tuned.
     pub const LARGE: usize = 50_000;
+    /// Number of vertices of that simplification. Not tuned.
     pub const VERTICES: usize = 10_000;
 
     /// Creates a chart of about `n_vertices` vertices; `None` if that is not fewer, or its shape does not allow it.

@@ -32,8 +32,9 @@ use unwrapd_method::numerics::ties::tied;
 /// toy with non-manifold edges has no map, and the sum over 26 machine parts and game assets is lower by .08 (`cargo bench -p
 /// unwrapd-layout --bench search`).
 const FAR_APART: usize = 4;
-/// Faces from which on ways to open a component are compared on simplifications of it, with so many vertices. Not tuned.
+/// Least number of faces of a component whose openings are compared on simplifications of it. Not tuned.
 const COMPARED: usize = 20_000;
+/// Number of vertices of those simplifications. Not tuned.
 const COMPARED_VERTICES: usize = 2_500;
 /// Excess of a map over its prediction before one is known. Measured on 14 meshes: 0.2 to 0.6.
 const USUAL_RATIO: f64 = 0.34;

@@ -36,18 +36,20 @@ pub struct Enclosure {
     pub angle: f64,
 }
 
+impl Enclosure {
+    fn of_area(area: f64) -> Self {
+        Self { area, angle: 0.0 }
+    }
+}
+
 /// Returns the smallest rectangle around a convex hull; of area 0 for a point.
 ///
 /// One of its sides lies on an edge of the hull. O(n log n). From: Freeman, Shapira 1975.
 pub fn smallest_rectangle(hull: &[[f64; 2]]) -> Enclosure {
-    let mut smallest = Enclosure {
-        area: 0.0,
-        angle: 0.0,
-    };
     if hull.len() < 2 {
-        return smallest;
+        return Enclosure::of_area(0.0);
     }
-    smallest.area = f64::INFINITY;
+    let mut smallest = Enclosure::of_area(f64::INFINITY);
     let corners = Corners::of(hull);
     for &angle in &corners.edge_angles {
         let [width, height] = [angle, angle + FRAC_PI_2].map(|angle| {
@@ -75,14 +77,10 @@ pub fn smallest_rectangle(hull: &[[f64; 2]]) -> Enclosure {
 /// Between the angles at which an edge of the hull lies along a side, width and height turn about fixed corners, so the smallest
 /// page has an edge along a side, or the hull fills it both ways. O(n log n).
 pub fn smallest_page(hull: &[[f64; 2]], aspect: f64) -> Enclosure {
-    let mut smallest = Enclosure {
-        area: 0.0,
-        angle: 0.0,
-    };
     if hull.len() < 2 {
-        return smallest;
+        return Enclosure::of_area(0.0);
     }
-    smallest.area = f64::INFINITY;
+    let mut smallest = Enclosure::of_area(f64::INFINITY);
     let corners = Corners::of(hull);
     let root = aspect.sqrt();
     // Side of the square that is left when the page is squeezed to one of the same area.

@@ -19,7 +19,7 @@ mod cloud;
 
 use serde::{Deserialize, Serialize};
 
-/// Whether surfaces that are their own mirror images are cut alike on both sides.
+/// Treatment of surfaces that are their own mirror images.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema, clap::ValueEnum))]

@@ -164,7 +164,8 @@ fn image_in(plane: &MirrorPlane, p: [f64; 3], cloud: &PointTree) -> ([f64; 3], f
     (cloud.points()[v as usize], distance)
 }
 
-/// Whether enough of some points, whose mirror images have these distances from the surface, are mirrored, and lie off the plane.
+/// Returns whether the mirror images of enough points lie near the surface, and enough of the points lie off the plane. The distances are
+/// those of the mirror images from the surface.
 fn is_accepted(plane: &MirrorPlane, points: &[[f64; 3]], distances: &[f64], diagonal: f64) -> bool {
     let n_near = distances.iter().filter(|&&it| it < NEAR * diagonal).count();
     let is_off = |p: &&[f64; 3]| plane.height(**p).abs() > IN_PLANE * diagonal;
