@@ -209,40 +209,51 @@ pub fn from_surface(
         Symmetry::Off => None,
     };
     if problem.is_paneled() && observer.control() == Control::Continue {
-        let most = terms.effort.most;
-        search.start_from_pieces(STRICT[0]);
-        search.run(&STRICT, most / 2.0);
-        let cost = search.cost();
-        let pieces = std::mem::replace(&mut search.nets, Nets::new(metric, Vec::new()));
-        search.counts.effort.most = f64::midpoint(search.counts.effort.spent(), most);
-        if is_slit_open_below(&mut search, cost) {
-            search.run(&LOOSE, most);
-        } else {
-            search.nets = pieces;
-            search.run(&LOOSE[1..], most);
-        }
+        divide_panels(&mut search);
     } else {
         search.mirror = mirror;
-        search.counts.effort.most = f64::INFINITY;
-        let is_open = search.start_from_components(f64::INFINITY).is_some();
-        search.counts.effort.most = terms.effort.most;
-        if !is_open || search.is_broken() && observer.control() == Control::Continue {
-            let open = std::mem::replace(&mut search.nets, Nets::new(metric, Vec::new()));
-            search.start_from_pieces(STRICT[0]);
-            search.run(&STRICT, terms.effort.most);
-            let cost = search.cost_unweighted();
-            let pieces = std::mem::replace(&mut search.nets, open);
-            if !is_open || cost < search.cost_unweighted() {
-                search.nets = pieces;
-            }
-        }
-        search.spend_rest();
+        divide_components(&mut search);
     }
     let mut charts = search.charts();
     for map in &mut charts {
         map.chart.mirror = mirror;
     }
     (charts, search.counts)
+}
+
+/// Searches from pieces glued at strict prices, or from components slit open if these cost less.
+fn divide_panels(search: &mut Search) {
+    let most = search.counts.effort.most;
+    search.start_from_pieces(STRICT[0]);
+    search.run(&STRICT, most / 2.0);
+    let cost = search.cost();
+    let pieces = search.take_nets();
+    search.counts.effort.most = f64::midpoint(search.counts.effort.spent(), most);
+    if is_slit_open_below(search, cost) {
+        search.run(&LOOSE, most);
+    } else {
+        search.nets = pieces;
+        search.run(&LOOSE[1..], most);
+    }
+}
+
+/// Searches from components slit open, which the effort does not limit, or from pieces if those break the bound and these cost less.
+fn divide_components(search: &mut Search) {
+    let most = std::mem::replace(&mut search.counts.effort.most, f64::INFINITY);
+    let is_open = search.start_from_components(f64::INFINITY).is_some();
+    search.counts.effort.most = most;
+    let is_going_on = search.observer.control() == Control::Continue;
+    if !is_open || search.is_broken() && is_going_on {
+        let open = search.take_nets();
+        search.start_from_pieces(STRICT[0]);
+        search.run(&STRICT, most);
+        let cost = search.cost_unweighted();
+        let pieces = std::mem::replace(&mut search.nets, open);
+        if !is_open || cost < search.cost_unweighted() {
+            search.nets = pieces;
+        }
+    }
+    search.spend_rest();
 }
 
 /// Returns whether most of the area lies in triangles whose shape no map keeps, or there is none: slits do not lessen that.

@@ -122,6 +122,12 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// Takes the nets out of the search.
+    pub fn take_nets(&mut self) -> Nets<'a> {
+        let none = Nets::new(self.nets.metric, Vec::new());
+        std::mem::replace(&mut self.nets, none)
+    }
+
     /// Glues nets and gives slits back with the effort that is left, as far as the bound is not spent; with all of it if it is broken.
     pub fn spend_rest(&mut self) {
         let unspent = 1.0 - self.nets.excess() / self.budget.max(f64::MIN_POSITIVE);
