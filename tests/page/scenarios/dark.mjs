@@ -17,17 +17,25 @@ async function paper(page) {
   return mean(await colors(page, corners));
 }
 
-/** Colors of a picture of the report, which is drawn again, and so scrolled back, once the input is measured, too. */
+/**
+ * Colors of a picture of the report. The report is drawn again once the input is measured, too, which scrolls it back, and a picture
+ * is drawn some frames after it is loaded unless it is decoded first.
+ */
 async function colorsInReport(page, name) {
+  const selector = `#report img[alt^="${name}"]`;
   for (;;) {
-    const picture = page.locator(`#report img[alt^="${name}"]`);
-    const isSeen = () => picture.evaluate((image) => {
-      const { top, bottom } = image.getBoundingClientRect();
-      return image.complete && 0 < image.naturalWidth && 0 <= top && bottom <= innerHeight;
+    const picture = await page.waitForSelector(selector);
+    await picture.evaluate(async (image) => {
+      image.decoding = "sync";
+      image.scrollIntoView({ block: "center" });
+      await image.decode().catch(() => {});
     });
-    await picture.evaluate((image) => image.scrollIntoView({ block: "center" }));
-    const seen = await colorsOf(page, `#report img[alt^="${name}"]`);
-    if (await isSeen()) return seen;
+    const seen = await colorsOf(page, selector);
+    const wasSeen = await picture.evaluate((image) => {
+      const { top, bottom } = image.getBoundingClientRect();
+      return image.isConnected && image.complete && 0 < image.naturalWidth && 0 <= top && bottom <= innerHeight;
+    });
+    if (wasSeen) return seen;
   }
 }
 
