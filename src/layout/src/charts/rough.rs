@@ -136,6 +136,6 @@ impl MappedChart {
         if !is_moved {
             return self;
         }
-        self.relaxed(options, observer)
+        self.relaxed(Vec::new(), &|_| options.clone(), observer).0
     }
 }
