@@ -12,6 +12,9 @@
 A reachable problem counts as solved if the exit status is 0, every held vertex is within 1e-9 of the target's size and
 every signed size is positive; a thin or graded one if it also took at most 60 iterations; an unreachable one if it ends with 3 or 5
 within 2 CPU seconds. Prints the failures and a line per kind. Needs NumPy and SciPy.
+
+--continued N also solves each thin and graded problem in N steps: the targets advance from rest in equal parts, and each solve starts
+from the map before. Prints the difference of the energies where it exceeds 0.1 %, and the largest of each kind.
 """
 import argparse
 import json
@@ -155,6 +158,26 @@ def write(folder, vertices, elements, held, targets, start):
     (folder / "p.json").write_text(json.dumps(problem))
 
 
+def report_of(folder):
+    """The report of the last solve, empty if it wrote none."""
+    path = folder / "r.json"
+    return json.loads(path.read_text()) if path.exists() else {}
+
+
+def continued(binary, folder, problem, n_steps):
+    """The energy of the last of `n_steps` solves as the targets advance from rest, each from the map before; None if one fails."""
+    vertices, elements, held, targets, _ = problem
+    start = None
+    for part in np.arange(1, n_steps + 1) / n_steps:
+        moved = (1 - part) * vertices[held] + part * np.array(targets)
+        write(folder, vertices, elements, held, moved, start)
+        wrong, _, _ = judged(binary, folder, "plane", elements, held, moved)
+        if wrong:
+            return None
+        start = np.loadtxt(folder / "x.txt", ndmin=2)[:, :2]
+    return report_of(folder)["energy"]
+
+
 def judged(binary, folder, kind, elements, held, targets):
     """What is wrong, empty if nothing; iterations; CPU seconds."""
     for name in ("x.txt", "r.json"):
@@ -166,8 +189,7 @@ def judged(binary, folder, kind, elements, held, targets):
     code, cpu = os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime
     if kind == "unreachable":
         return "" if code in (3, 5) and cpu <= 2 else f"exit {code}", 0, cpu
-    report = json.loads((folder / "r.json").read_text()) if (folder / "r.json").exists() else {}
-    iterations = report.get("iterations", 0)
+    iterations = report_of(folder).get("iterations", 0)
     if code != 0:
         return f"exit {code}", iterations, cpu
     x = np.loadtxt(folder / "x.txt", ndmin=2)[:, : elements.shape[1] - 1]
@@ -184,11 +206,12 @@ def main():
     parser.add_argument("--each", type=int, default=30)
     parser.add_argument("--seed", type=int, default=51)
     parser.add_argument("--only", choices=KINDS)
+    parser.add_argument("--continued", type=int, metavar="N", help="compare energies with those of targets that advance in N steps")
     args = parser.parse_args()
     for kind in KINDS:
         if args.only not in (None, kind):
             continue
-        solved, flips, steps, seconds = 0, [], [], []
+        solved, flips, steps, seconds, above, n_failed = 0, [], [], [], [], 0
         for k in range(args.each):
             random = np.random.default_rng([args.seed, KINDS.index(kind), k])
             problem = {"thin": thin, "graded": graded, "unreachable": unreachable}.get(kind, lambda random: reachable(kind, random))(random)
@@ -197,6 +220,15 @@ def main():
                 folder = pathlib.Path(folder)
                 write(folder, *problem)
                 wrong, iterations, cpu = judged(args.binary, folder, kind, elements, held, np.array(targets))
+                energy = report_of(folder).get("energy")
+                if args.continued and kind in ("thin", "graded"):
+                    least = continued(args.binary, folder, problem, args.continued)
+                    if least is None or energy is None:
+                        n_failed += 1
+                    else:
+                        above.append(energy / least - 1)
+                        if abs(above[-1]) > 1e-3:
+                            print(f"{kind} {k}: energy {100 * above[-1]:+.2f} % beside the continued one", flush=True)
             solved += not wrong
             flips.append(0 if start is None else int((sizes(start, elements) <= 0).sum()))
             steps.append(iterations)
@@ -210,6 +242,9 @@ def main():
             f"iterations {np.median(steps):.0f}, at most {max(steps)}; CPU s {np.median(seconds):.2f}, at most {max(seconds):.2f}",
             flush=True,
         )
+        if above or n_failed:
+            difference = f"energy beside the continued one {100 * min(above):+.4f} to {100 * max(above):+.4f} %, " if above else ""
+            print(f"{kind}: {difference}{n_failed} without both", flush=True)
 
 
 if __name__ == "__main__":
