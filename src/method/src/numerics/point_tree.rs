@@ -63,10 +63,11 @@ impl PointTree {
     ) -> Option<(u32, f64)> {
         let mut best = (reach * reach, u32::MAX);
         let mut open = Vec::with_capacity(DEPTH);
-        open.push((0, self.order.len(), 0.0));
+        open.push((0, self.order.len(), [0.0; 3]));
         while let Some((start, end, away)) = open.pop() {
-            // Skip a range behind a plane that is farther than the best point.
-            if away > best.0 {
+            // Skip a range whose box is farther than the best point. `compare` adds up squares in the same order, so rounding cannot
+            // make a box farther than its points.
+            if away.iter().map(|x: &f64| x * x).sum::<f64>() > best.0 {
                 continue;
             }
             // Compare the points of a leaf one by one.
@@ -86,7 +87,9 @@ impl PointTree {
             } else {
                 ((middle + 1, end), (start, middle))
             };
-            open.push((far.0, far.1, beyond * beyond));
+            let mut beyond_plane = away;
+            beyond_plane[axis] = beyond;
+            open.push((far.0, far.1, beyond_plane));
             open.push((near.0, near.1, away));
         }
         (best.1 != u32::MAX).then(|| (best.1, best.0.sqrt()))

@@ -19,6 +19,9 @@ const ACCEPTING: usize = 1_000;
 const ROUNDS: usize = 10;
 const SETTLED: f64 = 1e-4;
 
+/// Factor of a known distance within which a nearest point is searched for. It exceeds 1 by more than rounding.
+const BEYOND: f64 = 1.0 + 1e-9;
+
 /// Vertices that are mirrored to fit a plane to the vertices.
 const VERTICES: usize = 1_000;
 
@@ -60,11 +63,12 @@ pub fn mirror_plane(surface: &Surface) -> Option<MirrorPlane> {
     let cloud = PointTree::new(cloud);
     let [fitting, accepting] = [FITTING, ACCEPTING].map(|n| every(cloud.points(), n));
     let candidates = promising(&cloud, diagonal).into_iter();
-    let fitted = candidates.take(FOLLOWED).filter_map(|plane| {
+    let fitted = candidates.filter_map(|plane| {
         let plane = fitted(plane, &fitting, &cloud, diagonal);
         let distances = distances(&plane, &accepting, &cloud);
         let is_accepted = is_accepted(&plane, &accepting, &distances, diagonal);
-        is_accepted.then(|| (mismatch(distances), plane))
+        let mismatch = mismatch(distances.into_iter(), f64::INFINITY)?;
+        is_accepted.then_some((mismatch, plane))
     });
     let (_, plane) = fitted.min_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(sharpened(plane, surface, diagonal))
@@ -98,16 +102,21 @@ fn vertices(surface: &Surface) -> PointTree {
     PointTree::new(used.map(|v| surface.positions[v as usize]).collect())
 }
 
-/// Planes through the center of the points in which the cloud may be its own mirror image, the likeliest first.
+/// Returns the [likeliest](FOLLOWED) planes through the center of the points in which the cloud may be its own mirror image, the
+/// likeliest first.
 fn promising(cloud: &PointTree, diagonal: f64) -> Vec<MirrorPlane> {
     let judging = every(cloud.points(), JUDGING);
-    let candidates = candidates(cloud.points()).into_iter();
-    let judged = candidates.map(|plane| (mismatch(distances(&plane, &judging, cloud)), plane));
-    let mut judged: Vec<(f64, MirrorPlane)> = judged
-        .filter(|(mismatch, _)| *mismatch < PROMISING * diagonal)
-        .collect();
-    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
-    judged.into_iter().map(|(_, plane)| plane).collect()
+    let mut best: Vec<(f64, MirrorPlane)> = Vec::with_capacity(FOLLOWED + 1);
+    for plane in candidates(cloud.points()) {
+        let limit = (best.get(FOLLOWED - 1)).map_or(PROMISING * diagonal, |(worst, _)| *worst);
+        let distances = judging.iter().map(|&p| image_in(&plane, p, cloud).1);
+        if let Some(mismatch) = mismatch(distances, limit) {
+            let place = best.partition_point(|(other, _)| *other <= mismatch);
+            best.insert(place, (mismatch, plane));
+            best.truncate(FOLLOWED);
+        }
+    }
+    best.into_iter().map(|(_, plane)| plane).collect()
 }
 
 /// Planes through the center of the points.
@@ -150,11 +159,25 @@ fn distances(plane: &MirrorPlane, points: &[[f64; 3]], cloud: &PointTree) -> Vec
     points.map(|&p| image_in(plane, p, cloud).1).collect()
 }
 
-/// The mean distance of mirror images, without the farthest.
-fn mismatch(mut distances: Vec<f64>) -> f64 {
-    distances.sort_by(f64::total_cmp);
-    distances.truncate(((SHARE_JUDGED * distances.len() as f64) as usize).max(1));
-    distances.iter().sum::<f64>() / distances.len() as f64
+/// Returns the mean of the distances without the farthest ones; `None` if it is not below a limit. Takes no more distances once
+/// that is certain.
+fn mismatch(distances: impl ExactSizeIterator<Item = f64>, limit: f64) -> Option<f64> {
+    let n_kept = ((SHARE_JUDGED * distances.len() as f64) as usize).max(1);
+    let n_left_out = distances.len() - n_kept;
+    let mut sum = 0.0;
+    // The farthest distances so far, in ascending order. Those that are no longer among them count.
+    let mut farthest = Vec::with_capacity(n_left_out + 1);
+    for distance in distances {
+        let place = farthest.partition_point(|other| *other < distance);
+        farthest.insert(place, distance);
+        if farthest.len() > n_left_out {
+            sum += farthest.remove(0);
+            if sum >= limit * n_kept as f64 {
+                return None;
+            }
+        }
+    }
+    (sum < limit * n_kept as f64).then(|| sum / n_kept as f64)
 }
 
 /// The point of a cloud nearest to the mirror image of a point, and how far they are apart.
@@ -185,11 +208,18 @@ fn fitted(
     cloud: &PointTree,
     diagonal: f64,
 ) -> MirrorPlane {
+    // The image found in the last round is near the next one, so its distance bounds the search.
+    let mut images: Vec<Option<[f64; 3]>> = vec![None; points.len()];
     for _ in 0..ROUNDS {
-        let mut pairs: Vec<([f64; 3], [f64; 3], f64)> = (points.iter())
-            .map(|&p| {
-                let (image, distance) = image_in(&plane, p, cloud);
-                (p, image, distance)
+        let mut pairs: Vec<([f64; 3], [f64; 3], f64)> = (points.iter().zip(&mut images))
+            .map(|(&p, last)| {
+                let mirrored = plane.mirrored(p);
+                let reach = last.map_or(f64::INFINITY, |image| BEYOND * distance(mirrored, image));
+                let nearest = cloud.nearest(mirrored, reach, |_| true);
+                let image = nearest.map(|(v, _)| cloud.points()[v as usize]).or(*last);
+                *last = image;
+                let image = image.unwrap_or(mirrored);
+                (p, image, distance(mirrored, image))
             })
             .collect();
         // Of what has no mirror image the worst tenth is left out.
