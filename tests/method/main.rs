@@ -4,6 +4,7 @@ mod cholesky;
 mod energy;
 mod formula;
 mod numerics;
+mod point_tree;
 mod solver;
 #[path = "../support/taylor.rs"]
 #[allow(dead_code)]
