@@ -163,7 +163,7 @@ fn distances(plane: &MirrorPlane, points: &[[f64; 3]], cloud: &PointTree) -> Vec
 /// that is certain.
 fn mismatch(distances: impl ExactSizeIterator<Item = f64>, limit: f64) -> Option<f64> {
     let n_kept = ((SHARE_JUDGED * distances.len() as f64) as usize).max(1);
-    let n_left_out = distances.len() - n_kept;
+    let n_left_out = distances.len().saturating_sub(n_kept);
     let mut sum = 0.0;
     // The farthest distances so far, in ascending order. Those that are no longer among them count.
     let mut farthest = Vec::with_capacity(n_left_out + 1);
