@@ -237,7 +237,8 @@ fn divide_panels(search: &mut Search) {
     }
 }
 
-/// Searches from components slit open, which the effort does not limit, or from pieces if those break the bound and these cost less.
+/// Searches from components slit open, or from pieces if those break the bound and these cost less. The effort does not limit the
+/// starts. Moves from components have what these leave of it, moves from pieces all of it.
 fn divide_components(search: &mut Search) {
     let most = std::mem::replace(&mut search.counts.effort.most, f64::INFINITY);
     let is_open = search.start_from_components(f64::INFINITY).is_some();
@@ -246,6 +247,8 @@ fn divide_components(search: &mut Search) {
     if !is_open || search.is_broken() && is_going_on {
         let open = search.take_nets();
         search.start_from_pieces(STRICT[0]);
+        let most = search.counts.effort.spent() + most;
+        search.counts.effort.most = most;
         search.run(&STRICT, most);
         let cost = search.cost_unweighted();
         let pieces = std::mem::replace(&mut search.nets, open);
